@@ -1,0 +1,79 @@
+//! Scalar anisotropy measures of a 2D tensor.
+//!
+//! The 3D measures of the literature have planar counterparts; several are in use, so each formula is named here.
+//! All are computed from singular values (for a symmetric tensor: the magnitudes of its eigenvalues), except
+//! [`Anisotropy::mode`], which needs the signs.
+
+use crate::{Eigenvalues, Svd, Tensor2, math};
+
+/// The measures of one tensor. A zero tensor is isotropic: `linear = fractional = 0`, `spherical = 1`, `mode = 0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anisotropy {
+    /// Linear coefficient `c_l = (s1 - s2) / (s1 + s2)` in [0, 1] (Westin et al. 2002, reduced to two axes).
+    pub linear: f64,
+    /// Spherical coefficient `c_s = 2 s2 / (s1 + s2) = 1 - c_l` in [0, 1].
+    pub spherical: f64,
+    /// Fractional anisotropy `|s1 - s2| / sqrt(s1^2 + s2^2)` in [0, 1] (Basser and Pierpaoli 1996: the norm of the
+    /// deviator over the norm of the tensor, times sqrt(2) so that one vanishing axis gives 1).
+    pub fractional: f64,
+    /// Mean half-axis `(s1 + s2) / 2`, in the tensor's unit.
+    pub mean: f64,
+    /// Mode `(l1 + l2) / sqrt(2 (l1^2 + l2^2))` in [-1, 1] of the real parts of the eigenvalues: 1 isotropic tension,
+    /// 0 pure shear, -1 isotropic compression (the 3D mode is constant in the plane; this is the planar isotropy
+    /// index after Palacios et al. 2016).
+    pub mode: f64,
+}
+
+impl Anisotropy {
+    /// Measures of `t`.
+    #[must_use]
+    pub fn of(t: &Tensor2) -> Self {
+        let [s1, s2] = Svd::of(t).s;
+        let [l1, l2] = Eigenvalues::of(t).real_parts();
+        let ratio = |x: f64, y: f64, zero: f64| if y > 0.0 { x / y } else { zero };
+        // Halving first keeps the sums finite for the largest numbers.
+        let half_sum = 0.5 * s1 + 0.5 * s2;
+        let half_difference = 0.5 * s1 - 0.5 * s2;
+        Self {
+            linear: ratio(half_difference, half_sum, 0.0),
+            spherical: ratio(s2, half_sum, 1.0),
+            fractional: ratio(half_difference, math::hypot(0.5 * s1, 0.5 * s2), 0.0),
+            mean: half_sum,
+            mode: ratio(0.5 * l1 + 0.5 * l2, math::hypot(0.5 * l1, 0.5 * l2), 0.0)
+                / core::f64::consts::SQRT_2,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn measures_of_known_tensors() {
+        let a = Anisotropy::of(&Tensor2::symmetric(3.0, 0.0, 1.0));
+        assert_eq!((a.linear, a.spherical, a.mean), (0.5, 0.5, 2.0));
+        assert!((a.fractional - 2.0 / 10f64.sqrt()).abs() < 1e-15);
+        assert!((a.mode - 4.0 / 20f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn limits_are_reached() {
+        let line = Anisotropy::of(&Tensor2::symmetric(1.0, 0.0, 0.0));
+        assert_eq!((line.linear, line.spherical, line.fractional), (1.0, 0.0, 1.0));
+        assert!((Anisotropy::of(&Tensor2::IDENTITY).mode - 1.0).abs() < 1e-15);
+        assert!((Anisotropy::of(&Tensor2::isotropic(-2.0)).mode + 1.0).abs() < 1e-15);
+        assert_eq!(Anisotropy::of(&Tensor2::symmetric(1.0, 0.0, -1.0)).mode, 0.0);
+        let zero = Anisotropy::of(&Tensor2::ZERO);
+        assert_eq!((zero.linear, zero.spherical, zero.fractional, zero.mode), (0.0, 1.0, 0.0, 0.0));
+    }
+
+    #[test]
+    fn measures_do_not_depend_on_scale() {
+        let (small, large) =
+            (Tensor2::new(1e-300, 2e-300, 0.0, 3e-300), Tensor2::new(1e200, 2e200, 0.0, 3e200));
+        let (a, b) = (Anisotropy::of(&small), Anisotropy::of(&large));
+        assert!((a.linear - b.linear).abs() < 1e-14 && (a.fractional - b.fractional).abs() < 1e-14);
+        assert!((a.mode - b.mode).abs() < 1e-14);
+    }
+}

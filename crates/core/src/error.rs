@@ -1,0 +1,76 @@
+//! What can be wrong with the arguments of core's constructors.
+
+use thiserror::Error;
+
+/// An argument outside its range.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum CoreError {
+    /// A grid needs at least one cell and at most [`crate::Grid::MAX_CELLS`].
+    #[error("a grid of {width} x {height} cells is not possible: expected 1 to {max} cells", max = crate::Grid::MAX_CELLS)]
+    GridSize {
+        /// Requested width in cells.
+        width: usize,
+        /// Requested height in cells.
+        height: usize,
+    },
+    /// The number of values is not the number of cells.
+    #[error("{values} values for a grid of {width} x {height} cells: expected {}", width * height)]
+    ValueCount {
+        /// Values given.
+        values: usize,
+        /// Grid width in cells.
+        width: usize,
+        /// Grid height in cells.
+        height: usize,
+    },
+    /// The number of angular samples is no multiple of 8 or too large.
+    #[error("{samples} directions are not possible: expected a multiple of 8 from 8 to {max}", max = crate::Directions::MAX)]
+    Directions {
+        /// Requested number of samples.
+        samples: usize,
+    },
+    /// A profile with another number of samples than its grid's.
+    #[error("a profile of {samples} samples where {expected} are expected")]
+    ProfileLength {
+        /// Samples given.
+        samples: usize,
+        /// Samples expected.
+        expected: usize,
+    },
+    /// A profile holds a sample that is not a number or infinite.
+    #[error("sample {sample} of the profile is {value}: expected a finite number")]
+    ProfileValue {
+        /// Index of the sample.
+        sample: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A tensor holds a component that is not a number or infinite.
+    #[error(
+        "the tensor of cell ({x}, {y}) has a component that is not finite: mask it or set it to zero first"
+    )]
+    NonFiniteTensor {
+        /// Column of the cell.
+        x: usize,
+        /// Row of the cell.
+        y: usize,
+    },
+    /// The fraction of `local-above` outside [0, 1].
+    #[error("the fraction {fraction} of local-above is out of range: expected 0 to 1")]
+    Fraction {
+        /// Fraction given.
+        fraction: f64,
+    },
+    /// A transmission profile that would create light.
+    #[error(
+        "the transmission profile of cell ({x}, {y}) has mean {mean} or a negative sample: expected samples from 0 and a mean of at most 1"
+    )]
+    TransmissionRange {
+        /// Column of the cell.
+        x: usize,
+        /// Row of the cell.
+        y: usize,
+        /// Mean of the profile.
+        mean: f64,
+    },
+}

@@ -1,0 +1,34 @@
+//! Tensors, decompositions, grids, polar profiles and result types of tigereye.
+//!
+//! The lowest layer: value types and closed formulas. It knows no algorithms that iterate, no files, no threads and no
+//! colours, and only constructors that take sizes or user data can fail.
+//!
+//! Conventions, used everywhere: cells (x, y) with x to the right and row y = 0 on top; angles in radians,
+//! counter-clockwise from +x with the y axis pointing **up**, so that direction 90 degrees leads to row y-1; tensor
+//! components in that same frame.
+
+mod anisotropy;
+mod decomposition;
+mod directions;
+mod error;
+mod field;
+mod grid;
+pub mod math;
+mod profile;
+mod results;
+mod tensor;
+mod transmission;
+
+pub use anisotropy::Anisotropy;
+pub use decomposition::{AxisSign, Eigenvalues, Svd};
+pub use directions::Directions;
+pub use error::CoreError;
+pub use field::Field;
+pub use grid::{Cell, Grid, NEIGHBOUR_OFFSETS};
+pub use profile::PolarProfile;
+pub use results::{LightDistribution, LtgVolume, StopReason, SweepWork, Work};
+pub use tensor::Tensor2;
+pub use transmission::{
+    Below, Normalization, TOTAL_ANISOTROPY_RATIO, TransmissionField, is_totally_anisotropic,
+    transmission_ellipse,
+};

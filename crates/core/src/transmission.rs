@@ -1,0 +1,308 @@
+//! Tensors to transmission profiles (thesis, section 3.3).
+
+use crate::{Cell, CoreError, Directions, Field, Grid, PolarProfile, Svd, Tensor2, math};
+
+/// Above this ratio of the half-axes (or with a vanishing one) a tensor counts as totally anisotropic and its profile
+/// is a bidirectional pulse (thesis, section 4.3; the value is the published programme's).
+pub const TOTAL_ANISOTROPY_RATIO: f64 = 20.0;
+
+/// How the profiles of a field are scaled against each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Normalization {
+    /// Every profile divided by the largest mean of the field (eq. 3.11): weaker cells absorb the rest.
+    Global,
+    /// Every profile divided by its own mean: nothing absorbs. The published synthetic results use this one.
+    Local,
+    /// Cells whose mean reaches `fraction` of the largest are normalised locally; noise below is treated as `below`
+    /// says.
+    LocalAbove {
+        /// Fraction of the field's largest mean, 0 to 1.
+        fraction: f64,
+        /// What becomes of the weaker cells.
+        below: Below,
+    },
+}
+
+/// What [`Normalization::LocalAbove`] makes of the cells under its threshold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Below {
+    /// They absorb everything (the published programme).
+    Absorb,
+    /// They keep the transmission eq. 3.11 gives them (the text of the thesis, which leaves them out of the local
+    /// normalisation).
+    Global,
+}
+
+/// Shape of one tensor's transmission: `samples` relative to the major half-axis, and that half-axis.
+struct Shape {
+    samples: Vec<f64>,
+    s1: f64,
+}
+
+/// Samples of the ellipse of `t` (eq. 3.6) or of its pulse, in units of the tensor.
+///
+/// `r(w) = s1 s2 / sqrt(s1^2 sin^2(w - phi) + s2^2 cos^2(w - phi))`; for total anisotropy (s1 = 0, s2 = 0 or
+/// s1/s2 > 20) height s1 at the sample nearest to phi and the one opposite, 0 elsewhere.
+#[must_use]
+pub fn transmission_ellipse(t: &Tensor2, directions: Directions) -> PolarProfile {
+    let shape = Shape::of(t, directions);
+    PolarProfile::from_fn(directions, |i| shape.samples[i] * shape.s1)
+}
+
+/// Whether the transmission of `t` is a pulse (or nothing) instead of an ellipse.
+#[must_use]
+pub fn is_totally_anisotropic(t: &Tensor2) -> bool {
+    let [s1, s2] = Svd::of(t).s;
+    totally_anisotropic(s1, s2)
+}
+
+fn totally_anisotropic(s1: f64, s2: f64) -> bool {
+    // A quotient of subnormal numbers may overflow; infinity compares as it should.
+    s1 == 0.0 || s2 == 0.0 || s1 / s2 > TOTAL_ANISOTROPY_RATIO
+}
+
+impl Shape {
+    fn of(t: &Tensor2, directions: Directions) -> Self {
+        let svd = Svd::of(t);
+        let [s1, s2] = svd.s;
+        let n = directions.count();
+        let mut samples = vec![0.0; n];
+        if totally_anisotropic(s1, s2) {
+            let peak = directions.nearest(math::degrees(svd.phi_rad()));
+            samples[peak] = 1.0;
+            samples[(peak + n / 2) % n] = 1.0;
+            return Self { samples, s1 };
+        }
+        let q = svd.axis_ratio();
+        let [ux, uy] = svd.major();
+        for i in 0..n / 2 {
+            let [wx, wy] = directions.unit(i);
+            // Cosine and sine of the angle to the major half-axis.
+            let along = wx * ux + wy * uy;
+            let across = wy * ux - wx * uy;
+            let r = q / (across * across + q * q * along * along).sqrt();
+            samples[i] = r;
+            samples[i + n / 2] = r;
+        }
+        Self { samples, s1 }
+    }
+
+    fn mean(&self) -> f64 {
+        self.samples.iter().sum::<f64>() / self.samples.len() as f64
+    }
+}
+
+/// The transmission of every cell: a profile of mean 1 and a rate in [0, 1].
+///
+/// The method's `T` is `rate * profile` and its mean `Tbar` is the rate. Splitting them makes `Tbar <= 1`, on which
+/// energy conservation rests, a property of the type; and since the scheme normalises every cell's output
+/// (eq. 3.12), only the shape of the profile and the rate have any effect.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TransmissionField {
+    grid: Grid,
+    directions: Directions,
+    shapes: Vec<f64>,
+    rates: Vec<f64>,
+}
+
+impl TransmissionField {
+    /// Transmission of a tensor field.
+    ///
+    /// # Errors
+    /// [`CoreError::NonFiniteTensor`] for the first tensor that is not finite, [`CoreError::Fraction`].
+    pub fn from_tensors(
+        tensors: &Field<Tensor2>,
+        directions: Directions,
+        normalization: Normalization,
+    ) -> Result<Self, CoreError> {
+        if let Some(cell) = tensors.first_non_finite() {
+            return Err(CoreError::NonFiniteTensor { x: cell.x, y: cell.y });
+        }
+        if let Normalization::LocalAbove { fraction, .. } = normalization
+            && !(0.0..=1.0).contains(&fraction)
+        {
+            return Err(CoreError::Fraction { fraction });
+        }
+        let shapes: Vec<Shape> = tensors.values().iter().map(|t| Shape::of(t, directions)).collect();
+        // Means relative to the largest half-axis, so that no product overflows or vanishes.
+        let largest = shapes.iter().fold(0.0, |m: f64, s| m.max(s.s1));
+        let exponent = math::binary_exponent(largest);
+        let means: Vec<f64> =
+            shapes.iter().map(|s| s.mean() * math::scale_by_power_of_two(s.s1, -exponent)).collect();
+        let greatest_mean = means.iter().fold(0.0, |m: f64, &r| m.max(r));
+        let global = |mean: f64| if greatest_mean > 0.0 { mean / greatest_mean } else { 0.0 };
+        let mut field = Self {
+            grid: tensors.grid(),
+            directions,
+            shapes: Vec::with_capacity(tensors.grid().cells() * directions.count()),
+            rates: Vec::with_capacity(tensors.grid().cells()),
+        };
+        for (shape, &mean) in shapes.iter().zip(&means) {
+            let rate = match normalization {
+                _ if shape.s1 == 0.0 => 0.0,
+                Normalization::Global => global(mean),
+                Normalization::Local => 1.0,
+                Normalization::LocalAbove { fraction, .. } if mean >= fraction * greatest_mean => 1.0,
+                Normalization::LocalAbove { below: Below::Absorb, .. } => 0.0,
+                Normalization::LocalAbove { below: Below::Global, .. } => global(mean),
+            };
+            field.push(&shape.samples, shape.mean(), rate);
+        }
+        Ok(field)
+    }
+
+    /// Transmission given as profiles, `T` itself, row-major.
+    ///
+    /// # Errors
+    /// [`CoreError::ValueCount`], [`CoreError::ProfileLength`], [`CoreError::TransmissionRange`] for a profile with a
+    /// negative sample or a mean above 1: it would create light.
+    pub fn from_profiles(
+        grid: Grid,
+        directions: Directions,
+        profiles: &[PolarProfile],
+    ) -> Result<Self, CoreError> {
+        if profiles.len() != grid.cells() {
+            let (width, height) = (grid.width(), grid.height());
+            return Err(CoreError::ValueCount { values: profiles.len(), width, height });
+        }
+        let mut field = Self { grid, directions, shapes: Vec::new(), rates: Vec::new() };
+        for (cell, p) in grid.iter().zip(profiles) {
+            let expected = directions.count();
+            if p.directions() != directions {
+                return Err(CoreError::ProfileLength { samples: p.samples().len(), expected });
+            }
+            // A mean of 1 computed from S samples may exceed it by rounding.
+            let mean = p.mean();
+            if p.samples().iter().any(|&v| v < 0.0) || mean > 1.0 + f64::EPSILON * expected as f64 {
+                return Err(CoreError::TransmissionRange { x: cell.x, y: cell.y, mean });
+            }
+            field.push(p.samples(), mean, mean.min(1.0));
+        }
+        Ok(field)
+    }
+
+    fn push(&mut self, samples: &[f64], mean: f64, rate: f64) {
+        let rate = if mean > 0.0 { rate } else { 0.0 };
+        self.rates.push(rate);
+        // An absorbing cell keeps no shape: nothing may pass it.
+        self.shapes.extend(samples.iter().map(|&v| if rate > 0.0 { v / mean } else { 0.0 }));
+    }
+
+    /// The grid.
+    #[must_use]
+    pub const fn grid(&self) -> Grid {
+        self.grid
+    }
+    /// The angular sampling.
+    #[must_use]
+    pub const fn directions(&self) -> Directions {
+        self.directions
+    }
+    /// Profile of a cell, scaled to mean 1; all 0 where the rate is 0.
+    #[must_use]
+    pub fn shape(&self, cell: Cell) -> &[f64] {
+        let (i, n) = (self.grid.index(cell), self.directions.count());
+        &self.shapes[i * n..(i + 1) * n]
+    }
+    /// `Tbar` of a cell: the fraction of arriving light that is passed on, 0 to 1.
+    #[must_use]
+    pub fn rate(&self, cell: Cell) -> f64 {
+        self.rates[self.grid.index(cell)]
+    }
+    /// The rates in row-major order.
+    #[must_use]
+    pub fn rates(&self) -> &[f64] {
+        &self.rates
+    }
+    /// `T` of a cell: `rate * shape`.
+    #[must_use]
+    pub fn profile(&self, cell: Cell) -> PolarProfile {
+        let (shape, rate) = (self.shape(cell), self.rate(cell));
+        PolarProfile::from_fn(self.directions, |t| shape[t] * rate)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn directions(s: usize) -> Directions {
+        Directions::new(s).expect("directions")
+    }
+
+    fn row(tensors: Vec<Tensor2>) -> Field<Tensor2> {
+        Field::from_values(Grid::new(tensors.len(), 1).expect("a grid"), tensors).expect("a field")
+    }
+
+    #[test]
+    fn ellipse_reaches_its_half_axes() {
+        let p = transmission_ellipse(&Tensor2::from_axes(math::FRAC_PI_4, 4.0, 0.5), directions(32));
+        assert!((p.samples()[4] - 4.0).abs() < 1e-14 && (p.samples()[12] - 0.5).abs() < 1e-14);
+        assert_eq!(p.samples()[4], p.samples()[20]);
+    }
+
+    #[test]
+    fn thin_tensors_become_pulses() {
+        let p = transmission_ellipse(&Tensor2::symmetric(0.0, 0.0, 3.0), directions(16));
+        let lit: Vec<usize> = (0..16).filter(|&t| p.samples()[t] != 0.0).collect();
+        assert_eq!(lit, [4, 12]);
+        assert_eq!(p.samples()[4], 3.0);
+        assert!(is_totally_anisotropic(&Tensor2::symmetric(20.1, 0.0, 1.0)));
+        assert!(!is_totally_anisotropic(&Tensor2::symmetric(20.0, 0.0, 1.0)));
+        assert!(is_totally_anisotropic(&Tensor2::ZERO));
+    }
+
+    #[test]
+    fn normalisations_set_the_rates() {
+        let f = row(vec![
+            Tensor2::isotropic(2.0),
+            Tensor2::isotropic(1.0),
+            Tensor2::isotropic(0.25),
+            Tensor2::ZERO,
+        ]);
+        let rates =
+            |n| TransmissionField::from_tensors(&f, directions(16), n).expect("a field").rates().to_vec();
+        assert_eq!(rates(Normalization::Global), [1.0, 0.5, 0.125, 0.0]);
+        assert_eq!(rates(Normalization::Local), [1.0, 1.0, 1.0, 0.0]);
+        let above = |below| Normalization::LocalAbove { fraction: 0.25, below };
+        assert_eq!(rates(above(Below::Absorb)), [1.0, 1.0, 0.0, 0.0]);
+        assert_eq!(rates(above(Below::Global)), [1.0, 1.0, 0.125, 0.0]);
+    }
+
+    #[test]
+    fn shapes_have_mean_one_at_any_scale() {
+        for scale in [1e-300, 1.0, 1e200, 1e307] {
+            let f = row(vec![Tensor2::from_axes(0.4, 1.0, 0.1).scaled(scale), Tensor2::isotropic(scale)]);
+            let t =
+                TransmissionField::from_tensors(&f, directions(64), Normalization::Global).expect("a field");
+            for cell in f.grid().iter() {
+                let mean = t.shape(cell).iter().sum::<f64>() / 64.0;
+                assert!((mean - 1.0).abs() < 1e-14, "scale {scale:e}: mean {mean}");
+                assert!(t.rate(cell) <= 1.0 && t.rate(cell) > 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn bad_fields_are_refused() {
+        let f = row(vec![Tensor2::IDENTITY, Tensor2::new(0.0, f64::NAN, 0.0, 0.0)]);
+        let e = TransmissionField::from_tensors(&f, directions(8), Normalization::Local);
+        assert_eq!(e, Err(CoreError::NonFiniteTensor { x: 1, y: 0 }));
+        let n = Normalization::LocalAbove { fraction: 1.5, below: Below::Absorb };
+        let e = TransmissionField::from_tensors(&row(vec![Tensor2::IDENTITY]), directions(8), n);
+        assert_eq!(e, Err(CoreError::Fraction { fraction: 1.5 }));
+    }
+
+    #[test]
+    fn profiles_that_create_light_are_refused() {
+        let (g, d) = (Grid::new(1, 1).expect("a grid"), directions(8));
+        let bright = PolarProfile::constant(d, 1.32);
+        assert!(matches!(
+            TransmissionField::from_profiles(g, d, &[bright]),
+            Err(CoreError::TransmissionRange { x: 0, y: 0, .. })
+        ));
+        let half =
+            TransmissionField::from_profiles(g, d, &[PolarProfile::constant(d, 0.5)]).expect("a field");
+        assert_eq!((half.rate(Cell::new(0, 0)), half.shape(Cell::new(0, 0))[3]), (0.5, 1.0));
+    }
+}

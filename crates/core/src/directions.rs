@@ -17,7 +17,7 @@ impl Directions {
     /// # Errors
     /// [`CoreError::Directions`] unless `samples` is a multiple of 8 from 8 to [`Self::MAX`].
     pub const fn new(samples: usize) -> Result<Self, CoreError> {
-        if samples >= 8 && samples <= Self::MAX && samples % 8 == 0 {
+        if samples >= 8 && samples <= Self::MAX && samples.is_multiple_of(8) {
             Ok(Self(samples))
         } else {
             Err(CoreError::Directions { samples })

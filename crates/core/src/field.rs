@@ -67,7 +67,7 @@ impl Field<Tensor2> {
     /// The field turned counter-clockwise by a quarter, cells and tensors together.
     #[must_use]
     pub fn quarter_turned(&self) -> Self {
-        let (w, h) = (self.grid.width(), self.grid.height());
+        let w = self.grid.width();
         let grid = self.grid.transposed();
         // The new cell (x, y) shows what lay at (w-1-y, x).
         Self::from_fn(grid, |c| self.at(Cell::new(w - 1 - c.y, c.x)).quarter_turned())

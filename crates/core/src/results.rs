@@ -101,6 +101,16 @@ pub struct SweepWork {
     pub cell_updates: u64,
 }
 
+impl SweepWork {
+    /// Adds the work of another part of the same sweep.
+    pub fn add(&mut self, other: Self) {
+        self.sources += other.sources;
+        self.iterations_total += other.iterations_total;
+        self.iterations_max = self.iterations_max.max(other.iterations_max);
+        self.cell_updates += other.cell_updates;
+    }
+}
+
 /// A light transport gradient: one value per cell and direction (eq. 3.20).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LtgVolume {

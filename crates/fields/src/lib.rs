@@ -1,1 +1,27 @@
-//! Placeholder.
+//! Test tensor fields with known answers, and fields defined by expressions.
+//!
+//! One pure generator a file under `generators/`; [`generators`] lists them, [`parse_spec`] reads
+//! `inverse:size=51,anisotropy=4`, [`generate`] makes the field. [`ExpressionField`] makes one from formulas a user
+//! writes, with the parser in [`expression`].
+//!
+//! All tensors live in core's frame, x right and y up, row 0 on top. Nothing here reads files, draws or propagates;
+//! every field is the same bits on every platform.
+
+mod arguments;
+mod error;
+pub mod expression;
+mod expression_field;
+mod generator;
+mod generators;
+mod geometry;
+mod nearest;
+mod parameter;
+mod settings;
+
+pub use arguments::{Arguments, FieldSpec, parse_spec};
+pub use error::FieldError;
+pub use expression::{Expression, ExpressionError, ExpressionErrorKind};
+pub use expression_field::{ExpressionField, Form};
+pub use generator::{Generator, find, generate, generators};
+pub use parameter::{MAX_SIDE, Parameter, ParameterKind};
+pub use settings::Settings;

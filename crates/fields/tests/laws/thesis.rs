@@ -1,0 +1,260 @@
+//! Known answers of the thesis's fields.
+
+use crate::{assert_same_ellipses, at, axis_difference, field, major_deg, same_ellipse};
+use tigereye_core::{Cell, Field, Svd, Tensor2, math};
+use tigereye_fields::{find, generators};
+
+/// A symmetry of a field: the field is its own mirror image.
+type Mirror = fn(&Field<Tensor2>) -> Field<Tensor2>;
+
+const LEFT_RIGHT: (&str, Mirror) = ("left-right", |f| f.mirrored_x());
+const UP_DOWN: (&str, Mirror) = ("up-down", |f| f.mirrored_y());
+const QUARTER: (&str, Mirror) = ("quarter turn", |f| f.quarter_turned());
+const HALF: (&str, Mirror) = ("half turn", |f| f.quarter_turned().quarter_turned());
+
+#[test]
+fn fields_have_their_symmetries() {
+    for (spec, symmetries) in [
+        ("isotropic", &[LEFT_RIGHT, UP_DOWN, QUARTER][..]),
+        ("x", &[LEFT_RIGHT, UP_DOWN]),
+        ("y", &[LEFT_RIGHT, UP_DOWN]),
+        ("drain", &[LEFT_RIGHT]),
+        ("drain_alt", &[LEFT_RIGHT]),
+        ("drain_old", &[LEFT_RIGHT]),
+        ("inverse", &[LEFT_RIGHT, UP_DOWN]),
+        ("inverse:size=12", &[LEFT_RIGHT, UP_DOWN]),
+        ("inverse:width=21,height=9", &[LEFT_RIGHT, UP_DOWN]),
+        ("star", &[LEFT_RIGHT, UP_DOWN, QUARTER]),
+        ("sink", &[LEFT_RIGHT, UP_DOWN, QUARTER]),
+        ("bow", &[UP_DOWN]),
+        ("step", &[LEFT_RIGHT]),
+        ("absorb", &[LEFT_RIGHT, UP_DOWN]),
+        ("absorb:size=12", &[LEFT_RIGHT, UP_DOWN]),
+        ("cross_x", &[LEFT_RIGHT, UP_DOWN, QUARTER]),
+        ("v", &[LEFT_RIGHT]),
+        ("v:size=12", &[LEFT_RIGHT]),
+        ("rings", &[QUARTER]),
+        ("gyre:size=53", &[HALF]),
+        ("wedge", &[UP_DOWN]),
+        ("trisector", &[UP_DOWN]),
+        ("flamant", &[LEFT_RIGHT]),
+        ("kirsch", &[LEFT_RIGHT, UP_DOWN]),
+        ("point_load", &[LEFT_RIGHT]),
+        ("point_load:plane=xy,offset=3", &[LEFT_RIGHT, UP_DOWN, QUARTER]),
+    ] {
+        let f = field(spec);
+        for (name, mirror) in symmetries {
+            // The scale of the ellipse comparison is absolute; these fields are of the order of one.
+            assert_same_ellipses(&f, &mirror(&f), &format!("{spec} is its own {name}"));
+        }
+    }
+}
+
+#[test]
+fn declared_facts_hold() {
+    for generator in generators() {
+        let f = field(&format!("{}:size=31", generator.name));
+        let one = f.values().iter().all(|t| (t.determinant() - 1.0).abs() < 1e-12);
+        assert_eq!(one, generator.determinant_one, "{}: determinant 1", generator.name);
+        let symmetric = f.values().iter().all(|t| t.asymmetry() < 1e-14 * t.max_abs().max(1e-300));
+        assert_eq!(symmetric, generator.symmetric, "{}: symmetry", generator.name);
+    }
+}
+
+#[test]
+fn axis_ratio_is_the_anisotropy() {
+    for g in generators().iter().filter(|g| g.own_parameters.iter().any(|p| p.name == "anisotropy")) {
+        let f = field(&format!("{}:size=13,anisotropy=7", g.name));
+        let ratios = f.values().iter().map(Svd::of).filter(|s| s.s[0] > 0.0);
+        let largest = ratios.map(|s| s.s[0] / s.s[1]).fold(0.0, f64::max);
+        assert!((largest - 7.0).abs() < 1e-12, "{}: {largest}", g.name);
+    }
+}
+
+#[test]
+fn major_axes_point_where_the_formulas_say() {
+    for (spec, x, y, degrees) in [
+        ("x", 3, 9, 0.0),
+        ("y", 3, 9, 90.0),
+        // c = 6: the top row of drain is atan2(6, i - 6).
+        ("drain:size=13", 0, 0, 135.0),
+        ("drain:size=13", 12, 0, 45.0),
+        ("drain:size=13", 6, 4, 90.0),
+        ("drain_alt:size=13", 12, 0, 0.0),
+        ("drain_alt:size=13", 0, 12, 90.0),
+        ("drain_old:size=13", 12, 12, 45.0),
+        ("drain_old:size=13", 0, 12, 135.0),
+        ("inverse:size=13", 12, 0, 135.0),
+        ("inverse:size=13", 6, 0, 90.0),
+        ("star:size=13", 12, 0, 45.0),
+        ("star:size=13", 0, 6, 0.0),
+        ("corner:size=13", 5, 5, 45.0),
+        ("corner:size=13", 0, 1, 63.43494882292201),
+        ("step:size=13", 4, 6, 0.0),
+        ("diag_drain:size=13", 12, 0, 45.0),
+        ("diag_drain:size=13", 0, 0, 0.0),
+        ("diag_drain:size=13", 12, 12, 90.0),
+        ("diag_drain:size=13", 0, 12, 45.0),
+        ("gyre:size=13", 1, 1, 45.0),
+        ("gyre:size=13", 3, 1, 0.0),
+        ("cone:size=7", 2, 2, 135.0),
+        ("cross_x:size=13", 0, 0, 135.0),
+        ("cross_x:size=13", 12, 0, 45.0),
+        ("v:size=13", 0, 5, 60.0),
+        ("v:size=13", 6, 5, 90.0),
+        ("v:size=13", 7, 5, 120.0),
+        ("rings:size=13", 12, 6, 90.0),
+        ("rings:size=13", 6, 0, 0.0),
+        // The diagonal cell (3, 3) from the centre catches theta = 45 degrees best.
+        ("rings:size=13", 9, 3, 135.0),
+    ] {
+        let found = major_deg(&at(&field(spec), x, y));
+        assert!(axis_difference(found, degrees) < 1e-9, "{spec} ({x}, {y}): {found}, expected {degrees}");
+    }
+}
+
+#[test]
+fn isotropic_cells_are_where_the_formulas_say() {
+    for (spec, expected) in [
+        ("inverse:size=13", 1),
+        ("star:size=13", 1),
+        ("rings:size=13", 1),
+        // Eight cells beyond radius 32 catch no point of a whole degree.
+        ("rings:size=51", 9),
+        ("spiral:size=13", 1),
+        ("cross_x:size=13", 169 - 24),
+        ("cone:size=7", 49 - 6),
+        ("step:size=13", 6 * 13),
+        ("gyre:size=13", 13),
+        ("inverse:size=12", 4),
+        ("drain_alt:size=13", 0),
+    ] {
+        let f = field(spec);
+        let isotropic = f.values().iter().filter(|t| same_ellipse(t, &Tensor2::IDENTITY, 1e-12)).count();
+        assert_eq!(isotropic, expected, "{spec}");
+    }
+}
+
+#[test]
+fn rings_are_tangent_to_circles() {
+    for spec in ["rings:size=51", "rings:size=202", "rings:size=401"] {
+        let f = field(spec);
+        let centre = f.grid().centre();
+        for (cell, t) in f.iter().filter(|(c, t)| *c != centre && **t != Tensor2::IDENTITY) {
+            let (dx, dy) = (cell.x as f64 - centre.x as f64, centre.y as f64 - cell.y as f64);
+            let exact = math::atan2(dy, dx).to_degrees() + 90.0;
+            // A cell's point lies at most half a diagonal from its middle.
+            let off = math::asin((0.5_f64.sqrt() / math::hypot(dx, dy)).min(1.0)).to_degrees();
+            assert!(axis_difference(major_deg(t), exact) <= off + 1e-9, "{spec} {cell:?}");
+        }
+    }
+}
+
+#[test]
+fn spiral_turns_inwards_by_half_a_radian() {
+    let f = field("spiral:size=51");
+    let centre = f.grid().centre();
+    for (cell, t) in f.iter().filter(|(c, _)| c.x.abs_diff(centre.x) + c.y.abs_diff(centre.y) > 5) {
+        let (dx, dy) = (cell.x as f64 - centre.x as f64, centre.y as f64 - cell.y as f64);
+        let exact = (math::atan2(dy, dx) - 0.5).to_degrees() + 90.0;
+        let off = math::asin(0.5_f64.sqrt() / math::hypot(dx, dy)).to_degrees();
+        assert!(axis_difference(major_deg(t), exact) <= off, "{cell:?}");
+    }
+    // 0.1 * 260 pi = 81.7 cells is as far as it reaches.
+    assert_eq!(at(&field("spiral:size=201"), 0, 0), Tensor2::IDENTITY);
+}
+
+#[test]
+fn total_rings_have_one_axis() {
+    let f = field("rings:size=13,total=true");
+    for (cell, t) in f.iter().filter(|(c, _)| *c != Cell::new(6, 6)) {
+        let s = Svd::of(t).s;
+        assert!((s[0] - 1.0).abs() < 1e-15 && s[1] < 1e-16, "{cell:?}: {s:?}");
+    }
+}
+
+#[test]
+fn sink_is_the_star_with_a_zero_tensor() {
+    let sink = field("sink:size=13");
+    assert_eq!(sink, field("star:size=13,sink=true"));
+    assert_eq!(at(&sink, 6, 6), Tensor2::ZERO);
+    assert_eq!(sink.values().iter().filter(|t| t.is_zero()).count(), 1);
+}
+
+#[test]
+fn cone_fades_linearly_from_four_to_one() {
+    let f = field("cone:size=7");
+    for k in 0..7 {
+        let ratio = 1.0 / Svd::of(&at(&f, k, k)).axis_ratio();
+        assert!((ratio - (4.0 - 0.5 * k as f64)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn light_guide_is_one_column_wide() {
+    let f = field("absorb:size=13,transmission=0.25");
+    for (cell, t) in f.iter() {
+        assert_eq!(*t, Tensor2::isotropic(if cell.x == 6 { 1.0 } else { 0.25 }));
+    }
+}
+
+#[test]
+fn lines_of_oblong_fields_join_the_corners() {
+    for spec in ["cross_x:width=9,height=25", "cross_x:width=25,height=9"] {
+        let f = field(spec);
+        let (w, h) = (f.grid().width() - 1, f.grid().height() - 1);
+        let slope = math::atan2(h as f64, w as f64).to_degrees();
+        for (x, y, degrees) in [(0, 0, -slope), (w, h, -slope), (w, 0, slope), (0, h, slope)] {
+            assert!(axis_difference(major_deg(&at(&f, x, y)), degrees) < 1e-9, "{spec} ({x}, {y})");
+        }
+    }
+}
+
+#[test]
+fn random_fields_are_smooth_and_in_range() {
+    let f = field("random:size=81,seed=42");
+    for (cell, t) in f.iter() {
+        assert!(t.max_abs() <= 1.0, "{cell:?}");
+        // Nine control tensors over 80 cells: values change by at most 2 over ten cells.
+        for k in [0, 6] {
+            if let Some(next) = f.grid().neighbour(cell, k) {
+                assert!((*t + f.at(next).scaled(-1.0)).max_abs() <= 0.2 + 1e-12, "{cell:?}");
+            }
+        }
+    }
+    let mean = f.values().iter().map(Tensor2::trace).sum::<f64>() / 81.0 / 81.0;
+    assert!(mean.abs() < 0.5, "{mean}");
+    let indefinite = f.values().iter().filter(|t| t.determinant() < 0.0).count();
+    assert!(indefinite > 0);
+}
+
+#[test]
+fn random_fields_are_deterministic() {
+    assert_eq!(field("random:seed=7"), field("random:seed=7"));
+    assert_ne!(field("random:seed=7"), field("random:seed=8"));
+    let f = field("random:size=9,seed=1");
+    // At nine cells a side every cell is a control tensor: xx, yy, xy in the order drawn.
+    let found = [at(&f, 0, 0), at(&f, 1, 0), at(&f, 8, 8)];
+    for (t, [xx, yy, xy]) in found.iter().zip(RANDOM_SEED_1) {
+        assert_eq!((t.xx(), t.yy(), t.xy()), (xx, yy, xy));
+    }
+}
+
+/// From another implementation: xx, yy, xy of the first, second and last control tensor of seed 1, nine points a side.
+const RANDOM_SEED_1: [[f64; 3]; 3] = [
+    [0.1331231503445618, 0.49156351452540226, 0.9420055071735924],
+    [-0.11128156588845584, -0.1114705983472839, 0.525788783823522],
+    [-0.7224411514960993, 0.8155876215780538, 0.9395655016779147],
+];
+
+#[test]
+fn every_generator_works_at_every_small_size() {
+    for g in generators() {
+        assert_eq!(find(g.name), Some(*g));
+        for (w, h) in [(1, 1), (1, 2), (2, 1), (2, 2), (3, 3), (1, 7), (7, 1), (4, 9), (9, 4), (5, 5)] {
+            let f = field(&format!("{}:width={w},height={h}", g.name));
+            assert_eq!((f.grid().width(), f.grid().height()), (w, h), "{}", g.name);
+            assert_eq!(f.first_non_finite(), None, "{} {w} x {h}", g.name);
+        }
+    }
+}

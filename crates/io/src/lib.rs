@@ -1,1 +1,32 @@
-//! Placeholder.
+//! Bytes to tensor fields, and results to bytes.
+//!
+//! Every reader takes a byte slice and every writer returns bytes: nothing here opens a path, prints or starts a
+//! thread. Each format has one module; [`ImageData`] is what the image formats share, and [`tensors_from_image`] and
+//! its siblings connect it with core's types.
+//!
+//! Files are untrusted. Sizes are multiplied in 128 bits and compared with the bytes that are really there, or with
+//! [`Limits`] where compression hides them, before anything is allocated; an array is read or refused by its name,
+//! never dropped; and an [`IoError`] says where it found what.
+//!
+//! Row order: a [`tigereye_core::Field`] has row 0 on top. Text matrices and `.npy` arrays have it there too. VTK image
+//! data run upwards, so tensors are flipped on reading and writing; results (gradient volumes, light distributions) keep
+//! row 0 first, as the published volumes do.
+
+mod convert;
+mod error;
+mod image;
+mod limits;
+pub mod matrices;
+pub mod npy;
+mod scalar;
+pub mod vti;
+mod xml;
+
+pub use convert::{
+    Association, ComponentOrder, LTG_ARRAY, LtgImage, PROVENANCE, SLICES, TENSOR_ARRAY, TensorImage,
+    image_from_light, image_from_ltg, image_from_tensors, ltg_from_image, tensors_from_image,
+};
+pub use error::IoError;
+pub use image::{ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData};
+pub use limits::Limits;
+pub use scalar::{ByteOrder, ScalarType};

@@ -1,0 +1,19 @@
+//! Between [`crate::ImageData`] and core's types: what arrays mean, and which way rows run.
+
+mod light;
+mod ltg;
+mod order;
+mod tensors;
+
+pub use light::image_from_light;
+pub use ltg::{LTG_ARRAY, LtgImage, SLICES, image_from_ltg, ltg_from_image};
+pub use order::ComponentOrder;
+pub use tensors::{Association, TENSOR_ARRAY, TensorImage, image_from_tensors, tensors_from_image};
+
+/// Field data entry with the JSON text that says what made a file.
+pub const PROVENANCE: &str = "tigereye";
+
+/// Name and components of arrays, for messages.
+fn described<'a>(arrays: impl IntoIterator<Item = &'a crate::DataArray>) -> Vec<String> {
+    arrays.into_iter().map(|a| format!("`{}` ({} components)", a.name, a.components)).collect()
+}

@@ -1,0 +1,374 @@
+//! What can be wrong with a file, and where.
+//!
+//! Lines and columns count from 1, bytes from 0 at the start of the file.
+
+use thiserror::Error;
+use tigereye_core::CoreError;
+
+/// A file that cannot be read, or data that cannot be written.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum IoError {
+    // ---- text matrices
+    /// A text without any number.
+    #[error("line 1: expected rows of numbers, found an empty file")]
+    EmptyText,
+    /// A word that is not a number.
+    #[error("line {line}, column {column}: expected a number, found `{found}`")]
+    NotANumber {
+        /// Line, from 1.
+        line: usize,
+        /// Column of the word, from 1.
+        column: usize,
+        /// The word, shortened.
+        found: String,
+    },
+    /// A number that is not finite.
+    #[error("line {line}, column {column}: expected a finite number, found `{found}`")]
+    NotFinite {
+        /// Line, from 1.
+        line: usize,
+        /// Column of the word, from 1.
+        column: usize,
+        /// The word, shortened.
+        found: String,
+    },
+    /// A row with more or fewer numbers than the first.
+    #[error("line {line}, column {column}: expected {expected} numbers as in line 1, found {found}")]
+    RaggedRow {
+        /// Line, from 1.
+        line: usize,
+        /// Column of the first number too many, or where the next was expected.
+        column: usize,
+        /// Numbers in this row.
+        found: usize,
+        /// Numbers in the first row.
+        expected: usize,
+    },
+    /// 2x2 blocks need an even number of columns.
+    #[error("line 1, column {column}: expected an even number of columns (2x2 blocks), found {columns}")]
+    OddColumns {
+        /// Column of the last number, from 1.
+        column: usize,
+        /// Numbers in the row.
+        columns: usize,
+    },
+    /// 2x2 blocks need an even number of rows.
+    #[error("line {line}: expected an even number of rows (2x2 blocks), the file ends after {rows}")]
+    OddRows {
+        /// The last line with numbers.
+        line: usize,
+        /// Rows with numbers.
+        rows: usize,
+    },
+    /// An empty line above further rows.
+    #[error("line {line}: expected numbers, found a blank line (they are allowed at the end only)")]
+    BlankLine {
+        /// Line, from 1.
+        line: usize,
+    },
+
+    // ---- sizes
+    /// A header that declares more cells than the limit.
+    #[error("byte {byte}: {cells} cells are declared, the limit is {limit}")]
+    TooManyCells {
+        /// Where they are declared.
+        byte: usize,
+        /// Declared cells.
+        cells: u128,
+        /// [`crate::Limits::cells`].
+        limit: u64,
+    },
+    /// Arrays that hold more numbers than the limit.
+    #[error("byte {byte}: array `{array}` brings the file to more than the limit of {limit} values")]
+    TooManyValues {
+        /// Name of the array.
+        array: String,
+        /// Where the array is declared.
+        byte: usize,
+        /// [`crate::Limits::values`].
+        limit: u64,
+    },
+
+    // ---- npy
+    /// A header that is not that of a `.npy` file.
+    #[error("byte {byte}: expected {expected} in the .npy header")]
+    NpyHeader {
+        /// Where it went wrong.
+        byte: usize,
+        /// What should have been there.
+        expected: &'static str,
+    },
+    /// An element type that is not read.
+    #[error("byte {byte}: element type `{descr}` is not read: expected f4, f8, i1 to i8 or u1 to u8")]
+    NpyType {
+        /// Where the type is declared.
+        byte: usize,
+        /// The type as written.
+        descr: String,
+    },
+    /// A header and data of different sizes.
+    #[error(
+        "byte {byte}: the header declares {declared} bytes of data, expected the {present} that are there"
+    )]
+    NpySize {
+        /// First byte of the data.
+        byte: usize,
+        /// Bytes that the shape needs.
+        declared: u128,
+        /// Bytes behind the header.
+        present: usize,
+    },
+    /// An array of another shape than wanted.
+    #[error("an array of shape {shape:?}: expected {expected}")]
+    NpyShape {
+        /// Shape as read.
+        shape: Vec<usize>,
+        /// What was wanted.
+        expected: &'static str,
+    },
+
+    // ---- XML
+    /// Text that is not well-formed XML.
+    #[error("byte {byte}: not well-formed XML: {problem}")]
+    XmlSyntax {
+        /// Where.
+        byte: usize,
+        /// What the XML parser says.
+        problem: String,
+    },
+    /// XML that is not what VTK files hold, or beyond the limits on nesting and lengths.
+    #[error("byte {byte}: expected {expected}")]
+    XmlStructure {
+        /// Where.
+        byte: usize,
+        /// What should have been there.
+        expected: &'static str,
+    },
+    /// An element where another is expected.
+    #[error("byte {byte}: found element <{element}>, expected {expected}")]
+    XmlElement {
+        /// Where the element starts.
+        byte: usize,
+        /// Its name.
+        element: String,
+        /// What is expected in its place.
+        expected: &'static str,
+    },
+    /// An element that is missing.
+    #[error("byte {byte}: element <{parent}> holds no <{element}>")]
+    XmlMissingElement {
+        /// Where the parent starts.
+        byte: usize,
+        /// Name of the parent.
+        parent: String,
+        /// Name of the missing child.
+        element: &'static str,
+    },
+    /// An attribute that is missing.
+    #[error("byte {byte}: element <{element}> has no attribute {attribute}: expected {expected}")]
+    XmlMissingAttribute {
+        /// Where the element starts.
+        byte: usize,
+        /// Its name.
+        element: String,
+        /// Name of the attribute.
+        attribute: &'static str,
+        /// What its value should be.
+        expected: &'static str,
+    },
+    /// An attribute with a value that makes no sense.
+    #[error("byte {byte}: {attribute}=\"{value}\" of element <{element}>: expected {expected}")]
+    XmlAttribute {
+        /// Where the element starts.
+        byte: usize,
+        /// Its name.
+        element: String,
+        /// Name of the attribute.
+        attribute: String,
+        /// Its value, shortened.
+        value: String,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// A data set in several pieces.
+    #[error("byte {byte}: {pieces} <Piece> elements: expected one (merge the pieces first)")]
+    Pieces {
+        /// Where the second piece, or the data set without any, starts.
+        byte: usize,
+        /// Number of pieces.
+        pieces: usize,
+    },
+
+    // ---- arrays of VTK files
+    /// An array in an encoding or of a type that is not read.
+    #[error("byte {byte}: array `{array}` is not read: {attribute}=\"{value}\", expected {expected}")]
+    ArrayUnsupported {
+        /// Name of the array.
+        array: String,
+        /// Where the array is declared.
+        byte: usize,
+        /// Attribute that says so.
+        attribute: &'static str,
+        /// Its value, shortened.
+        value: String,
+        /// Values that are read.
+        expected: &'static str,
+    },
+    /// An array with another amount of data than its declaration.
+    #[error("byte {byte}: array `{array}` holds {found} {unit}, expected {expected}")]
+    ArraySize {
+        /// Name of the array.
+        array: String,
+        /// Where its data start.
+        byte: usize,
+        /// Amount in the file.
+        found: u128,
+        /// Amount declared.
+        expected: u128,
+        /// What is counted.
+        unit: &'static str,
+    },
+    /// An array whose data end too early.
+    #[error("byte {byte}: array `{array}` is cut off: expected {needed} more bytes, {present} are there")]
+    ArrayTruncated {
+        /// Name of the array.
+        array: String,
+        /// From where the bytes are missing.
+        byte: usize,
+        /// Bytes needed from there.
+        needed: u128,
+        /// Bytes there.
+        present: usize,
+    },
+    /// An array in text that holds something else than numbers of its type.
+    #[error("byte {byte}: array `{array}`: expected a {scalar} number, found `{found}`")]
+    ArrayNumber {
+        /// Name of the array.
+        array: String,
+        /// Where the word starts.
+        byte: usize,
+        /// The word, shortened.
+        found: String,
+        /// Type of the array.
+        scalar: &'static str,
+    },
+    /// Base64 text with an invalid character or length.
+    #[error("byte {byte}: array `{array}`: expected valid base64")]
+    ArrayBase64 {
+        /// Name of the array.
+        array: String,
+        /// Where.
+        byte: usize,
+    },
+    /// A compressed block that does not decompress to its declared size.
+    #[error("byte {byte}: array `{array}`: block {block} is not {method} data of {expected} bytes")]
+    ArrayBlock {
+        /// Name of the array.
+        array: String,
+        /// Where the block (in base64: the array's blocks) starts.
+        byte: usize,
+        /// Index of the block.
+        block: usize,
+        /// Compression method.
+        method: &'static str,
+        /// Bytes it should decompress to.
+        expected: usize,
+    },
+    /// Text that is not valid UTF-8 or does not end.
+    #[error("byte {byte}: array `{array}`: expected strings in UTF-8, each ended by a zero byte")]
+    ArrayText {
+        /// Name of the array.
+        array: String,
+        /// Where its data start.
+        byte: usize,
+    },
+
+    // ---- meaning
+    /// Three-dimensional data where an image is needed.
+    #[error(
+        "{} x {} x {} points: three-dimensional data need a plane, expected one layer in z",
+        dimensions[0], dimensions[1], dimensions[2]
+    )]
+    NeedsPlane {
+        /// Points along x, y and z.
+        dimensions: [usize; 3],
+    },
+    /// No array of the wanted name or kind.
+    #[error("no {wanted}: the arrays are {}", listed(available))]
+    NoArray {
+        /// What was looked for.
+        wanted: String,
+        /// Names and components of the arrays there are.
+        available: Vec<String>,
+    },
+    /// Several arrays fit and none is marked as active.
+    #[error("several arrays fit: {}: expected the name of one", listed(candidates))]
+    AmbiguousArray {
+        /// Names and components of the arrays that fit.
+        candidates: Vec<String>,
+    },
+    /// An array with a number of components that makes no tensor.
+    #[error("array `{array}` has {components} components: expected 9, 6, 4 or 3")]
+    Components {
+        /// Name of the array.
+        array: String,
+        /// Its components.
+        components: usize,
+    },
+    /// Axes that are not parallel to x and y.
+    #[error("the image axes are rotated (Direction {direction:?}): expected axes along x and y")]
+    RotatedAxes {
+        /// Direction matrix, row by row.
+        direction: [f64; 9],
+    },
+    /// Slice indices that do not fit a volume.
+    #[error(
+        "field data `slices` holds {found:?}: expected {expected} ascending sample indices below {limit}"
+    )]
+    Slices {
+        /// The numbers found (at most eight).
+        found: Vec<f64>,
+        /// Number of layers of the volume.
+        expected: usize,
+        /// Indices must be smaller.
+        limit: usize,
+    },
+    /// An image without any point.
+    #[error(
+        "{} x {} x {} points cannot be written: expected at least one along each axis",
+        dimensions[0], dimensions[1], dimensions[2]
+    )]
+    EmptyImage {
+        /// Points along x, y and z.
+        dimensions: [usize; 3],
+    },
+    /// A name or text that the format cannot hold.
+    #[error("`{name}` cannot be written: expected text without control characters")]
+    Unwritable {
+        /// Name of the array.
+        name: String,
+    },
+    /// Sizes that core refuses.
+    #[error(transparent)]
+    Core {
+        /// Core's own words.
+        #[from]
+        source: CoreError,
+    },
+}
+
+fn listed(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
+/// At most 40 characters of something found in a file, for messages.
+pub(crate) fn shortened(bytes: &[u8]) -> String {
+    const LENGTH: usize = 40;
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(4 * LENGTH)]);
+    let mut short: String =
+        text.chars().take(LENGTH).map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+    if text.chars().nth(LENGTH).is_some() {
+        short.push_str("...");
+    }
+    short
+}

@@ -1,0 +1,189 @@
+//! Files written by other tools, read to the values their own readers give.
+#![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
+
+mod support;
+
+use serde_json::Value;
+use support::{bytes, folder, json};
+use tigereye_core::{Cell, Field, Tensor2};
+use tigereye_io::{DataArray, ImageData, ltg_from_image, matrices, npy, tensors_from_image, vti};
+
+/// Relative to the range: the files hold f32, text files fewer digits.
+const RANGE_TOLERANCE: f64 = 1e-6;
+/// Relative: serde_json may miss the last bit of a number.
+const JSON_TOLERANCE: f64 = 3e-16;
+
+fn number(v: &Value) -> f64 {
+    v.as_f64().expect("a number")
+}
+fn index(v: &Value) -> usize {
+    usize::try_from(v.as_u64().expect("an index")).unwrap()
+}
+fn list(v: &Value) -> &[Value] {
+    v.as_array().expect("a list")
+}
+
+#[track_caller]
+fn same(what: &str, value: f64, expected: &Value) {
+    let expected = number(expected);
+    assert!(
+        (value - expected).abs() <= JSON_TOLERANCE * expected.abs(),
+        "{what}: {value} instead of {expected}"
+    );
+}
+
+#[track_caller]
+fn near(what: &str, value: f64, expected: f64, scale: f64) {
+    assert!((value - expected).abs() <= RANGE_TOLERANCE * scale, "{what}: {value} instead of {expected}");
+}
+
+/// Compares all values of a file, tuples of `n` x `n` components, with its entry in `expected.json`.
+fn check_values(entry: &Value, n: usize, values: &[f64]) {
+    let file = entry["file"].as_str().unwrap();
+    let (min, max) = (number(&entry["min"]), number(&entry["max"]));
+    let scale = max - min;
+    assert_eq!(values.len(), index(&entry["count"]) * n * n, "{file}");
+    near(file, values.iter().copied().fold(f64::INFINITY, f64::min), min, scale);
+    near(file, values.iter().copied().fold(f64::NEG_INFINITY, f64::max), max, scale);
+    let tensors = || values.chunks(n * n);
+    let trace = |t: &[f64]| (0..n).map(|i| t[i * n + i]).sum::<f64>();
+    let mean = tensors().map(trace).sum::<f64>() / tensors().len() as f64;
+    near(file, mean, number(&entry["mean_trace"]), scale);
+    let zero = tensors().filter(|t| t.iter().all(|&v| v == 0.0)).count();
+    assert_eq!(zero, index(&entry["zero_tensors"]), "{file}");
+    let shape: Vec<usize> = list(&entry["shape_xyz"]).iter().map(index).collect();
+    for probe in list(&entry["probes"]) {
+        let at = list(&probe["index"]).iter().zip(&shape).rev().fold(0, |i, (p, s)| i * s + index(p));
+        let rows = list(&probe["tensor"]).iter().flat_map(list);
+        for (i, expected) in rows.enumerate() {
+            near(file, values[at * n * n + i], number(expected), scale);
+        }
+    }
+}
+
+fn entries(expected: &Value, extension: &str) -> Vec<Value> {
+    let named = |e: &&Value| e["file"].as_str().is_some_and(|f| f.ends_with(extension));
+    list(&expected["files"]).iter().filter(named).cloned().collect()
+}
+
+fn tensor_array(image: &ImageData) -> &DataArray {
+    let name = image.point_active.tensors.as_deref().expect("active tensors");
+    image.point_array(name).expect("the active array")
+}
+
+#[test]
+fn numpy_files_have_their_published_values() {
+    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let expected = json(&data, "expected.json");
+    let entries = entries(&expected, ".npy");
+    assert_eq!(entries.len(), 4);
+    for entry in entries {
+        let file = bytes(&data, entry["file"].as_str().unwrap());
+        let array = npy::read_array(&file).unwrap();
+        check_values(&entry, 2, &array.values);
+        let field = npy::read_tensors(&file).unwrap();
+        let asymmetric = field.values().iter().filter(|t| t.asymmetry() > 0.0).count();
+        assert_eq!(asymmetric, index(&entry["asymmetric_tensors"]));
+    }
+}
+
+#[test]
+fn image_files_have_their_published_values() {
+    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let expected = json(&data, "expected.json");
+    let entries = entries(&expected, ".vti");
+    assert_eq!(entries.len(), 11);
+    for entry in entries {
+        let image = vti::read(&bytes(&data, entry["file"].as_str().unwrap())).unwrap();
+        let shape: Vec<usize> = list(&entry["shape_xyz"]).iter().map(index).collect();
+        assert_eq!(image.dimensions.to_vec(), shape);
+        check_values(&entry, 3, &tensor_array(&image).values);
+    }
+}
+
+/// The 2D images hold the same tensors as the arrays; only the rows run the other way.
+#[test]
+fn images_are_arrays_with_rows_reversed() {
+    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let names =
+        ["camera_structure_tensor_128", "mni152_hessian_slice", "piv_velocity_gradient", "plate_hole_stress"];
+    for name in names {
+        let array = npy::read_tensors(&bytes(&data, &format!("{name}.npy"))).unwrap();
+        let image = vti::read(&bytes(&data, &format!("{name}.vti"))).unwrap();
+        let read = tensors_from_image(&image, None).unwrap();
+        assert!(read.rows_flipped && !read.columns_flipped && read.components == 9, "{name}: {read}");
+        let grid = array.grid();
+        let flipped = Field::from_fn(grid, |c| *array.at(Cell::new(c.x, grid.height() - 1 - c.y)));
+        assert_eq!(read.field, flipped, "{name}");
+    }
+}
+
+#[test]
+fn all_encodings_give_the_same_tensors() {
+    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let read = |kind: &str| vti::read(&bytes(&data, &format!("pointload_{kind}.vti"))).unwrap();
+    let first = read("app_raw_none");
+    let others =
+        ["app_b64_zlib", "app_raw_lz4", "app_raw_zlib_u32", "app_raw_zlib_u64", "ascii", "binary_zlib"];
+    for kind in others {
+        let image = read(kind);
+        assert_eq!((image.dimensions, image.origin, image.spacing), ([20; 3], [-10.0; 3], first.spacing));
+        assert_eq!(image.point_active, first.point_active);
+        assert_eq!(image.point_arrays.len(), 2);
+        for (a, b) in image.point_arrays.iter().zip(&first.point_arrays) {
+            assert_eq!((&a.name, a.components, a.scalar), (&b.name, b.components, b.scalar), "{kind}");
+            for (x, y) in a.values.iter().zip(&b.values) {
+                near(kind, *x, *y, 27.0);
+                assert!(kind == "ascii" || x == y, "{kind}");
+            }
+        }
+    }
+}
+
+#[test]
+fn layers_need_a_plane() {
+    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let image = vti::read(&bytes(&data, "pointload_ascii.vti")).unwrap();
+    let message = tensors_from_image(&image, None).unwrap_err().to_string();
+    assert_eq!(message, "20 x 20 x 20 points: three-dimensional data need a plane, expected one layer in z");
+}
+
+#[test]
+fn published_volumes_have_their_statistics_and_probes() {
+    let Some(reference) = folder("TIGEREYE_REFERENCE", "reference") else { return };
+    let manifest = json(&reference, "manifest.json");
+    for entry in list(&manifest["volumes"]) {
+        let name = entry["volume"].as_str().unwrap();
+        let volume = ltg_from_image(&vti::read(&bytes(&reference, name)).unwrap()).unwrap();
+        let (w, h) = (index(&entry["width"]), index(&entry["height"]));
+        assert_eq!((volume.grid.width(), volume.grid.height()), (w, h), "{name}");
+        assert_eq!(volume.slices, (0..index(&entry["directions"])).collect::<Vec<_>>(), "{name}");
+        assert_eq!((volume.array.as_str(), volume.provenance), ("Energy", None));
+        let values = &volume.values;
+        let statistics = &entry["statistics"];
+        let max = values.iter().copied().fold(0.0, f64::max);
+        same(name, values.iter().copied().fold(0.0, f64::min), &statistics["min"]);
+        same(name, max, &statistics["max"]);
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        assert!((mean / number(&statistics["mean"]) - 1.0).abs() < 1e-12, "{name}: mean {mean}");
+        for probe in list(&entry["probes"]) {
+            let [x, y, t] = [0, 1, 2].map(|i| index(&probe[i]));
+            same(&format!("{name} at ({x}, {y}, {t})"), values[(t * h + y) * w + x], &probe[3]);
+        }
+    }
+}
+
+#[test]
+fn text_fields_have_their_published_counts() {
+    let Some(reference) = folder("TIGEREYE_REFERENCE", "reference") else { return };
+    let manifest = json(&reference, "manifest.json");
+    for entry in list(&manifest["fields"]) {
+        let name = entry["file"].as_str().unwrap();
+        let field = matrices::read(&bytes(&reference, name)).unwrap();
+        let (w, h) = (index(&entry["width"]), index(&entry["height"]));
+        assert_eq!((field.grid().width(), field.grid().height()), (w, h), "{name}");
+        let count = |holds: fn(&Tensor2) -> bool| field.values().iter().filter(|&t| holds(t)).count();
+        assert_eq!(count(Tensor2::is_zero), index(&entry["zero"]), "{name}");
+        assert_eq!(matrices::read(&matrices::write(&field).unwrap()).unwrap(), field, "{name}");
+    }
+}

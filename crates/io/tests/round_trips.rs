@@ -1,0 +1,235 @@
+//! What is written is read back exactly, and the same data give the same bytes.
+#![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
+
+use proptest::prelude::*;
+use tigereye_core::{Cell, Directions, Field, Grid, LightDistribution, LtgVolume, Tensor2};
+use tigereye_io::{
+    ActiveArrays, Association, ComponentOrder, DataArray, FieldEntry, FieldValues, ImageData, IoError,
+    ScalarType, image_from_light, image_from_ltg, image_from_tensors, ltg_from_image, matrices, npy,
+    tensors_from_image, vti,
+};
+
+fn sample_field(width: usize, height: usize) -> Field<Tensor2> {
+    let grid = Grid::new(width, height).unwrap();
+    Field::from_fn(grid, |c| {
+        let v = (c.y * width + c.x) as f64;
+        Tensor2::new(v + 0.1, -v / 3.0, 1e-200 * v, -0.0)
+    })
+}
+
+fn sample_image() -> ImageData {
+    let scalars = [ScalarType::Int8, ScalarType::UInt16, ScalarType::Int64, ScalarType::Float32];
+    let mut image = ImageData::empty([3, 2, 2]);
+    image.origin = [-1.5, 0.1, 1e300];
+    image.spacing = [0.1, 2.0, 3.0];
+    image.direction = Some([0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+    for scalar in scalars {
+        let values = (0..24).map(f64::from).collect();
+        image.point_arrays.push(DataArray { scalar, ..DataArray::new(scalar.name(), 2, values) });
+    }
+    let nan = DataArray::new("<&\">'\u{e9}", 1, vec![f64::INFINITY; 12]);
+    image.point_arrays.push(nan.with_component_names(&["a < b"]));
+    image.cell_arrays.push(DataArray::new("", 1, vec![1.5, -2.5]));
+    image.point_active = ActiveArrays { scalars: Some("Int8".into()), ..ActiveArrays::default() };
+    image.cell_active = ActiveArrays { vectors: Some("v".into()), ..ActiveArrays::default() };
+    image.push_text("tigereye", "{\"command\": \"a & b <\\u00e9>\", \"\u{e9}\": 1}\n");
+    let texts = FieldValues::Text(vec![String::new(), "two".into(), String::new()]);
+    image.field_data.push(FieldEntry { name: "texts".into(), values: texts });
+    let values = FieldValues::Numbers { components: 3, values: vec![1.0; 6], scalar: ScalarType::UInt8 };
+    image.field_data.push(FieldEntry { name: "numbers".into(), values });
+    let values = FieldValues::Numbers { components: 1, values: vec![], scalar: ScalarType::Float64 };
+    image.field_data.push(FieldEntry { name: "empty".into(), values });
+    image
+}
+
+#[test]
+fn an_image_comes_back_whole() {
+    let image = sample_image();
+    let bytes = vti::write(&image).unwrap();
+    assert_eq!(vti::read(&bytes).unwrap(), image);
+    assert_eq!(vti::write(&image).unwrap(), bytes);
+}
+
+/// More than one block, and a last block that is full.
+#[test]
+fn blocks_of_every_length_come_back() {
+    for count in [16_383, 16_384, 16_385, 32_768, 40_000] {
+        let mut image = ImageData::empty([count, 1, 1]);
+        let values = (0..count).map(|i| (i as f64).sqrt()).collect();
+        image.point_arrays.push(DataArray::new("a", 1, values));
+        assert_eq!(vti::read(&vti::write(&image).unwrap()).unwrap().point_arrays, image.point_arrays);
+    }
+}
+
+#[test]
+fn tensors_survive_an_image() {
+    let field = sample_field(4, 3);
+    let image = image_from_tensors(&field, [1.0, 2.0], [0.5, 0.25]);
+    // VTK's first row is the bottom row.
+    assert_eq!(image.point_arrays[0].values[0], field.at(Cell::new(0, 2)).xx());
+    let read = vti::read(&vti::write(&image).unwrap()).unwrap();
+    let tensors = tensors_from_image(&read, None).unwrap();
+    assert_eq!(tensors.field, field);
+    assert_eq!((tensors.array.as_str(), tensors.association), ("Tensors", Association::Points));
+    assert_eq!((tensors.origin, tensors.spacing), ([1.0, 2.0, 0.0], [0.5, 0.25, 1.0]));
+    assert_eq!(
+        tensors.to_string(),
+        "point array `Tensors`: by component names: xx = 0, xy = 1, yx = 3, yy = 4; xy plane; rows flipped, file runs upwards"
+    );
+}
+
+#[test]
+fn component_orders_are_those_of_their_tools() {
+    let cases: [(usize, &[&str], ComponentOrder, [f64; 4]); 6] = [
+        (9, &[], ComponentOrder::Rows3, [0.0, 1.0, 3.0, 4.0]),
+        (6, &[], ComponentOrder::Vtk6, [0.0, 3.0, 3.0, 1.0]),
+        (4, &[], ComponentOrder::Rows2, [0.0, 1.0, 2.0, 3.0]),
+        (3, &[], ComponentOrder::Symmetric2, [0.0, 1.0, 1.0, 2.0]),
+        (3, &["XX", "YY", "XY"], ComponentOrder::Named([0, 2, 2, 1]), [0.0, 2.0, 2.0, 1.0]),
+        (3, &["a", "b", "c"], ComponentOrder::Symmetric2, [0.0, 1.0, 1.0, 2.0]),
+    ];
+    for (components, names, order, [xx, xy, yx, yy]) in cases {
+        let mut image = ImageData::empty([1, 1, 1]);
+        let values = (0..components).map(|i| i as f64).collect();
+        image.point_arrays.push(DataArray::new("t", components, values).with_component_names(names));
+        let read = tensors_from_image(&image, Some("t")).unwrap();
+        assert_eq!((read.order, *read.field.at(Cell::new(0, 0))), (order, Tensor2::new(xx, xy, yx, yy)));
+    }
+}
+
+#[test]
+fn reversed_axes_are_put_right() {
+    let field = sample_field(3, 2);
+    let mut image = image_from_tensors(&field, [0.0; 2], [1.0; 2]);
+    image.direction = Some([-1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0]);
+    let read = tensors_from_image(&image, None).unwrap();
+    assert!(read.columns_flipped && !read.rows_flipped);
+    let turned = Field::from_fn(field.grid(), |c| *field.at(Cell::new(2 - c.x, 1 - c.y)));
+    assert_eq!(read.field, turned);
+    image.direction = Some([0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+    assert!(matches!(tensors_from_image(&image, None), Err(IoError::RotatedAxes { .. })));
+}
+
+#[test]
+fn the_tensor_array_is_never_guessed() {
+    let mut image = image_from_tensors(&sample_field(2, 2), [0.0; 2], [1.0; 2]);
+    image.point_active.tensors = None;
+    assert!(tensors_from_image(&image, None).is_ok());
+    image.point_arrays.push(DataArray::new("other", 4, vec![0.0; 16]));
+    let message = tensors_from_image(&image, None).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "several arrays fit: `Tensors` (9 components), `other` (4 components): expected the name of one"
+    );
+    let message = tensors_from_image(&image, Some("absent")).unwrap_err().to_string();
+    assert_eq!(message, "no array `absent`: the arrays are `Tensors` (9 components), `other` (4 components)");
+    image.point_arrays[0] = DataArray::new("v", 3, vec![0.0; 12]);
+    image.point_active.vectors = Some("v".into());
+    assert_eq!(tensors_from_image(&image, None).unwrap().array, "other");
+    image.point_arrays.pop();
+    assert!(matches!(tensors_from_image(&image, None), Err(IoError::NoArray { .. })));
+    image.point_arrays = vec![DataArray::new("five", 5, vec![0.0; 20])];
+    let components = tensors_from_image(&image, Some("five"));
+    assert_eq!(components, Err(IoError::Components { array: "five".into(), components: 5 }));
+}
+
+fn sample_volume(slices: Vec<usize>) -> LtgVolume {
+    let grid = Grid::new(3, 2).unwrap();
+    let values = (0..6 * slices.len()).map(|i| i as f64 / 7.0).collect();
+    LtgVolume::new(grid, Directions::new(8).unwrap(), slices, values)
+}
+
+#[test]
+fn gradient_volumes_keep_slices_rows_and_provenance() {
+    let json = "{\"version\": \"0.1.0\", \"command\": \"ltg\"}";
+    for (slices, named) in [((0..8).collect(), false), (vec![1, 4, 6], true)] {
+        let volume = sample_volume(slices);
+        let image = image_from_ltg(&volume, json);
+        assert_eq!(image.numbers("slices").is_some(), named);
+        assert_eq!(image.point_arrays[0].values, volume.values());
+        let read = ltg_from_image(&vti::read(&vti::write(&image).unwrap()).unwrap()).unwrap();
+        assert_eq!(read.provenance.as_deref(), Some(json));
+        assert_eq!(read.into_volume(volume.directions()).unwrap(), volume);
+    }
+}
+
+#[test]
+fn impossible_slices_are_refused() {
+    let mut image = image_from_ltg(&sample_volume(vec![1, 4]), "{}");
+    let set = |image: &mut ImageData, values: Vec<f64>| {
+        let values = FieldValues::Numbers { components: 1, values, scalar: ScalarType::Float64 };
+        image.field_data[1].values = values;
+    };
+    for wrong in
+        [vec![4.0, 1.0], vec![1.0], vec![1.0, 1.5], vec![-1.0, 2.0], vec![f64::NAN, 2.0], vec![0.0, 1e30]]
+    {
+        set(&mut image, wrong);
+        assert!(matches!(ltg_from_image(&image), Err(IoError::Slices { .. })));
+    }
+    set(&mut image, vec![1.0, 8.0]);
+    let volume = ltg_from_image(&image).unwrap().into_volume(Directions::new(8).unwrap());
+    assert!(matches!(volume, Err(IoError::Slices { limit: 8, .. })));
+}
+
+fn sample_light() -> LightDistribution {
+    let grid = Grid::new(3, 2).unwrap();
+    let samples = (0..48).map(f64::from).collect();
+    let incoming = Field::from_fn(grid, |c| [c.x as f64, 0.0, c.y as f64, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    LightDistribution::new(Directions::new(8).unwrap(), samples, incoming)
+}
+
+#[test]
+fn light_images_hold_energy_intensity_and_flux() {
+    let light = sample_light();
+    let image = vti::read(&vti::write(&image_from_light(&light, "{}")).unwrap()).unwrap();
+    assert_eq!(image.dimensions, [3, 2, 1]);
+    assert_eq!(image.point_array("energy").unwrap().values, light.energy().values());
+    let intensity = image.point_array("intensity").unwrap();
+    assert_eq!((intensity.components, &intensity.values[..]), (8, light.samples()));
+    // Cell (2, 1): 2 W to the right, 1 W upwards.
+    assert_eq!(image.point_array("flux").unwrap().values[15..], [2.0, 1.0, 0.0]);
+    assert_eq!(image.text("tigereye"), Some("{}"));
+}
+
+#[test]
+fn results_become_arrays_of_the_stated_shapes() {
+    let light = npy::read_array(&npy::write_light(&sample_light())).unwrap();
+    assert_eq!((light.shape, light.values), (vec![2, 3, 8], sample_light().samples().to_vec()));
+    let volume = sample_volume(vec![0, 3]);
+    let ltg = npy::read_array(&npy::write_ltg(&volume)).unwrap();
+    assert_eq!((ltg.shape, ltg.values), (vec![2, 2, 3], volume.values().to_vec()));
+    let field = sample_field(3, 2);
+    assert_eq!(npy::read_array(&npy::write_tensors(&field)).unwrap().shape, [2, 3, 2, 2]);
+    assert_eq!(npy::read_tensors(&npy::write_tensors(&field)).unwrap(), field);
+}
+
+#[test]
+fn inconsistent_images_are_not_written() {
+    let mut image = ImageData::empty([2, 2, 1]);
+    image.point_arrays.push(DataArray::new("short", 1, vec![0.0; 3]));
+    assert!(matches!(vti::write(&image), Err(IoError::ArraySize { found: 3, expected: 4, .. })));
+    image.point_arrays = vec![DataArray::new("none", 0, vec![])];
+    assert!(matches!(vti::write(&image), Err(IoError::Components { .. })));
+    image.point_arrays = vec![DataArray::new("line\nfeed", 1, vec![0.0; 4])];
+    assert!(matches!(vti::write(&image), Err(IoError::Unwritable { .. })));
+    assert!(matches!(vti::write(&ImageData::empty([2, 0, 1])), Err(IoError::EmptyImage { .. })));
+    assert!(matches!(npy::write_array(&[2, 2], &[0.0; 3]), Err(IoError::NpyShape { .. })));
+}
+
+proptest! {
+    #[test]
+    fn any_field_survives_every_format(width in 1_usize..5, height in 1_usize..5,
+                                       numbers in proptest::collection::vec(proptest::num::f64::NORMAL
+                                           | proptest::num::f64::SUBNORMAL | proptest::num::f64::ZERO, 64)) {
+        let grid = Grid::new(width, height).unwrap();
+        let field = Field::from_fn(grid, |c| {
+            let i = 4 * grid.index(c);
+            Tensor2::new(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3])
+        });
+        prop_assert_eq!(&matrices::read(&matrices::write(&field).unwrap()).unwrap(), &field);
+        prop_assert_eq!(&npy::read_tensors(&npy::write_tensors(&field)).unwrap(), &field);
+        let image = image_from_tensors(&field, [0.0; 2], [1.0; 2]);
+        let read = vti::read(&vti::write(&image).unwrap()).unwrap();
+        prop_assert_eq!(tensors_from_image(&read, None).unwrap().field, field);
+    }
+}

@@ -1,0 +1,64 @@
+//! Files that tests read: those that lie beside the project, and hostile ones built on the spot.
+#![allow(dead_code, reason = "each test program uses a part")]
+#![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
+
+use std::io::Write as _;
+use std::path::PathBuf;
+
+/// The folder named by the environment variable, or `../shared/<name>` beside the workspace; `None`, and a line that
+/// says so, where it is absent.
+pub(crate) fn folder(variable: &str, name: &str) -> Option<PathBuf> {
+    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared").join(name);
+    let folder = std::env::var_os(variable).map_or_else(beside, PathBuf::from);
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    println!("skipped: no folder {} (set {variable})", folder.display());
+    None
+}
+
+pub(crate) fn bytes(folder: &std::path::Path, file: &str) -> Vec<u8> {
+    std::fs::read(folder.join(file)).unwrap_or_else(|e| panic!("{file}: {e}"))
+}
+
+pub(crate) fn json(folder: &std::path::Path, file: &str) -> serde_json::Value {
+    serde_json::from_slice(&bytes(folder, file)).unwrap_or_else(|e| panic!("{file}: {e}"))
+}
+
+/// A file of one array over `points` points along x.
+pub(crate) fn declaring(points: u64, root: &str, array: &str, appended: &[u8]) -> Vec<u8> {
+    let extent = format!("0 {} 0 0 0 0", points - 1);
+    let head = format!(
+        "<VTKFile type=\"ImageData\" byte_order=\"LittleEndian\" header_type=\"UInt64\"{root}>\
+         <ImageData WholeExtent=\"{extent}\"><Piece Extent=\"{extent}\"><PointData>{array}</PointData></Piece></ImageData>\
+         <AppendedData encoding=\"raw\">_"
+    );
+    [head.as_bytes(), appended, b"</AppendedData></VTKFile>"].concat()
+}
+
+pub(crate) const ARRAY: &str = "<DataArray type=\"Float64\" Name=\"a\" format=\"appended\" offset=\"0\"/>";
+pub(crate) const ZLIB: &str = " compressor=\"vtkZLibDataCompressor\"";
+pub(crate) const LZ4: &str = " compressor=\"vtkLZ4DataCompressor\"";
+
+pub(crate) fn words(words: &[u64]) -> Vec<u8> {
+    words.iter().flat_map(|w| w.to_le_bytes()).collect()
+}
+
+pub(crate) fn npy_file(version: u8, dictionary: &str, data: usize) -> Vec<u8> {
+    let size = u32::try_from(dictionary.len()).unwrap().to_le_bytes();
+    let size = if version == 1 { &size[..2] } else { &size[..] };
+    [b"\x93NUMPY", &[version, 0][..], size, dictionary.as_bytes(), &vec![1; data]].concat()
+}
+
+/// A compressed block that expands to about `size` zeros.
+pub(crate) fn bomb(root: &str, size: usize) -> Vec<u8> {
+    if root == LZ4 {
+        // One literal, then a match at offset 1 whose length grows by 255 a byte, then the five last literals.
+        return [&[0x1f, 0, 1, 0][..], &vec![255; size / 255], &[0, 0x50, 0, 0, 0, 0, 0]].concat();
+    }
+    let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
+    for _ in 0..size.div_ceil(1 << 16) {
+        encoder.write_all(&[0; 1 << 16]).expect("a Vec takes everything");
+    }
+    encoder.finish().expect("a Vec takes everything")
+}

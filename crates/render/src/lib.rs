@@ -1,1 +1,41 @@
-//! Placeholder.
+//! Pictures of tensor fields, light distributions and gradients: data in, a [`Scene`] out, exported as PNG or SVG.
+//!
+//! Every function here is pure. Nothing is written, nothing is asked of the system, and the same data gives the same
+//! bytes. Values that cannot be drawn (not finite, or not positive on a logarithmic scale) are never silently turned into
+//! others: the picture's legend names them.
+
+mod axis;
+mod chart;
+mod chart_backend;
+mod colour;
+mod colour_bar;
+mod error;
+mod font;
+mod glyphs;
+mod heat_map;
+mod legend;
+mod map_frame;
+mod multiples;
+pub mod number;
+mod orientation;
+mod overlay;
+mod png_export;
+mod polar_overlay;
+mod polar_plot;
+mod scene;
+mod shapes;
+mod svg;
+
+pub use chart::{Chart, ChartAxis, Reference, Series, line_chart};
+pub use colour::{ColourMap, Rgba, SERIES_PALETTE};
+pub use error::RenderError;
+pub use font::{has_glyph, text_width};
+pub use glyphs::{GlyphColour, GlyphOptions, GlyphScale, glyphs};
+pub use heat_map::{Difference, HeatOptions, HeatScale, difference_map, heat_map};
+pub use multiples::small_multiples;
+pub use orientation::{OrientationOptions, orientation_map};
+pub use overlay::Overlay;
+pub use polar_overlay::{IntensityScale, PolarOptions, TransmissionScale, polar_overlay};
+pub use polar_plot::{PolarPlotOptions, PolarSeries, polar_plot};
+pub use scene::{Anchor, Item, Path, PathBuilder, Raster, Scene, Segment, Stroke, Text};
+pub use shapes::Marker;

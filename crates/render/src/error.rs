@@ -1,0 +1,50 @@
+//! What can go wrong when a picture is made.
+
+use thiserror::Error;
+
+/// Why a scene could not become a picture.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RenderError {
+    /// The picture would have more pixels than [`crate::Scene::MAX_SIDE_PX`] a side allow, or none.
+    #[error(
+        "a picture of {width_px} x {height_px} pixels (each side must be 1 to {limit_px}); choose a smaller scale"
+    )]
+    PictureSize {
+        /// Requested width in pixels.
+        width_px: f64,
+        /// Requested height in pixels.
+        height_px: f64,
+        /// Largest side in pixels.
+        limit_px: u32,
+    },
+    /// The scale is not a positive finite number.
+    #[error("a picture scale must be positive and finite, not {scale}")]
+    Scale {
+        /// Requested scale.
+        scale: f64,
+    },
+    /// The PNG encoder failed.
+    #[error("encoding the PNG failed: {reason}")]
+    Encoding {
+        /// What the encoder says.
+        reason: String,
+    },
+    /// Two fields that should be compared have different grids.
+    #[error("cannot compare a field of {a_width} x {a_height} cells with one of {b_width} x {b_height}")]
+    GridMismatch {
+        /// Width of the first field in cells.
+        a_width: usize,
+        /// Height of the first field in cells.
+        a_height: usize,
+        /// Width of the second field in cells.
+        b_width: usize,
+        /// Height of the second field in cells.
+        b_height: usize,
+    },
+    /// The charting library reported an error.
+    #[error("drawing the chart failed: {reason}")]
+    Chart {
+        /// What it says.
+        reason: String,
+    },
+}

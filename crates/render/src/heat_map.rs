@@ -1,0 +1,256 @@
+//! Scalar fields as coloured cells with a colour bar.
+
+use crate::axis::Axis;
+use crate::colour::{ColourMap, Rgba};
+use crate::colour_bar::ColourBar;
+use crate::error::RenderError;
+use crate::legend::{Entry, Mark};
+use crate::map_frame::{self, MapFrame};
+use crate::number;
+use crate::overlay::{self, Overlay};
+use crate::scene::{Item, Raster, Scene};
+use tigereye_core::{Cell, Field, Grid, math};
+
+/// How values become colours.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum HeatScale {
+    /// From the smallest to the largest value.
+    #[default]
+    Linear,
+    /// Powers of ten: `decades` below the maximum, and everything lower in [`Rgba::NO_LIGHT`].
+    Logarithmic {
+        /// Decades shown, positive.
+        decades: f64,
+    },
+    /// Symmetric about 0.
+    Diverging,
+}
+
+/// Options of [`heat_map`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HeatOptions {
+    /// Title above the map; empty for none.
+    pub title: String,
+    /// Quantity with its unit, beside the colour bar.
+    pub quantity: String,
+    /// Colour map; by default viridis, and vik for [`HeatScale::Diverging`].
+    pub map: Option<ColourMap>,
+    /// Linear, logarithmic or diverging.
+    pub scale: HeatScale,
+    /// Fixed lower and upper end, to compare pictures; by default that of the values. A diverging scale uses the larger
+    /// magnitude. A logarithmic one uses both ends where they are positive and ignores its decades then.
+    pub range: Option<(f64, f64)>,
+    /// Light sources, marked with stars.
+    pub sources: Vec<Cell>,
+    /// Points and lines over the map.
+    pub overlays: Vec<Overlay>,
+    /// Pixels per cell; by default whole, such that the longer side has about 480.
+    pub cell_px: Option<usize>,
+}
+
+/// The field as a heat map. Values that are not finite are grey and hatched and named in the legend; a field without any
+/// finite value is drawn and described as such.
+#[must_use]
+pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
+    let grid = field.grid();
+    let summary = Summary::of(field.values());
+    let axis = chosen_axis(&summary, options);
+    let map = options.map.unwrap_or(match options.scale {
+        HeatScale::Diverging => ColourMap::Vik,
+        _ => ColourMap::Viridis,
+    });
+    // With a fixed range the bottom of a logarithmic scale is not tied to the values.
+    let bar = ColourBar {
+        axis,
+        map,
+        label: &options.quantity,
+        below: summary.finite > 0 && !axis.logarithmic && axis.position(summary.low) < -1e-9,
+        above: summary.finite > 0 && axis.position(summary.high) > 1.0 + 1e-9,
+    };
+    let cell = map_frame::cell_px(grid, options.cell_px, 480, 40);
+    let side = bar.width((cell * grid.height() as f64).max(150.0));
+    let mut page = MapFrame::begin(grid, &options.title, cell, side);
+    let colour = |value: f64| cell_colour(value, &axis, map);
+    let block = (1.0 / cell).round().max(1.0) as usize;
+    page.scene.items.push(raster(field, &page, block, colour));
+    let broken: Vec<Cell> = field.iter().filter(|(_, v)| !v.is_finite()).map(|(c, _)| c).collect();
+    page.hatch(&broken);
+    let mut legend = value_legend(field.values(), &summary, &axis, block);
+    overlay::draw(&mut page, &options.overlays, &mut legend);
+    overlay::draw_sources(&mut page, &options.sources, &mut legend);
+    let (edge, top, height) = (page.left + page.width(), page.top, page.side_height());
+    bar.draw(&mut page.scene, edge, top, height);
+    page.finish(&options.title, description(grid, &summary, options), &legend)
+}
+
+/// What is to be compared by [`difference_map`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Difference {
+    /// `a - b`.
+    #[default]
+    Absolute,
+    /// `a / b - 1`; not a number where both are 0.
+    Relative,
+}
+
+/// A diverging heat map of the difference of two fields. `options.scale` is set to [`HeatScale::Diverging`].
+///
+/// # Errors
+/// [`RenderError::GridMismatch`].
+pub fn difference_map(
+    a: &Field<f64>,
+    b: &Field<f64>,
+    kind: Difference,
+    options: &HeatOptions,
+) -> Result<Scene, RenderError> {
+    if a.grid() != b.grid() {
+        let (g, h) = (a.grid(), b.grid());
+        return Err(RenderError::GridMismatch {
+            a_width: g.width(),
+            a_height: g.height(),
+            b_width: h.width(),
+            b_height: h.height(),
+        });
+    }
+    let field = Field::from_fn(a.grid(), |c| match kind {
+        Difference::Absolute => a.at(c) - b.at(c),
+        Difference::Relative => a.at(c) / b.at(c) - 1.0,
+    });
+    Ok(heat_map(&field, &HeatOptions { scale: HeatScale::Diverging, ..options.clone() }))
+}
+
+/// What the values of a field are like.
+struct Summary {
+    finite: usize,
+    low: f64,
+    high: f64,
+    /// Smallest positive value, infinite where there is none.
+    low_positive: f64,
+}
+
+impl Summary {
+    fn of(values: &[f64]) -> Self {
+        let mut s =
+            Self { finite: 0, low: f64::INFINITY, high: f64::NEG_INFINITY, low_positive: f64::INFINITY };
+        for &v in values.iter().filter(|v| v.is_finite()) {
+            s.finite += 1;
+            s.low = s.low.min(v);
+            s.high = s.high.max(v);
+            if v > 0.0 {
+                s.low_positive = s.low_positive.min(v);
+            }
+        }
+        s
+    }
+}
+
+fn chosen_axis(summary: &Summary, options: &HeatOptions) -> Axis {
+    let fixed = options.range.filter(|(a, b)| a.is_finite() && b.is_finite() && a < b);
+    let (low, high) = if summary.finite == 0 { (0.0, 1.0) } else { (summary.low, summary.high) };
+    match (options.scale, fixed) {
+        (HeatScale::Linear, _) => {
+            let (low, high) = fixed.unwrap_or((low, high));
+            Axis::linear(low, high)
+        }
+        (HeatScale::Diverging, _) => {
+            let (low, high) = fixed.unwrap_or((low, high));
+            let reach = low.abs().max(high.abs());
+            if reach > Axis::TINY { Axis::linear(-reach, reach) } else { Axis::linear(-1.0, 1.0) }
+        }
+        (HeatScale::Logarithmic { .. }, Some((low, high))) if low > 0.0 => Axis::logarithmic(low, high),
+        (HeatScale::Logarithmic { decades }, _) => {
+            let top = fixed.map_or(high, |(_, high)| high);
+            let top = if top > 0.0 { top } else { 1.0 };
+            let decades = if decades > 0.0 { decades.min(300.0) } else { 6.0 };
+            Axis::logarithmic(top * math::pow(10.0, -decades), top)
+        }
+    }
+}
+
+fn cell_colour(value: f64, axis: &Axis, map: ColourMap) -> Rgba {
+    if !value.is_finite() {
+        return Rgba::NOT_FINITE;
+    }
+    if axis.logarithmic && value < axis.low {
+        return Rgba::NO_LIGHT;
+    }
+    map.sample(axis.position(value))
+}
+
+/// The cells in colour; where cells are smaller than a pixel, the mean of `block` x `block` of them.
+fn raster(field: &Field<f64>, page: &MapFrame, block: usize, colour: impl Fn(f64) -> Rgba) -> Item {
+    let grid = field.grid();
+    let (columns, rows) = (grid.width().div_ceil(block), grid.height().div_ceil(block));
+    let mut cells = Vec::with_capacity(columns * rows);
+    for row in 0..rows {
+        for column in 0..columns {
+            cells.push(colour(block_mean(field, column * block, row * block, block)));
+        }
+    }
+    let cell_px = page.cell * block as f64;
+    Item::Raster(Raster { x_px: page.left, y_px: page.top, cell_px, columns, cells })
+}
+
+fn block_mean(field: &Field<f64>, x0: usize, y0: usize, block: usize) -> f64 {
+    let grid = field.grid();
+    if block == 1 {
+        return *field.at(Cell::new(x0, y0));
+    }
+    let (mut sum, mut count) = (0.0, 0.0);
+    for y in y0..(y0 + block).min(grid.height()) {
+        for x in x0..(x0 + block).min(grid.width()) {
+            let value = *field.at(Cell::new(x, y));
+            if value.is_finite() {
+                sum += value;
+                count += 1.0;
+            }
+        }
+    }
+    sum / count
+}
+
+fn value_legend(values: &[f64], summary: &Summary, axis: &Axis, block: usize) -> Vec<Entry> {
+    let mut legend = Vec::new();
+    if axis.logarithmic && values.iter().any(|v| v.is_finite() && *v < axis.low) {
+        let negative = values.iter().any(|v| v.is_finite() && *v < 0.0);
+        let text = format!(
+            "no light: {} or below {}",
+            if negative { "0, negative" } else { "0" },
+            number::significant(axis.low, 2)
+        );
+        legend.push(Entry::of(Mark::Swatch(Rgba::NO_LIGHT), text));
+    }
+    let broken = values.len() - summary.finite;
+    if broken > 0 {
+        let text = format!("not a finite number ({broken} of {} cells)", values.len());
+        legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), text));
+    }
+    if summary.finite == 0 {
+        legend.push(Entry::of(Mark::None, "The field has no finite value."));
+    } else if summary.low == summary.high {
+        legend.push(Entry::of(Mark::None, format!("constant value {}", number::significant(summary.low, 4))));
+    }
+    if block > 1 {
+        legend.push(Entry::of(Mark::None, format!("one pixel = mean of {block} × {block} cells")));
+    }
+    legend
+}
+
+fn description(grid: Grid, summary: &Summary, options: &HeatOptions) -> String {
+    let scale = match options.scale {
+        HeatScale::Linear => "linear",
+        HeatScale::Logarithmic { .. } => "logarithmic",
+        HeatScale::Diverging => "diverging",
+    };
+    let quantity = if options.quantity.is_empty() { "values" } else { &options.quantity };
+    let range = if summary.finite == 0 {
+        "no finite value".to_owned()
+    } else {
+        format!("from {} to {}", number::significant(summary.low, 4), number::significant(summary.high, 4))
+    };
+    format!(
+        "Heat map of {quantity} on {} x {} cells, row 0 on top, {scale} colour scale; {range}.",
+        grid.width(),
+        grid.height()
+    )
+}

@@ -1,0 +1,125 @@
+//! The direction of the major axis as colour.
+
+use crate::colour::{ColourMap, Rgba};
+use crate::font;
+use crate::legend::{Entry, Mark, SMALL_PX};
+use crate::map_frame::{self, MapFrame};
+use crate::overlay::{self, Overlay};
+use crate::scene::{Anchor, Item, PathBuilder, Raster, Scene};
+use tigereye_core::{Anisotropy, Cell, Field, Svd, Tensor2, math};
+
+/// Options of [`orientation_map`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct OrientationOptions {
+    /// Title; empty for none.
+    pub title: String,
+    /// Pixels per cell; by default whole, such that the longer side has about 480.
+    pub cell_px: Option<usize>,
+    /// Points and lines over the map.
+    pub overlays: Vec<Overlay>,
+}
+
+/// What isotropic tensors look like: they have no direction.
+const ISOTROPIC: Rgba = Rgba::hex(0xe2e2e2);
+const RING_PX: f64 = 56.0;
+const GAP_PX: f64 = 48.0;
+const SIDE_PX: f64 = GAP_PX + 2.0 * RING_PX + 22.0;
+
+/// The direction of the major half-axis modulo 180 degrees in a cyclic colour map, faded to grey where the tensor is
+/// isotropic, with a half ring of directions as legend.
+#[must_use]
+pub fn orientation_map(field: &Field<Tensor2>, options: &OrientationOptions) -> Scene {
+    let grid = field.grid();
+    // Directions have no mean that pixels could show: large grids are sampled.
+    let cell = map_frame::cell_px(grid, options.cell_px, 480, 40);
+    let block = (1.0 / cell).round().max(1.0) as usize;
+    let mut page = MapFrame::begin(grid, &options.title, cell, SIDE_PX);
+    page.scene.items.push(raster(field, &page, block));
+    let broken: Vec<Cell> = field.iter().filter(|(_, t)| !t.is_finite()).map(|(c, _)| c).collect();
+    page.hatch(&broken);
+    draw_half_ring(&mut page);
+    let mut legend = Vec::new();
+    if field.values().iter().any(Tensor2::is_zero) {
+        legend.push(Entry::of(Mark::Swatch(Rgba::WHITE), "zero tensor"));
+    }
+    if !broken.is_empty() {
+        legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), "tensor not finite"));
+    }
+    overlay::draw(&mut page, &options.overlays, &mut legend);
+    if block > 1 {
+        legend.push(Entry::of(Mark::None, format!("one pixel = one of {block} × {block} cells")));
+    }
+    let description = format!(
+        "Direction of the major axis of a tensor field of {} x {} cells, row 0 on top, as cyclic colour.",
+        grid.width(),
+        grid.height()
+    );
+    page.finish(&options.title, description, &legend)
+}
+
+/// One cell of each block of `block` x `block`, its upper left one.
+fn raster(field: &Field<Tensor2>, page: &MapFrame, block: usize) -> Item {
+    let grid = field.grid();
+    let columns = grid.width().div_ceil(block);
+    let cells = (0..grid.height())
+        .step_by(block)
+        .flat_map(|y| (0..grid.width()).step_by(block).map(move |x| tensor_colour(field.at(Cell::new(x, y)))))
+        .collect();
+    Item::Raster(Raster {
+        x_px: page.left,
+        y_px: page.top,
+        cell_px: page.cell * block as f64,
+        columns,
+        cells,
+    })
+}
+
+fn tensor_colour(t: &Tensor2) -> Rgba {
+    if !t.is_finite() {
+        return Rgba::NOT_FINITE;
+    }
+    if t.is_zero() {
+        return Rgba::WHITE;
+    }
+    direction_colour(Svd::of(t).phi_rad(), Anisotropy::of(t).linear)
+}
+
+fn direction_colour(phi_rad: f64, anisotropy: f64) -> Rgba {
+    let turns = phi_rad / math::PI;
+    ISOTROPIC.mixed(ColourMap::RomaO.sample(turns - turns.floor()), anisotropy)
+}
+
+/// Directions from 0 to 180 degrees, strong colours outside, isotropic grey in the middle.
+fn draw_half_ring(page: &mut MapFrame) {
+    const SECTORS: usize = 60;
+    const RINGS: usize = 10;
+    let [x, y] = [page.left + page.width() + GAP_PX + RING_PX, page.top + RING_PX + 44.0];
+    let point = |radius: f64, angle: f64| [x + radius * math::cos(angle), y - radius * math::sin(angle)];
+    let scene = &mut page.scene;
+    scene.text([x, page.top + 10.0], "major axis", SMALL_PX, Rgba::INK, Anchor::Middle);
+    for ring in (0..RINGS).rev() {
+        let radius = RING_PX * (ring + 1) as f64 / RINGS as f64;
+        for sector in 0..SECTORS {
+            let middle = math::PI * (sector as f64 + 0.5) / SECTORS as f64;
+            // Sectors reach under the next one, or the ground would shine through the seams.
+            let (from, to) = (middle - math::PI / 120.0, (middle + math::PI / 60.0).min(math::PI));
+            let mut path = PathBuilder::default();
+            path.polyline(&[[x, y], point(radius, from), point(radius, to)], true);
+            scene.fill(path.finish(), direction_colour(middle, (ring as f64 + 0.5) / RINGS as f64));
+        }
+    }
+    for (degrees, anchor) in [
+        (0.0, Anchor::Start),
+        (45.0, Anchor::Start),
+        (90.0, Anchor::Middle),
+        (135.0, Anchor::End),
+        (180.0, Anchor::End),
+    ] {
+        let angle = math::radians(degrees);
+        let [lx, ly] = point(RING_PX + 6.0, angle);
+        let drop = if degrees == 90.0 { 0.0 } else { 0.5 * font::CAP_HEIGHT_EM * SMALL_PX };
+        scene.text([lx, ly + drop], &format!("{degrees}°"), SMALL_PX, Rgba::MUTED, anchor);
+    }
+    let below = [x, y + 20.0];
+    scene.text(below, "grey: isotropic", SMALL_PX, Rgba::MUTED, Anchor::Middle);
+}

@@ -1,0 +1,90 @@
+//! Points and lines over maps.
+
+use crate::colour::Rgba;
+use crate::legend::{Entry, Mark};
+use crate::map_frame::MapFrame;
+use crate::scene::PathBuilder;
+use crate::shapes::Marker;
+use tigereye_core::Cell;
+
+/// Something drawn over a map. Points are in cells: (0, 0) is the centre of the upper left cell, y downwards.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Overlay {
+    /// Meaning, for the legend; without one the overlay does not appear there.
+    pub label: String,
+    /// Points (x, y) in cells. One that is not finite or not on the map interrupts the line, so that one overlay holds many
+    /// lines.
+    pub points: Vec<[f64; 2]>,
+    /// Marker of every point; a line through the points where there is none.
+    pub marker: Option<Marker>,
+    /// Colour.
+    pub colour: Rgba,
+    /// Width of a line in pixels.
+    pub width_px: f64,
+}
+
+impl Default for Overlay {
+    fn default() -> Self {
+        Self { label: String::new(), points: Vec::new(), marker: None, colour: Rgba::INK, width_px: 1.8 }
+    }
+}
+
+const SOURCE: Rgba = Rgba::hex(0xd55e00);
+
+pub(crate) fn draw(page: &mut MapFrame, overlays: &[Overlay], legend: &mut Vec<Entry>) {
+    for overlay in overlays {
+        let mark = match overlay.marker {
+            Some(marker) => {
+                draw_points(page, overlay, marker);
+                Mark::Point(marker, overlay.colour)
+            }
+            None => {
+                draw_lines(page, overlay);
+                let width_px = overlay.width_px;
+                Mark::Line { colour: overlay.colour, width_px, dash_px: Vec::new(), marker: None }
+            }
+        };
+        if !overlay.label.is_empty() {
+            legend.push(Entry::of(mark, overlay.label.clone()));
+        }
+    }
+}
+
+fn on_map(page: &MapFrame, p: &[f64; 2]) -> bool {
+    let (width, height) = (page.grid.width() as f64, page.grid.height() as f64);
+    (-0.5..=width - 0.5).contains(&p[0]) && (-0.5..=height - 0.5).contains(&p[1])
+}
+
+fn draw_points(page: &mut MapFrame, overlay: &Overlay, marker: Marker) {
+    let radius = (0.3 * page.cell).clamp(2.5, 5.0);
+    for p in overlay.points.iter().filter(|p| on_map(page, p)).collect::<Vec<_>>() {
+        let at = page.point(p[0], p[1]);
+        marker.draw(&mut page.scene, at, radius, overlay.colour);
+    }
+}
+
+/// Lines with a white rim, visible on every colour of a map.
+fn draw_lines(page: &mut MapFrame, overlay: &Overlay) {
+    let mut path = PathBuilder::default();
+    for run in overlay.points.split(|p| !on_map(page, p)) {
+        let points: Vec<[f64; 2]> = run.iter().map(|p| page.point(p[0], p[1])).collect();
+        path.polyline(&points, false);
+    }
+    if path.is_empty() {
+        return;
+    }
+    let segments = path.finish();
+    page.scene.stroke(segments.clone(), Rgba::WHITE.with_opacity(0.9), 2.0 * overlay.width_px);
+    page.scene.stroke(segments, overlay.colour, overlay.width_px);
+}
+
+pub(crate) fn draw_sources(page: &mut MapFrame, sources: &[Cell], legend: &mut Vec<Entry>) {
+    for source in sources.iter().filter(|s| page.grid.contains(**s)).collect::<Vec<_>>() {
+        let at = page.centre(*source);
+        Marker::Star.draw(&mut page.scene, at, (0.38 * page.cell).clamp(4.0, 8.0), SOURCE);
+    }
+    if !sources.is_empty() {
+        let text = if sources.len() == 1 { "light source" } else { "light sources" };
+        legend.push(Entry::of(Mark::Point(Marker::Star, SOURCE), text));
+    }
+}

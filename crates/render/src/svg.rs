@@ -1,0 +1,197 @@
+//! Scenes as SVG: text as outlines, rasters as embedded PNG, fixed number formatting, no reference to anything outside.
+
+use crate::colour::Rgba;
+use crate::error::RenderError;
+use crate::font;
+use crate::png_export::raster_png;
+use crate::scene::{Anchor, Item, Path, Raster, Scene, Segment, Text};
+use base64::Engine;
+use std::fmt::Write;
+
+impl Scene {
+    /// The scene as a self-contained SVG document.
+    ///
+    /// # Errors
+    /// [`RenderError::PictureSize`] or [`RenderError::Encoding`] for a raster layer that is no picture.
+    pub fn to_svg(&self) -> Result<String, RenderError> {
+        let mut out = String::new();
+        let (w, h) = (number(self.width_px), number(self.height_px));
+        let _ = writeln!(
+            out,
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{w}" height="{h}" viewBox="0 0 {w} {h}" role="img">"#
+        );
+        let _ = writeln!(out, "<title>{}</title>", escaped(&self.title));
+        let _ = writeln!(out, "<desc>{}</desc>", escaped(&self.description));
+        let _ = writeln!(out, r##"<rect width="{w}" height="{h}" fill="#ffffff"/>"##);
+        write_items(&mut out, &self.items)?;
+        out.push_str("</svg>\n");
+        Ok(out)
+    }
+}
+
+fn write_items(out: &mut String, items: &[Item]) -> Result<(), RenderError> {
+    for item in items {
+        match item {
+            Item::Raster(raster) => write_raster(out, raster)?,
+            Item::Path(path) => write_path(out, path),
+            Item::Text(text) => write_text(out, text),
+            Item::Group { dx_px, dy_px, scale, items } => {
+                let (x, y) = (number(*dx_px), number(*dy_px));
+                let scaling = if *scale == 1.0 { String::new() } else { format!(" scale({scale:.5})") };
+                let _ = writeln!(out, r#"<g transform="translate({x} {y}){scaling}">"#);
+                write_items(out, items)?;
+                out.push_str("</g>\n");
+            }
+        }
+    }
+    Ok(())
+}
+
+fn write_raster(out: &mut String, raster: &Raster) -> Result<(), RenderError> {
+    let data = base64::engine::general_purpose::STANDARD.encode(raster_png(raster)?);
+    let (x, y) = (number(raster.x_px), number(raster.y_px));
+    let width = number(raster.cell_px * raster.columns as f64);
+    let height = number(raster.cell_px * raster.rows() as f64);
+    let _ = writeln!(
+        out,
+        r#"<image x="{x}" y="{y}" width="{width}" height="{height}" preserveAspectRatio="none" image-rendering="optimizeSpeed" style="image-rendering:pixelated" href="data:image/png;base64,{data}"/>"#
+    );
+    Ok(())
+}
+
+fn write_path(out: &mut String, path: &Path) {
+    if path.segments.is_empty() {
+        return;
+    }
+    let _ = write!(out, r#"<path d="{}""#, path_data(&path.segments, 100.0));
+    match path.fill {
+        Some(colour) => write_paint(out, "fill", colour),
+        None => out.push_str(r#" fill="none""#),
+    }
+    if let Some(stroke) = &path.stroke {
+        write_paint(out, "stroke", stroke.colour);
+        let _ = write!(
+            out,
+            r#" stroke-width="{}" stroke-linecap="round" stroke-linejoin="round""#,
+            number(stroke.width_px)
+        );
+        if !stroke.dash_px.is_empty() {
+            let dashes: Vec<String> = stroke.dash_px.iter().map(|d| number(*d)).collect();
+            let _ = write!(out, r#" stroke-dasharray="{}""#, dashes.join(" "));
+        }
+    }
+    out.push_str("/>\n");
+}
+
+fn write_paint(out: &mut String, property: &str, colour: Rgba) {
+    let Rgba { r, g, b, a } = colour;
+    let _ = write!(out, r##" {property}="#{r:02x}{g:02x}{b:02x}""##);
+    if a != 255 {
+        let _ = write!(out, r#" {property}-opacity="{}""#, number(f64::from(a) / 255.0));
+    }
+}
+
+fn write_text(out: &mut String, text: &Text) {
+    let segments = font::outline(&text.text);
+    if segments.is_empty() {
+        return;
+    }
+    let mut placing = format!("translate({} {})", number(text.x_px), number(text.y_px));
+    if text.rotation_deg != 0.0 {
+        let _ = write!(placing, " rotate({})", number(-text.rotation_deg));
+    }
+    let shift = anchor_shift(text);
+    if shift != 0.0 {
+        let _ = write!(placing, " translate({})", number(shift));
+    }
+    let scale = text.size_px / font::UNITS_PER_EM;
+    let _ = write!(out, r#"<path transform="{placing} scale({scale:.6} -{scale:.6})""#);
+    write_paint(out, "fill", text.colour);
+    // Font units are whole numbers.
+    let _ = writeln!(out, r#" d="{}"/>"#, path_data(&segments, 1.0));
+}
+
+/// Horizontal shift in pixels from the anchor point to the left end of a text.
+pub(crate) fn anchor_shift(text: &Text) -> f64 {
+    let width = font::text_width(&text.text, text.size_px);
+    match text.anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => -0.5 * width,
+        Anchor::End => -width,
+    }
+}
+
+/// Steps with coordinates rounded to whole `1/unit` pixels. Positions are rounded before differences are taken, so
+/// errors do not add up along relative steps.
+fn path_data(segments: &[Segment], unit: f64) -> String {
+    let mut out = String::new();
+    let mut pen = [0_i64; 2];
+    let mut start = pen;
+    let rounded = |p: [f64; 2]| p.map(|v| if v.is_finite() { (v * unit).round() as i64 } else { 0 });
+    for segment in segments {
+        match *segment {
+            Segment::Move(p) => {
+                pen = rounded(p);
+                start = pen;
+                write_points(&mut out, 'M', &[pen], [0, 0], unit);
+            }
+            Segment::Line(p) => {
+                let to = rounded(p);
+                write_points(&mut out, 'l', &[to], pen, unit);
+                pen = to;
+            }
+            Segment::Quad(c, p) => {
+                let to = rounded(p);
+                write_points(&mut out, 'q', &[rounded(c), to], pen, unit);
+                pen = to;
+            }
+            Segment::Cubic(c, d, p) => {
+                let to = rounded(p);
+                write_points(&mut out, 'c', &[rounded(c), rounded(d), to], pen, unit);
+                pen = to;
+            }
+            Segment::Close => {
+                out.push('z');
+                pen = start;
+            }
+        }
+    }
+    out
+}
+
+fn write_points(out: &mut String, letter: char, points: &[[i64; 2]], origin: [i64; 2], unit: f64) {
+    out.push(letter);
+    for (i, p) in points.iter().enumerate() {
+        for axis in 0..2 {
+            let text = number((p[axis] - origin[axis]) as f64 / unit);
+            if (i > 0 || axis > 0) && !text.starts_with('-') {
+                out.push(' ');
+            }
+            out.push_str(&text);
+        }
+    }
+}
+
+/// At most two decimals, without trailing zeros or a negative zero; 0 for what is not finite.
+fn number(value: f64) -> String {
+    let value = if value.is_finite() { value } else { 0.0 };
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            // XML 1.0 has no place for control characters, not even escaped.
+            c if c.is_control() => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}

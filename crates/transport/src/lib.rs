@@ -1,1 +1,28 @@
-//! Placeholder.
+//! The light propagation scheme: how light in one cell is passed on to its eight neighbours, step by step.
+//!
+//! [`SampleSpace`] computes it as the thesis writes it, on whole angular profiles; [`EightLobe`] computes the same numbers
+//! from eight fluxes a cell. Both are [`Engine`]s. This crate knows nothing of gradients, files or pictures.
+
+mod engine;
+mod error;
+mod kernel;
+mod light;
+mod oracle;
+mod pulses;
+mod reduced;
+mod scattering;
+mod scheme;
+mod sectors;
+mod simd;
+mod stopping;
+
+pub use engine::{Engine, Observer, Outcome, Problem, StepView};
+pub use error::TransportError;
+pub use light::{Emission, Light, emitter};
+pub use oracle::SampleSpace;
+pub use pulses::{LaneOf, LaneOutcome, PulseBlock, PulseSolver, l1_difference, l1_difference_of_lanes};
+pub use reduced::EightLobe;
+pub use scattering::Scattering;
+pub use scheme::{Scheme, SharedWeights, half_angle_beta_rad, half_core_alpha_rad, sector_lobes};
+pub use simd::Level;
+pub use stopping::{Stopping, StoppingRule};

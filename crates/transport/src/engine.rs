@@ -1,0 +1,85 @@
+//! What every propagation engine does.
+
+use crate::light::check_lights;
+use crate::{Light, Scheme, Stopping, TransportError};
+use std::ops::ControlFlow;
+use tigereye_core::{LightDistribution, StopReason, TransmissionField, Work};
+
+/// Everything that determines a propagation.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<'a> {
+    /// Weights and lobes.
+    pub scheme: &'a Scheme,
+    /// Transmission of every cell.
+    pub transmission: &'a TransmissionField,
+    /// The lights, one per cell at most.
+    pub lights: &'a [Light],
+    /// When to end.
+    pub stopping: Stopping,
+}
+
+impl Problem<'_> {
+    /// Checks that the parts fit together.
+    ///
+    /// # Errors
+    /// The first [`TransportError`] found.
+    pub fn check(&self) -> Result<(), TransportError> {
+        let directions = self.scheme.directions();
+        if self.transmission.directions() != directions {
+            let samples = self.transmission.directions().count();
+            return Err(TransportError::TransmissionDirections { samples, expected: directions.count() });
+        }
+        self.stopping.check()?;
+        check_lights(self.lights, self.transmission.grid(), directions)
+    }
+}
+
+/// The state after a step, for those who watch.
+pub trait StepView {
+    /// Number of the step, from 1.
+    fn step(&self) -> usize;
+    /// Flux passed between cells in this step, W: the sum of Phi_k over cells and existing neighbours.
+    fn total_flux(&self) -> f64;
+    /// Energy in the grid after the step, W, the lights' own included.
+    fn energy(&self) -> f64;
+    /// The whole distribution after the step.
+    fn distribution(&self) -> LightDistribution;
+}
+
+/// What a propagation leaves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// The light after the last step.
+    pub distribution: LightDistribution,
+    /// Why it ended.
+    pub stop: StopReason,
+    /// What it cost.
+    pub work: Work,
+}
+
+/// Called after every step; `Break` ends the propagation as the step limit would.
+pub type Observer<'a> = dyn FnMut(&dyn StepView) -> ControlFlow<()> + 'a;
+
+/// A way to compute the scheme. All engines give the same numbers up to rounding (1e-13 relative).
+pub trait Engine {
+    /// Name for reports.
+    fn name(&self) -> &'static str;
+
+    /// Propagates until the stopping rule is met, showing every step to `observe`.
+    ///
+    /// # Errors
+    /// What [`Problem::check`] finds.
+    fn propagate_observed(
+        &self,
+        problem: &Problem<'_>,
+        observe: &mut Observer<'_>,
+    ) -> Result<Outcome, TransportError>;
+
+    /// Propagates until the stopping rule is met.
+    ///
+    /// # Errors
+    /// What [`Problem::check`] finds.
+    fn propagate(&self, problem: &Problem<'_>) -> Result<Outcome, TransportError> {
+        self.propagate_observed(problem, &mut |_| ControlFlow::Continue(()))
+    }
+}

@@ -1,0 +1,77 @@
+//! What can be wrong with a propagation's arguments.
+
+use thiserror::Error;
+
+/// An argument that a propagation cannot work with.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum TransportError {
+    /// Nothing shines.
+    #[error("no light: expected at least one")]
+    NoLight,
+    /// A light outside the grid.
+    #[error("the light at ({x}, {y}) lies outside the field of {width} x {height} cells")]
+    LightOutside {
+        /// Column of the light.
+        x: usize,
+        /// Row of the light.
+        y: usize,
+        /// Grid width in cells.
+        width: usize,
+        /// Grid height in cells.
+        height: usize,
+    },
+    /// Two lights in one cell.
+    #[error("two lights at ({x}, {y}): expected one light per cell, add their profiles instead")]
+    LightTwice {
+        /// Column of the lights.
+        x: usize,
+        /// Row of the lights.
+        y: usize,
+    },
+    /// A light that is zero in every direction.
+    #[error("the light at ({x}, {y}) is 0 in every direction (negative values are clipped)")]
+    DarkLight {
+        /// Column of the light.
+        x: usize,
+        /// Row of the light.
+        y: usize,
+    },
+    /// A light with another sampling than the scheme's.
+    #[error("the light at ({x}, {y}) has {samples} directions where the scheme has {expected}")]
+    LightDirections {
+        /// Column of the light.
+        x: usize,
+        /// Row of the light.
+        y: usize,
+        /// Samples of the light.
+        samples: usize,
+        /// Samples of the scheme.
+        expected: usize,
+    },
+    /// A pulse in a sample that does not exist.
+    #[error("the pulse at ({x}, {y}) is in sample {sample}: expected 0 to {}", samples - 1)]
+    PulseSample {
+        /// Column of the light.
+        x: usize,
+        /// Row of the light.
+        y: usize,
+        /// Sample asked for.
+        sample: usize,
+        /// Number of samples.
+        samples: usize,
+    },
+    /// A transmission field with another sampling than the scheme's.
+    #[error("the transmission has {samples} directions where the scheme has {expected}")]
+    TransmissionDirections {
+        /// Samples of the transmission profiles.
+        samples: usize,
+        /// Samples of the scheme.
+        expected: usize,
+    },
+    /// A stopping threshold that is negative or not a number.
+    #[error("the stopping threshold is {threshold}: expected a number from 0")]
+    Threshold {
+        /// Threshold given.
+        threshold: f64,
+    },
+}

@@ -1,0 +1,122 @@
+//! What an experiment leaves: figures, checks, counters. The report and the summary are made of these.
+
+/// Everything one experiment produced.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExperimentOutcome {
+    /// Name of the experiment: its file without folder and ending.
+    pub slug: String,
+    /// Heading.
+    pub title: String,
+    /// What it reproduces, for example `Thesis, Fig. 4.8`.
+    pub source: String,
+    /// Section of the gallery, for example `4.5 Light transport gradient`. Sections are shown in ascending order.
+    pub section: String,
+    /// The sentence of the source that the figures support, or the claim examined.
+    pub claim: String,
+    /// What to look for in the figures, for someone who has not read the source.
+    pub look_for: String,
+    /// Figures in the order of the file.
+    pub figures: Vec<Figure>,
+    /// Checks in the order of the file.
+    pub checks: Vec<CheckOutcome>,
+    /// Work done, as (label, number) in the order of the runs.
+    pub work: Vec<(String, u64)>,
+    /// Data files beside the figures.
+    pub data: Vec<DataFile>,
+    /// Wall-clock seconds; not part of any snapshot.
+    pub seconds: f64,
+    /// The command that redoes exactly this experiment.
+    pub command: String,
+}
+
+impl ExperimentOutcome {
+    /// Whether every check passed.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        self.checks.iter().all(|c| c.passed)
+    }
+}
+
+/// A picture in both formats.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// File name without ending, unique in the experiment.
+    pub name: String,
+    /// What is seen, in one or two sentences under the picture.
+    pub caption: String,
+    /// Alternative text for those who cannot see it.
+    pub alt: String,
+    /// Width at scale 1, pixels.
+    pub width_px: f64,
+    /// Height at scale 1, pixels.
+    pub height_px: f64,
+    /// The picture as PNG.
+    pub png: Vec<u8>,
+    /// The picture as SVG.
+    pub svg: String,
+}
+
+/// A file of data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DataFile {
+    /// File name with ending, unique in the experiment.
+    pub name: String,
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+}
+
+/// A check after its run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckOutcome {
+    /// What is checked.
+    pub name: String,
+    /// The value of this run.
+    pub value: f64,
+    /// What was expected.
+    pub expected: Expected,
+    /// Where the expectation comes from: the thesis, the method, geometry, an independent run.
+    pub basis: String,
+    /// Whether the value meets the expectation.
+    pub passed: bool,
+}
+
+/// An expectation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Expected {
+    /// This value, give or take `tolerance` (same unit).
+    Near {
+        /// Value expected.
+        value: f64,
+        /// Largest absolute deviation accepted.
+        tolerance: f64,
+    },
+    /// At most this.
+    AtMost(f64),
+    /// At least this.
+    AtLeast(f64),
+}
+
+impl Expected {
+    /// Whether `value` meets it; a value that is not a number never does.
+    #[must_use]
+    pub fn is_met_by(&self, value: f64) -> bool {
+        match *self {
+            Self::Near { value: expected, tolerance } => (value - expected).abs() <= tolerance,
+            Self::AtMost(bound) => value <= bound,
+            Self::AtLeast(bound) => value >= bound,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checks_can_fail() {
+        let near = Expected::Near { value: 1.0, tolerance: 0.1 };
+        assert!(near.is_met_by(1.05) && !near.is_met_by(1.2) && !near.is_met_by(f64::NAN));
+        assert!(Expected::AtMost(1.0).is_met_by(1.0) && !Expected::AtMost(1.0).is_met_by(f64::NAN));
+        assert!(Expected::AtLeast(1.0).is_met_by(2.0) && !Expected::AtLeast(1.0).is_met_by(0.5));
+    }
+}

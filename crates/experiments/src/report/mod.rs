@@ -1,0 +1,1 @@
+//! The report: one page and one summary of all outcomes.

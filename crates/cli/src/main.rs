@@ -1,3 +1,48 @@
-//! Placeholder.
+//! The `tigereye` program: light through 2D tensor fields.
 //!
-fn main() {}
+//! The only place that opens files, reads clocks, owns threads and talks to people. Numbers come from the crates below.
+
+mod args;
+mod commands;
+mod error;
+mod files;
+mod host;
+mod input;
+mod interrupt;
+mod system;
+
+use args::{Cli, Command, FieldCommand};
+use clap::Parser;
+use error::CliError;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    // clap prints usage errors itself, to standard error, and exits with 2.
+    let cli = Cli::parse();
+    if let Err(error) = interrupt::install() {
+        return report(&error);
+    }
+    match dispatch(cli) {
+        Ok(code) => ExitCode::from(code),
+        Err(error) => report(&error),
+    }
+}
+
+/// Runs a command; the exit code where nothing went wrong: 0, or 1 for a failed check or comparison.
+fn dispatch(cli: Cli) -> Result<u8, CliError> {
+    match cli.command {
+        Command::Reproduce(a) => commands::reproduce::reproduce(&a),
+        Command::Run(a) => commands::reproduce::run(&a),
+        Command::Check(a) => commands::check::check(&a),
+        Command::Field(FieldCommand::List(a)) => commands::field::list(&a),
+        Command::Propagate(a) => commands::propagate::propagate(&a),
+        Command::Ltg(a) => commands::ltg::ltg(&a),
+        Command::Info(a) => commands::info::info(&a),
+        Command::Compare(a) => commands::compare::compare(&a),
+    }
+}
+
+fn report(error: &CliError) -> ExitCode {
+    eprintln!("tigereye: {error}");
+    ExitCode::from(error.exit_code())
+}

@@ -1,10 +1,26 @@
 //! Experiment files, their evaluation, checks and report.
 //!
 //! One `.ron` file is one experiment: it names fields, propagations and gradients, the figures to draw of them and the
-//! checks they must pass. `spec` (what may stand in a file) is resolved to `settings` (ranges checked, nothing
-//! optional left), run, and reported. This crate opens no files and reads no clocks: the program hands it both.
+//! checks they must pass. [`spec`] (what may stand in a file) is resolved to [`settings`] (ranges checked, names looked
+//! up, nothing optional left), run, and reported. This crate opens no files and reads no clocks: the program hands it
+//! both through [`Host`].
 
+mod digest;
+mod draw;
+mod evaluate;
+mod host;
+pub mod library;
+mod measure;
 mod outcome;
+pub mod provenance;
 pub mod report;
+mod runs;
+pub mod settings;
+pub mod spec;
+mod uses;
 
+pub use digest::Digest;
+pub use evaluate::{Evaluation, ExperimentError, evaluate, normalization_name};
+pub use host::Host;
 pub use outcome::{CheckOutcome, DataFile, Expected, ExperimentOutcome, Figure};
+pub use runs::RunError;

@@ -93,7 +93,8 @@ fn each_cell(
 }
 
 /// Values of [`ExpressionField::VARIABLES`] in a cell.
-fn variables(grid: Grid, cell: Cell) -> [f64; 7] {
+#[must_use]
+pub fn variables(grid: Grid, cell: Cell) -> [f64; 7] {
     // Twice the distance from the middle over the side: both exact, so that mirrored cells have opposite values.
     let centred = |k: usize, cells: usize| match cells - 1 {
         0 => 0.0,

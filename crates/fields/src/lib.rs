@@ -21,7 +21,7 @@ mod settings;
 pub use arguments::{Arguments, FieldSpec, parse_spec};
 pub use error::FieldError;
 pub use expression::{Expression, ExpressionError, ExpressionErrorKind};
-pub use expression_field::{ExpressionField, Form};
+pub use expression_field::{ExpressionField, Form, variables};
 pub use generator::{Generator, find, generate, generators};
 pub use parameter::{MAX_SIDE, Parameter, ParameterKind};
 pub use settings::Settings;

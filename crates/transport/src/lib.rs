@@ -18,7 +18,7 @@ mod stopping;
 
 pub use engine::{Engine, Observer, Outcome, Problem, StepView};
 pub use error::TransportError;
-pub use light::{Emission, Light, emitter};
+pub use light::{Emission, Light, check_lights, emitter};
 pub use oracle::SampleSpace;
 pub use pulses::{LaneOf, LaneOutcome, PulseBlock, PulseSolver, l1_difference, l1_difference_of_lanes};
 pub use reduced::EightLobe;

@@ -68,8 +68,11 @@ pub fn emitter(directions: Directions, theta0_rad: f64, m: f64) -> PolarProfile 
     })
 }
 
-/// Checks that the lights can be propagated.
-pub(crate) fn check_lights(
+/// Checks that the lights can be propagated in a grid with a sampling.
+///
+/// # Errors
+/// The first fault: no light, one outside the grid, two in a cell, a dark one, another sampling.
+pub fn check_lights(
     lights: &[Light],
     grid: Grid,
     directions: Directions,

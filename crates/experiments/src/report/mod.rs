@@ -1,1 +1,32 @@
 //! The report: one page and one summary of all outcomes.
+
+mod contents;
+mod figures;
+mod gallery;
+mod glossary;
+mod introduction;
+mod links;
+mod numbers;
+mod page;
+mod summary;
+#[cfg(test)]
+mod tests;
+mod verdict;
+
+pub use page::html;
+pub use summary::summary_json;
+
+/// What the page says about the run as a whole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct About {
+    /// Version of the program.
+    pub version: String,
+    /// Wall-clock seconds of the whole run.
+    pub seconds: f64,
+    /// The command line that was run.
+    pub command: String,
+    /// Whether the thesis's own resolutions were run.
+    pub full: bool,
+    /// Number of threads; the results do not depend on it.
+    pub threads: usize,
+}

@@ -1,0 +1,300 @@
+//! The command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+use tigereye_core::{Below, Directions, Normalization};
+
+/// Shows 2D tensor fields by letting light run through them.
+#[derive(Debug, Parser)]
+#[command(name = "tigereye", version, arg_required_else_help = true, max_term_width = 100)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Recompute every evaluation of the thesis and write a report.
+    Reproduce(ReproduceArgs),
+    /// Run experiment files and write a report of them.
+    Run(RunArgs),
+    /// Parse and validate experiment files without running them.
+    Check(CheckArgs),
+    /// The test fields.
+    #[command(subcommand)]
+    Field(FieldCommand),
+    /// One light distribution.
+    Propagate(PropagateArgs),
+    /// The light transport gradient volume.
+    Ltg(LtgArgs),
+    /// What a tensor field holds and how it was read.
+    Info(InfoArgs),
+    /// Difference of two results.
+    Compare(CompareArgs),
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum FieldCommand {
+    /// All generators with their parameters and defaults.
+    List(FieldListArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReproduceArgs {
+    /// Folder for the report, figures and data.
+    #[arg(long, value_name = "DIR", default_value = "results")]
+    pub(crate) out: PathBuf,
+    /// Only this experiment; may be repeated.
+    #[arg(long, value_name = "SLUG")]
+    pub(crate) only: Vec<String>,
+    /// The thesis's own resolutions: takes much longer.
+    #[arg(long)]
+    pub(crate) full: bool,
+    /// Take the experiment files of this folder instead of the built-in ones.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) experiments: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RunArgs {
+    /// Experiment files.
+    #[arg(required = true, value_name = "FILE.ron")]
+    pub(crate) files: Vec<PathBuf>,
+    /// Folder for the report, figures and data.
+    #[arg(long, value_name = "DIR", default_value = "results")]
+    pub(crate) out: PathBuf,
+    /// Also the runs that are marked `scope: Full`.
+    #[arg(long)]
+    pub(crate) full: bool,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    /// Experiment files.
+    #[arg(required = true, value_name = "FILE.ron")]
+    pub(crate) files: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FieldListArgs {
+    /// As JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What a computation may use.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct Resources {
+    /// Threads; all processors by default. Results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    pub(crate) threads: Option<usize>,
+    /// Upper bound on memory, bytes (suffixes K, M, G); half of the machine's by default.
+    #[arg(long, value_name = "BYTES", value_parser = parse_bytes)]
+    pub(crate) memory: Option<u64>,
+}
+
+/// What determines a propagation.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct SchemeArgs {
+    /// Angular samples S, a multiple of 8.
+    #[arg(long, value_name = "N", default_value = "32", value_parser = parse_directions)]
+    pub(crate) directions: Directions,
+    /// Stop when the stopping rule's measure falls below F; 0 never stops early.
+    #[arg(long, value_name = "F", default_value = "0.5", value_parser = parse_threshold)]
+    pub(crate) threshold: f64,
+    /// At most N+1 steps.
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub(crate) max_iterations: usize,
+    /// What the threshold is compared with.
+    #[arg(long, value_enum, default_value_t = StopRule::Flux)]
+    pub(crate) stop: StopRule,
+    /// global, local, local-above:F or local-above-global:F; `local` for generators and .txt, `global` otherwise.
+    #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
+    pub(crate) normalization: Option<Normalization>,
+    /// Array of a .vti to take the tensors from.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) array: Option<String>,
+}
+
+/// Stopping rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StopRule {
+    /// Change of the total transported flux between two steps, W.
+    Flux,
+    /// Sum of the changes of all profiles, W.
+    Distribution,
+    /// That sum over the energy at most 1e-10; ignores --threshold and --max-iterations.
+    Stationary,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PropagateArgs {
+    /// A file (.txt, .npy, .vti) or a generator, NAME or NAME:key=value,key=value.
+    pub(crate) input: String,
+    /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1).
+    #[arg(long = "light", value_name = "X,Y[,PROFILE]", required = true)]
+    pub(crate) lights: Vec<String>,
+    /// The lights flash once instead of shining all the time.
+    #[arg(long)]
+    pub(crate) impulse: bool,
+    /// Exactly N steps instead of a stopping rule.
+    #[arg(long, value_name = "N")]
+    pub(crate) steps: Option<usize>,
+    /// Outputs by their endings: .vti, .npy, .png, .svg.
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
+    pub(crate) outputs: Vec<PathBuf>,
+    /// What pictures show.
+    #[arg(long, value_enum, default_value_t = Picture::Overlay)]
+    pub(crate) picture: Picture,
+    #[command(flatten)]
+    pub(crate) scheme: SchemeArgs,
+    /// Summary as JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What a picture of a light distribution shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Picture {
+    /// Transmission (red) and light (blue) of every cell.
+    Overlay,
+    /// Energy of every cell, logarithmic.
+    Energy,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LtgArgs {
+    /// A file (.txt, .npy, .vti) or a generator, NAME or NAME:key=value,key=value.
+    pub(crate) input: String,
+    /// Output: .vti or .npy.
+    #[arg(short, long = "output", value_name = "OUT")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) scheme: SchemeArgs,
+    /// Half-width of the angular difference, samples; ceil(S/12) by default.
+    #[arg(long, value_name = "K")]
+    pub(crate) omega_step: Option<usize>,
+    /// Only these angular slices (sample indices); the output then holds just them, ascending.
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
+    pub(crate) slices: Option<Vec<usize>>,
+    /// Precision of the computation.
+    #[arg(long, value_enum, default_value_t = Precision::F64)]
+    pub(crate) precision: Precision,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
+    /// Summary as JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Precision of a sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Precision {
+    /// Double precision.
+    F64,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct InfoArgs {
+    /// A file (.txt, .npy, .vti) or a generator, NAME or NAME:key=value,key=value.
+    pub(crate) input: String,
+    /// Array of a .vti to take the tensors from.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) array: Option<String>,
+    /// As JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompareArgs {
+    /// The first result: .vti, .npy, .txt or a generator.
+    pub(crate) a: String,
+    /// The second result.
+    pub(crate) b: String,
+    /// Largest relative difference accepted: the L2 difference over the L2 norm of A, and the largest difference over the
+    /// largest value of A.
+    #[arg(long, value_name = "REL", default_value = "1e-10", value_parser = parse_threshold)]
+    pub(crate) tolerance: f64,
+    /// Angular slices of volumes to leave out (sample indices).
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
+    pub(crate) except_slices: Vec<usize>,
+}
+
+fn parse_directions(text: &str) -> Result<Directions, String> {
+    let samples =
+        text.parse().map_err(|_| format!("expected a multiple of 8 from 8 to {}", Directions::MAX))?;
+    Directions::new(samples).map_err(|e| e.to_string())
+}
+
+fn parse_threshold(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x >= 0.0 => Ok(x),
+        _ => Err("expected a finite number from 0".to_owned()),
+    }
+}
+
+fn parse_threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 1..=1024) => Ok(n),
+        _ => Err("expected 1 to 1024".to_owned()),
+    }
+}
+
+fn parse_bytes(text: &str) -> Result<u64, String> {
+    let expected = || "expected a number of bytes, for example 2000000000, 800M or 2G".to_owned();
+    let (digits, factor) = match text.char_indices().last() {
+        Some((i, 'k' | 'K')) => (&text[..i], 1 << 10),
+        Some((i, 'm' | 'M')) => (&text[..i], 1 << 20),
+        Some((i, 'g' | 'G')) => (&text[..i], 1 << 30),
+        _ => (text, 1),
+    };
+    let count: u64 = digits.parse().map_err(|_| expected())?;
+    count.checked_mul(factor).filter(|b| *b > 0).ok_or_else(expected)
+}
+
+fn parse_normalization(text: &str) -> Result<Normalization, String> {
+    let fraction = |f: &str, below| match f.parse::<f64>() {
+        Ok(fraction) if (0.0..=1.0).contains(&fraction) => Ok(Normalization::LocalAbove { fraction, below }),
+        _ => Err(format!("`{f}` is no fraction: expected a number from 0 to 1")),
+    };
+    match text.split_once(':') {
+        None if text == "global" => Ok(Normalization::Global),
+        None if text == "local" => Ok(Normalization::Local),
+        Some(("local-above", f)) => fraction(f, Below::Absorb),
+        Some(("local-above-global", f)) => fraction(f, Below::Global),
+        _ => Err("expected global, local, local-above:F or local-above-global:F".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn bytes_have_suffixes() {
+        assert_eq!(parse_bytes("2G"), Ok(2 << 30));
+        assert_eq!(parse_bytes("12"), Ok(12));
+        assert!(
+            parse_bytes("0").is_err() && parse_bytes("x").is_err() && parse_bytes("99999999999G").is_err()
+        );
+        assert!(parse_bytes("").is_err() && parse_bytes("ü").is_err());
+    }
+
+    #[test]
+    fn normalisations_are_spelled_as_documented() {
+        assert_eq!(parse_normalization("global"), Ok(Normalization::Global));
+        assert!(matches!(parse_normalization("local-above:0.25"), Ok(Normalization::LocalAbove { .. })));
+        assert!(parse_normalization("local-above:2").is_err() && parse_normalization("nothing").is_err());
+    }
+}

@@ -1,0 +1,27 @@
+//! `tigereye check`: experiment files, parsed and validated.
+
+use crate::args::CheckArgs;
+use crate::commands::print_text;
+use crate::commands::reproduce::{Source, prepare};
+use crate::error::CliError;
+
+pub(crate) fn check(args: &CheckArgs) -> Result<u8, CliError> {
+    let mut faults = Vec::new();
+    for path in &args.files {
+        // The full run is the stricter one: every run, figure and check is looked at.
+        match Source::from_file(path).and_then(|source| prepare(&source, true)) {
+            Ok(settings) => {
+                let e = &settings.experiment;
+                let (figures, checks) = (e.figures.len(), e.checks.len());
+                print_text(&format!(
+                    "{}: ok, {} runs, {figures} figures, {checks} checks\n",
+                    path.display(),
+                    settings.runs.len()
+                ));
+            }
+            Err(CliError::Inputs(found)) => faults.extend(found),
+            Err(e) => faults.push(e.to_string()),
+        }
+    }
+    if faults.is_empty() { Ok(0) } else { Err(CliError::Inputs(faults)) }
+}

@@ -1,0 +1,194 @@
+//! `tigereye compare`: the difference of two results.
+
+use crate::args::CompareArgs;
+use crate::commands::print_text;
+use crate::error::CliError;
+use crate::files;
+use crate::input::Input;
+use std::path::Path;
+use tigereye_core::{Field, Tensor2};
+use tigereye_io::{npy, vti};
+
+/// Numbers with a shape, slowest index first.
+struct Numbers {
+    what: String,
+    shape: Vec<usize>,
+    /// Sample index of each entry of the first axis, for volumes.
+    slices: Option<Vec<usize>>,
+    values: Vec<f64>,
+}
+
+pub(crate) fn compare(args: &CompareArgs) -> Result<u8, CliError> {
+    let a = numbers(&args.a)?.without_slices(&args.except_slices);
+    let b = numbers(&args.b)?.without_slices(&args.except_slices);
+    if a.shape != b.shape {
+        return Err(CliError::Input(format!(
+            "{} is {} of shape {:?}, {} is {} of shape {:?}: expected the same shape",
+            args.a, a.what, a.shape, args.b, b.what, b.shape
+        )));
+    }
+    if let (Some(x), Some(y)) = (&a.slices, &b.slices)
+        && x != y
+    {
+        return Err(CliError::Input(format!("slices {x:?} and {y:?}: expected the same")));
+    }
+    let difference = Difference::between(&a, &b);
+    print_text(&difference.text(&a));
+    Ok(u8::from(!difference.is_within(args.tolerance)))
+}
+
+fn numbers(text: &str) -> Result<Numbers, CliError> {
+    let path = Path::new(text);
+    match files::extension(path).as_str() {
+        "npy" => {
+            let array = npy::read_array(&files::read(path)?).map_err(|e| CliError::input(text, e))?;
+            Ok(Numbers {
+                what: "an array".to_owned(),
+                shape: array.shape,
+                slices: None,
+                values: array.values,
+            })
+        }
+        "vti" => image(text, &files::read(path)?),
+        _ => Input::open(text, None).map(|input| of_tensors(&input.field)),
+    }
+}
+
+/// A volume where the file is one, otherwise the tensors, otherwise the only array.
+fn image(text: &str, bytes: &[u8]) -> Result<Numbers, CliError> {
+    let image = vti::read(bytes).map_err(|e| CliError::input(text, e))?;
+    if let Ok(volume) = tigereye_io::ltg_from_image(&image) {
+        let shape = vec![volume.slices.len(), volume.grid.height(), volume.grid.width()];
+        let what = "a gradient volume".to_owned();
+        return Ok(Numbers { what, shape, slices: Some(volume.slices), values: volume.values });
+    }
+    if let Ok(tensors) = tigereye_io::tensors_from_image(&image, None) {
+        return Ok(of_tensors(&tensors.field));
+    }
+    let array = image.point_array("intensity").or(image.point_arrays.first());
+    let Some(array) = array else { return Err(CliError::input(text, "holds no point array to compare")) };
+    let [w, h, d] = image.dimensions;
+    let shape = [d, h, w, array.components].into_iter().filter(|n| *n > 1).collect();
+    Ok(Numbers {
+        what: format!("the array {}", array.name),
+        shape,
+        slices: None,
+        values: array.values.clone(),
+    })
+}
+
+fn of_tensors(field: &Field<Tensor2>) -> Numbers {
+    let shape = vec![field.grid().height(), field.grid().width(), 2, 2];
+    let values = field.values().iter().flat_map(Tensor2::components).collect();
+    Numbers { what: "a tensor field".to_owned(), shape, slices: None, values }
+}
+
+impl Numbers {
+    fn without_slices(mut self, except: &[usize]) -> Self {
+        let Some(slices) = self.slices.take() else { return self };
+        let size: usize = self.shape[1..].iter().product();
+        let kept: Vec<usize> = (0..slices.len()).filter(|&i| !except.contains(&slices[i])).collect();
+        self.values = kept.iter().flat_map(|&i| self.values[i * size..(i + 1) * size].to_vec()).collect();
+        self.shape[0] = kept.len();
+        self.slices = Some(kept.into_iter().map(|i| slices[i]).collect());
+        self
+    }
+
+    /// Indices of a position, slowest first.
+    fn place(&self, mut position: usize) -> Vec<usize> {
+        let mut place = vec![0; self.shape.len()];
+        for (p, n) in place.iter_mut().zip(&self.shape).rev() {
+            *p = position % n;
+            position /= n;
+        }
+        if let (Some(first), Some(slices)) = (place.first_mut(), &self.slices) {
+            *first = slices[*first];
+        }
+        place
+    }
+}
+
+struct Difference {
+    largest: f64,
+    at: usize,
+    /// Largest difference over the largest magnitude of A.
+    largest_relative: f64,
+    /// L2 norm of the difference over that of A.
+    l2_relative: f64,
+    /// Values that are not a number on one side only.
+    unmatched: usize,
+}
+
+impl Difference {
+    fn between(a: &Numbers, b: &Numbers) -> Self {
+        let (mut largest, mut at, mut unmatched) = (0.0, 0, 0);
+        let (mut square, mut norm, mut top): (f64, f64, f64) = (0.0, 0.0, 0.0);
+        for (i, (&x, &y)) in a.values.iter().zip(&b.values).enumerate() {
+            if x.is_nan() || y.is_nan() {
+                unmatched += usize::from(x.is_nan() != y.is_nan());
+                continue;
+            }
+            let off = if x == y { 0.0 } else { (x - y).abs() };
+            if off > largest {
+                (largest, at) = (off, i);
+            }
+            square += off * off;
+            norm += x * x;
+            top = top.max(x.abs());
+        }
+        let relative = |x: f64, y: f64| match (x, y) {
+            (0.0, _) => 0.0,
+            (_, 0.0) => f64::INFINITY,
+            _ => x / y,
+        };
+        let l2_relative = relative(square.sqrt(), norm.sqrt());
+        Self { largest, at, largest_relative: relative(largest, top), l2_relative, unmatched }
+    }
+
+    fn is_within(&self, tolerance: f64) -> bool {
+        self.unmatched == 0 && self.l2_relative <= tolerance && self.largest_relative <= tolerance
+    }
+
+    fn text(&self, a: &Numbers) -> String {
+        let place = if self.largest > 0.0 { format!(" at {:?}", a.place(self.at)) } else { String::new() };
+        let unmatched = match self.unmatched {
+            0 => String::new(),
+            n => format!("\n{n} values are not a number on one side only"),
+        };
+        format!(
+            "{} of shape {:?}\nlargest difference {:e} ({:e} of the largest value){place}\nrelative L2 difference {:e}{unmatched}\n",
+            a.what, a.shape, self.largest, self.largest_relative, self.l2_relative
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(values: &[f64]) -> Numbers {
+        Numbers { what: "x".into(), shape: vec![2, values.len() / 2], slices: None, values: values.to_vec() }
+    }
+
+    #[test]
+    fn differences_are_found_and_placed() {
+        let (a, b) = (numbers(&[1.0, 2.0, 3.0, 4.0]), numbers(&[1.0, 2.0, 3.5, 4.0]));
+        let d = Difference::between(&a, &b);
+        assert_eq!((d.largest, a.place(d.at), d.largest_relative), (0.5, vec![1, 0], 0.125));
+        assert!(!d.is_within(0.01) && d.is_within(0.2));
+        assert!(Difference::between(&a, &a).is_within(0.0));
+    }
+
+    #[test]
+    fn a_missing_number_is_never_within() {
+        let (a, b) = (numbers(&[1.0, f64::NAN]), numbers(&[1.0, 2.0]));
+        assert!(!Difference::between(&a, &b).is_within(1e9));
+        assert!(Difference::between(&a, &a).is_within(0.0));
+    }
+
+    #[test]
+    fn zero_against_something_is_infinitely_far() {
+        let (a, b) = (numbers(&[0.0, 0.0]), numbers(&[0.0, 1e-300]));
+        assert!(!Difference::between(&a, &b).is_within(1.0));
+    }
+}

@@ -1,0 +1,115 @@
+//! `tigereye info`: what a tensor field holds and how it was read.
+
+use crate::args::InfoArgs;
+use crate::commands::{print_json, print_text};
+use crate::error::CliError;
+use crate::input::Input;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Tensor2, is_totally_anisotropic};
+
+/// Relative difference of the half-axes below which a tensor counts as degenerate.
+const DEGENERATE_BELOW: f64 = 1e-9;
+/// `|xy - yx|` over the largest component above which a tensor counts as asymmetric.
+const ASYMMETRIC_ABOVE: f64 = 1e-9;
+
+pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
+    let input = Input::open(&args.input, args.array.as_deref())?;
+    let facts = facts(&input);
+    if args.json {
+        print_json(&facts);
+    } else {
+        print_text(&as_text(&facts));
+    }
+    Ok(0)
+}
+
+fn facts(input: &Input) -> Value {
+    let field = &input.field;
+    let grid = field.grid();
+    let share = |test: &dyn Fn(&Tensor2) -> bool| {
+        field.values().iter().filter(|t| test(t)).count() as f64 / grid.cells() as f64
+    };
+    json!({
+        "input": input.name,
+        "kind": input.kind,
+        "width": grid.width(),
+        "height": grid.height(),
+        "cells": grid.cells(),
+        "origin": input.origin,
+        "spacing": input.spacing,
+        "component_order": "xx,xy,yx,yy",
+        "frame": "x right, y up, row 0 on top",
+        "assumptions": input.assumptions,
+        "input_blake3": input.blake3,
+        "components": {
+            "xx": range(field, Tensor2::xx), "xy": range(field, Tensor2::xy),
+            "yx": range(field, Tensor2::yx), "yy": range(field, Tensor2::yy),
+        },
+        "singular_values": { "s1": range(field, |t| Svd::of(t).s[0]), "s2": range(field, |t| Svd::of(t).s[1]) },
+        "fractional_anisotropy": range(field, |t| Anisotropy::of(t).fractional),
+        "shares": {
+            "zero": share(&Tensor2::is_zero),
+            "degenerate": share(&is_degenerate),
+            "asymmetric": share(&|t| t.asymmetry() > ASYMMETRIC_ABOVE * t.max_abs()),
+            "indefinite": share(&|t| Eigenvalues::of(t).is_indefinite()),
+            "total_anisotropy": share(&|t| !t.is_zero() && is_totally_anisotropic(t)),
+        },
+    })
+}
+
+/// Half-axes of equal length: the direction of the tensor is undefined. Zero tensors are counted apart.
+fn is_degenerate(t: &Tensor2) -> bool {
+    !t.is_zero() && 1.0 - Svd::of(t).axis_ratio() <= DEGENERATE_BELOW
+}
+
+fn range(field: &Field<Tensor2>, f: impl Fn(&Tensor2) -> f64) -> Value {
+    let (mut low, mut high, mut sum) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
+    for v in field.values().iter().map(f) {
+        low = low.min(v);
+        high = high.max(v);
+        sum += v;
+    }
+    json!({ "min": low, "max": high, "mean": sum / field.grid().cells() as f64 })
+}
+
+fn as_text(facts: &Value) -> String {
+    let mut text = String::new();
+    let number = |v: &Value| v.as_f64().map_or_else(String::new, |x| format!("{x:.6e}"));
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "{} ({}): {} x {} cells, spacing {}",
+        facts["input"].as_str().unwrap_or_default(),
+        facts["kind"].as_str().unwrap_or_default(),
+        facts["width"],
+        facts["height"],
+        facts["spacing"]
+    );
+    for line in facts["assumptions"].as_array().into_iter().flatten() {
+        let _ = writeln!(text, "  {}", line.as_str().unwrap_or_default());
+    }
+    let rows = [
+        ("xx", &facts["components"]["xx"]),
+        ("xy", &facts["components"]["xy"]),
+        ("yx", &facts["components"]["yx"]),
+        ("yy", &facts["components"]["yy"]),
+        ("s1", &facts["singular_values"]["s1"]),
+        ("s2", &facts["singular_values"]["s2"]),
+        ("FA", &facts["fractional_anisotropy"]),
+    ];
+    for (name, r) in rows {
+        let _ = writeln!(
+            text,
+            "  {name}  min {:>14}  max {:>14}  mean {:>14}",
+            number(&r["min"]),
+            number(&r["max"]),
+            number(&r["mean"])
+        );
+    }
+    for (name, share) in facts["shares"].as_object().into_iter().flatten() {
+        let percent = share.as_f64().unwrap_or(0.0) * 100.0;
+        let _ = writeln!(text, "  {:<18} {percent:.2} %", name.replace('_', " "));
+    }
+    text
+}

@@ -1,0 +1,193 @@
+//! `tigereye propagate`: one light distribution.
+
+use crate::args::{Picture, PropagateArgs, SchemeArgs, StopRule};
+use crate::commands::{command_line, print_json, print_text};
+use crate::error::CliError;
+use crate::input::Input;
+use crate::{files, interrupt, system};
+use serde_json::{Value, json};
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::Instant;
+use tigereye_core::{Cell, Normalization, PolarProfile, TransmissionField};
+use tigereye_experiments::normalization_name;
+use tigereye_experiments::provenance::provenance;
+use tigereye_experiments::settings::profile_of_expression;
+use tigereye_io::{npy, vti};
+use tigereye_render::{
+    HeatOptions, HeatScale, PolarOptions, Scene, TransmissionScale, heat_map, polar_overlay,
+};
+use tigereye_transport::{
+    EightLobe, Engine, Light, Outcome, Problem, Scheme, SharedWeights, Stopping, StoppingRule,
+};
+
+/// Resolution of PNG pictures.
+const PNG_SCALE: f64 = 2.0;
+
+pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
+    for output in &args.outputs {
+        check_output(output)?;
+    }
+    let start = Instant::now();
+    let input = Input::open(&args.input, args.scheme.array.as_deref())?;
+    let normalization = input.normalization(args.scheme.normalization);
+    let lights = args.lights.iter().map(|l| light(l, args)).collect::<Result<Vec<_>, _>>()?;
+    let transmission = TransmissionField::from_tensors(&input.field, args.scheme.directions, normalization)
+        .map_err(|e| CliError::input(&input.name, e))?;
+    let scheme = Scheme::new(args.scheme.directions, SharedWeights::Thesis);
+    let stopping = args.steps.map_or_else(|| stopping_of(&args.scheme), Stopping::steps);
+    let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
+    let outcome = EightLobe
+        .propagate_observed(&problem, &mut |_| {
+            if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
+        .map_err(|e| CliError::Input(e.to_string()))?;
+    interrupt::check()?;
+    let parameters = parameters(args, normalization);
+    for output in &args.outputs {
+        files::write(output, &encoded(output, args, &input, &problem, &outcome, &parameters)?)?;
+    }
+    report(args, &input, &outcome, start.elapsed().as_secs_f64());
+    Ok(0)
+}
+
+/// Refuses an output before anything is computed.
+fn check_output(output: &Path) -> Result<(), CliError> {
+    match files::extension(output).as_str() {
+        "vti" | "npy" | "png" | "svg" => files::check_writable(output),
+        _ => Err(CliError::input(
+            &output.display().to_string(),
+            "the ending tells the format: expected .vti, .npy, .png or .svg",
+        )),
+    }
+}
+
+/// `X,Y[,PROFILE]`; the profile may hold commas itself.
+fn light(text: &str, args: &PropagateArgs) -> Result<Light, CliError> {
+    let fault = |problem: String| CliError::input(&format!("--light {text}"), problem);
+    let mut parts = text.splitn(3, ',');
+    let mut coordinate = |name: &str| {
+        let part = parts.next().unwrap_or_default().trim();
+        part.parse::<usize>()
+            .map_err(|_| fault(format!("`{part}` is no {name}: expected X,Y or X,Y,PROFILE")))
+    };
+    let cell = Cell::new(coordinate("column")?, coordinate("row")?);
+    let directions = args.scheme.directions;
+    let profile = match parts.next() {
+        None => PolarProfile::constant(directions, 1.0),
+        Some(expression) => profile_of_expression(expression, directions).map_err(fault)?,
+    };
+    Ok(if args.impulse { Light::impulse(cell, profile) } else { Light::continuous(cell, profile) })
+}
+
+/// The stopping rule of the options.
+pub(crate) fn stopping_of(args: &SchemeArgs) -> Stopping {
+    let rule = match args.stop {
+        StopRule::Flux => StoppingRule::FluxChange { threshold: args.threshold },
+        StopRule::Distribution => StoppingRule::DistributionChange { threshold: args.threshold },
+        StopRule::Stationary => return Stopping::STATIONARY,
+    };
+    Stopping { rule, max_iterations: args.max_iterations }
+}
+
+/// The name of a stopping rule as the option spells it.
+pub(crate) const fn stop_name(rule: StopRule) -> &'static str {
+    match rule {
+        StopRule::Flux => "flux",
+        StopRule::Distribution => "distribution",
+        StopRule::Stationary => "stationary",
+    }
+}
+
+fn parameters(args: &PropagateArgs, normalization: Normalization) -> Value {
+    json!({
+        "input": args.input,
+        "light": args.lights,
+        "impulse": args.impulse,
+        "steps": args.steps,
+        "directions": args.scheme.directions.count(),
+        "threshold": args.scheme.threshold,
+        "max_iterations": args.scheme.max_iterations,
+        "stop": stop_name(args.scheme.stop),
+        "normalization": normalization_name(normalization),
+    })
+}
+
+fn encoded(
+    output: &Path,
+    args: &PropagateArgs,
+    input: &Input,
+    problem: &Problem<'_>,
+    outcome: &Outcome,
+    parameters: &Value,
+) -> Result<Vec<u8>, CliError> {
+    let name = output.display().to_string();
+    let light = &outcome.distribution;
+    match files::extension(output).as_str() {
+        "npy" => Ok(npy::write_light(light)),
+        "vti" => {
+            let story = provenance(&command_line(), parameters, &input.blake3);
+            vti::write(&tigereye_io::image_from_light(light, &story)).map_err(|e| CliError::input(&name, e))
+        }
+        "png" => picture(args, problem, outcome).to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
+        _ => picture(args, problem, outcome)
+            .to_svg()
+            .map(String::into_bytes)
+            .map_err(|e| CliError::input(&name, e)),
+    }
+}
+
+fn picture(args: &PropagateArgs, problem: &Problem<'_>, outcome: &Outcome) -> Scene {
+    let sources: Vec<Cell> = problem.lights.iter().map(|l| l.cell).collect();
+    let title = args.input.clone();
+    match args.picture {
+        Picture::Overlay => {
+            let options = PolarOptions {
+                title,
+                sources,
+                transmission: TransmissionScale::Rate,
+                ..PolarOptions::default()
+            };
+            polar_overlay(Some(problem.transmission), Some(&outcome.distribution), &options)
+        }
+        Picture::Energy => {
+            let options = HeatOptions {
+                title,
+                sources,
+                quantity: "energy of a cell / W".to_owned(),
+                scale: HeatScale::Logarithmic { decades: 4.0 },
+                ..HeatOptions::default()
+            };
+            heat_map(&outcome.distribution.energy(), &options)
+        }
+    }
+}
+
+fn report(args: &PropagateArgs, input: &Input, outcome: &Outcome, seconds: f64) {
+    let grid = input.field.grid();
+    let energy = outcome.distribution.energy();
+    let largest = energy.values().iter().fold(0.0, |m: f64, &e| m.max(e));
+    let stop = format!("{:?}", outcome.stop);
+    if args.json {
+        print_json(&json!({
+            "width": grid.width(),
+            "height": grid.height(),
+            "directions": args.scheme.directions.count(),
+            "sources": args.lights.len(),
+            "iterations_total": outcome.work.steps,
+            "iterations_max": outcome.work.steps,
+            "cell_updates": outcome.work.cell_updates,
+            "seconds": { "total": seconds },
+            "peak_memory_bytes": system::peak_memory(),
+            "stop": stop,
+            "energy": outcome.distribution.total_energy(),
+            "max": largest,
+            "mean": outcome.distribution.total_energy() / grid.cells() as f64,
+        }));
+    } else {
+        let (steps, energy) = (outcome.work.steps, outcome.distribution.total_energy());
+        print_text(&format!(
+            "{steps} steps ({stop}), energy in the grid {energy:.6} W, brightest cell {largest:.6} W\n"
+        ));
+    }
+}

@@ -1,0 +1,255 @@
+//! `tigereye reproduce` and `tigereye run`: experiments to a report.
+
+use crate::args::{ReproduceArgs, Resources, RunArgs};
+use crate::commands::print_text;
+use crate::error::CliError;
+use crate::host::FileHost;
+use crate::{files, interrupt, system};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use tigereye_experiments::report::{self, About};
+use tigereye_experiments::settings::{Settings, resolve, slug_of};
+use tigereye_experiments::{
+    ExperimentError, ExperimentOutcome, RunError, evaluate, library, provenance, spec,
+};
+
+/// Largest number of experiment files in a folder.
+const MAX_FILES: usize = 10_000;
+
+/// An experiment file, read.
+pub(crate) struct Source {
+    /// As messages name it.
+    name: String,
+    text: String,
+    /// Its folder; `None` for a built-in one.
+    folder: Option<PathBuf>,
+}
+
+impl Source {
+    pub(crate) fn from_file(path: &Path) -> Result<Self, CliError> {
+        let folder = path
+            .parent()
+            .filter(|p| !p.as_os_str().is_empty())
+            .map_or_else(|| PathBuf::from("."), PathBuf::from);
+        Ok(Self { name: path.display().to_string(), text: files::read_text(path)?, folder: Some(folder) })
+    }
+
+    fn slug(&self) -> String {
+        slug_of(&self.name)
+    }
+}
+
+/// Parses and resolves an experiment; every fault is a line of its own.
+pub(crate) fn prepare(source: &Source, full: bool) -> Result<Settings, CliError> {
+    let host = FileHost::new(source.folder.clone(), source.slug());
+    let experiment =
+        spec::load(&source.name, &source.text).map_err(|e| CliError::Inputs(vec![e.to_string()]))?;
+    resolve(&source.name, &source.text, experiment, full, &host)
+        .map_err(|faults| CliError::Inputs(faults.iter().map(ToString::to_string).collect()))
+}
+
+pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<u8, CliError> {
+    let mut sources = match &args.experiments {
+        None => library::experiments()
+            .into_iter()
+            .map(|(path, text)| Source {
+                name: format!("experiments/{path}"),
+                text: text.to_owned(),
+                folder: None,
+            })
+            .collect(),
+        Some(folder) => in_folder(folder)?,
+    };
+    check_slugs(&sources)?;
+    if let Some(unknown) = args.only.iter().find(|only| !sources.iter().any(|s| s.slug() == **only)) {
+        let known: Vec<String> = sources.iter().map(Source::slug).collect();
+        return Err(CliError::Input(format!(
+            "--only {unknown}: no such experiment: expected one of {}",
+            known.join(", ")
+        )));
+    }
+    sources.retain(|s| args.only.is_empty() || args.only.contains(&s.slug()));
+    let again = |slug: &str| {
+        let full = if args.full { " --full" } else { "" };
+        let folder =
+            args.experiments.as_ref().map_or_else(String::new, |f| format!(" --experiments {}", f.display()));
+        format!("tigereye reproduce --only {slug}{full}{folder}")
+    };
+    run_sources(&sources, &args.out, args.full, &args.resources, &again)
+}
+
+pub(crate) fn run(args: &RunArgs) -> Result<u8, CliError> {
+    let sources = args.files.iter().map(|f| Source::from_file(f)).collect::<Result<Vec<_>, _>>()?;
+    check_slugs(&sources)?;
+    let again = |slug: &str| {
+        let file = sources.iter().find(|s| s.slug() == slug).map_or(slug, |s| s.name.as_str());
+        format!("tigereye run {file}{}", if args.full { " --full" } else { "" })
+    };
+    run_sources(&sources, &args.out, args.full, &args.resources, &again)
+}
+
+/// Every experiment file below a folder, sorted.
+fn in_folder(folder: &Path) -> Result<Vec<Source>, CliError> {
+    let fault =
+        |path: &Path, source| CliError::File { path: path.display().to_string(), action: "listing", source };
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(here) = folders.pop() {
+        for entry in std::fs::read_dir(&here).map_err(|e| fault(&here, e))? {
+            let entry = entry.map_err(|e| fault(&here, e))?;
+            let kind = entry.file_type().map_err(|e| fault(&entry.path(), e))?;
+            if kind.is_dir() {
+                folders.push(entry.path());
+            } else if files::extension(&entry.path()) == "ron" {
+                found.push(entry.path());
+            }
+            if found.len() > MAX_FILES {
+                return Err(CliError::input(
+                    &folder.display().to_string(),
+                    "holds more than 10000 experiment files",
+                ));
+            }
+        }
+    }
+    found.sort();
+    if found.is_empty() {
+        return Err(CliError::input(
+            &folder.display().to_string(),
+            "holds no experiment files: expected *.ron",
+        ));
+    }
+    found.iter().map(|p| Source::from_file(p)).collect()
+}
+
+/// Two files of one name would share a folder of results.
+fn check_slugs(sources: &[Source]) -> Result<(), CliError> {
+    let mut slugs: Vec<(String, &str)> = sources.iter().map(|s| (s.slug(), s.name.as_str())).collect();
+    slugs.sort();
+    match slugs.windows(2).find(|w| w[0].0 == w[1].0) {
+        Some(w) => {
+            Err(CliError::Input(format!("{} and {} are both called {}: rename one", w[0].1, w[1].1, w[0].0)))
+        }
+        None => Ok(()),
+    }
+}
+
+fn run_sources(
+    sources: &[Source],
+    out: &Path,
+    full: bool,
+    resources: &Resources,
+    again: &(dyn Fn(&str) -> String + Sync),
+) -> Result<u8, CliError> {
+    let start = Instant::now();
+    // All files are checked before the first hour is spent.
+    let mut prepared = Vec::new();
+    let mut faults = Vec::new();
+    for source in sources {
+        match prepare(source, full) {
+            Ok(settings) => prepared.push((source, settings)),
+            Err(CliError::Inputs(found)) => faults.extend(found),
+            Err(e) => faults.push(e.to_string()),
+        }
+    }
+    if !faults.is_empty() {
+        return Err(CliError::Inputs(faults));
+    }
+    if !full {
+        prepared.retain(|(_, s)| s.experiment.scope == spec::Scope::Always);
+    }
+    files::make_folder(out)?;
+    let memory = resources.memory.unwrap_or_else(system::half_of_memory);
+    let outcomes = system::on_threads(resources.threads, || {
+        let count = prepared.len();
+        let mut outcomes = Vec::with_capacity(count);
+        for (i, (source, settings)) in prepared.iter().enumerate() {
+            let outcome =
+                run_one(source, settings, &again(&settings.slug), memory, &format!("[{}/{count}]", i + 1))?;
+            write_outcome(out, &outcome)?;
+            outcomes.push(outcome);
+        }
+        Ok(outcomes)
+    })?;
+    let seconds = start.elapsed().as_secs_f64();
+    let about = About {
+        version: provenance::VERSION.to_owned(),
+        seconds,
+        command: super::command_line(),
+        full,
+        threads: resources.threads.unwrap_or_else(rayon::current_num_threads),
+    };
+    files::write(&out.join("summary.json"), report::summary_json(&outcomes, seconds).as_bytes())?;
+    files::write(&out.join("index.html"), report::html(&outcomes, &about).as_bytes())?;
+    Ok(conclude(&outcomes, out, seconds))
+}
+
+fn run_one(
+    source: &Source,
+    settings: &Settings,
+    command: &str,
+    memory: u64,
+    prefix: &str,
+) -> Result<ExperimentOutcome, CliError> {
+    interrupt::check()?;
+    let start = Instant::now();
+    let host = FileHost::new(source.folder.clone(), format!("{prefix} {}", settings.slug));
+    let evaluation = evaluate(settings, command, memory, &host).map_err(|e| match e {
+        ExperimentError::Run { source: RunError::Interrupted, .. } => CliError::Interrupted,
+        e => CliError::input(&source.name, e),
+    })?;
+    host.finish();
+    let mut outcome = evaluation.outcome;
+    outcome.seconds = start.elapsed().as_secs_f64();
+    let failed = outcome.checks.iter().filter(|c| !c.passed).count();
+    let verdict = match failed {
+        0 => format!("{} checks passed", outcome.checks.len()),
+        n => format!("{n} of {} checks FAILED", outcome.checks.len()),
+    };
+    eprintln!("{prefix} {}: {verdict}, {:.1} s", settings.slug, outcome.seconds);
+    Ok(outcome)
+}
+
+/// Figures and data of one experiment, each file replaced as a whole.
+fn write_outcome(out: &Path, outcome: &ExperimentOutcome) -> Result<(), CliError> {
+    let folder = out.join(&outcome.slug);
+    files::make_folder(&folder)?;
+    for figure in &outcome.figures {
+        files::write(&folder.join(format!("{}.png", figure.name)), &figure.png)?;
+        files::write(&folder.join(format!("{}.svg", figure.name)), figure.svg.as_bytes())?;
+    }
+    for data in &outcome.data {
+        files::write(&folder.join(&data.name), &data.bytes)?;
+    }
+    Ok(())
+}
+
+/// Says how it went; the exit code.
+fn conclude(outcomes: &[ExperimentOutcome], out: &Path, seconds: f64) -> u8 {
+    let checks = outcomes.iter().map(|o| o.checks.len()).sum::<usize>();
+    let failed: Vec<String> = outcomes
+        .iter()
+        .flat_map(|o| {
+            o.checks
+                .iter()
+                .filter(|c| !c.passed)
+                .map(move |c| format!("  {}: {} = {:?}", o.slug, c.name, c.value))
+        })
+        .collect();
+    let page = out.join("index.html");
+    let report = page.display();
+    if failed.is_empty() {
+        print_text(&format!(
+            "{} experiments, {checks} checks, all passed in {seconds:.0} s\nreport: {report}\n",
+            outcomes.len()
+        ));
+        0
+    } else {
+        print_text(&format!(
+            "{} experiments, {checks} checks, {} failed in {seconds:.0} s\n{}\nreport: {report}\n",
+            outcomes.len(),
+            failed.len(),
+            failed.join("\n")
+        ));
+        1
+    }
+}

@@ -1,0 +1,92 @@
+//! Files: whole reads, atomic writes.
+
+use crate::error::CliError;
+use std::io::{Read, Write};
+use std::path::Path;
+
+/// Largest input file, bytes. Text needs about twenty bytes a number; this holds every field a grid may have.
+const MAX_INPUT: u64 = 16 << 30;
+
+/// The bytes of a file.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>, CliError> {
+    let fault = |source| CliError::File { path: path.display().to_string(), action: "reading", source };
+    let file = std::fs::File::open(path).map_err(fault)?;
+    let mut bytes = Vec::new();
+    let read = file.take(MAX_INPUT + 1).read_to_end(&mut bytes).map_err(fault)?;
+    if read as u64 > MAX_INPUT {
+        return Err(CliError::input(
+            &path.display().to_string(),
+            format!("is larger than {MAX_INPUT} bytes"),
+        ));
+    }
+    Ok(bytes)
+}
+
+/// The text of a file.
+pub(crate) fn read_text(path: &Path) -> Result<String, CliError> {
+    String::from_utf8(read(path)?).map_err(|e| {
+        let at = e.utf8_error().valid_up_to();
+        CliError::input(&path.display().to_string(), format!("byte {at}: expected UTF-8 text"))
+    })
+}
+
+/// Replaces a file as a whole: readers see the old bytes or the new ones, never a part.
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
+    let fault = |source| CliError::File { path: path.display().to_string(), action: "writing", source };
+    let folder = match path.parent() {
+        Some(p) if !p.as_os_str().is_empty() => p,
+        _ => Path::new("."),
+    };
+    let mut temporary = tempfile::Builder::new().prefix(".tigereye-").tempfile_in(folder).map_err(fault)?;
+    temporary.write_all(bytes).map_err(fault)?;
+    set_ordinary_permissions(temporary.as_file()).map_err(fault)?;
+    temporary.as_file().sync_all().map_err(fault)?;
+    temporary.persist(path).map_err(|e| fault(e.error))?;
+    // The rename itself must survive a crash too. Not every system lets a folder be opened.
+    if let Ok(folder) = std::fs::File::open(folder) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
+}
+
+/// Temporary files are private to their owner; results are not.
+#[cfg(unix)]
+fn set_ordinary_permissions(file: &std::fs::File) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.set_permissions(std::fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn set_ordinary_permissions(_file: &std::fs::File) -> std::io::Result<()> {
+    Ok(())
+}
+
+/// Makes a folder and its parents.
+pub(crate) fn make_folder(path: &Path) -> Result<(), CliError> {
+    std::fs::create_dir_all(path).map_err(|source| CliError::File {
+        path: path.display().to_string(),
+        action: "making the folder",
+        source,
+    })
+}
+
+/// Whether a file can be written at `path`, before hours are spent on what should go there.
+pub(crate) fn check_writable(path: &Path) -> Result<(), CliError> {
+    let folder = match path.parent() {
+        Some(p) if !p.as_os_str().is_empty() => p,
+        _ => Path::new("."),
+    };
+    if path.is_dir() {
+        return Err(CliError::input(&path.display().to_string(), "is a folder: expected a file name"));
+    }
+    tempfile::Builder::new()
+        .prefix(".tigereye-")
+        .tempfile_in(folder)
+        .map(drop)
+        .map_err(|source| CliError::File { path: path.display().to_string(), action: "writing", source })
+}
+
+/// The ending of a path in lower case, without dot.
+pub(crate) fn extension(path: &Path) -> String {
+    path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
+}

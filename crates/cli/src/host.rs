@@ -1,0 +1,70 @@
+//! Files, progress and interruption for experiments.
+
+use crate::interrupt;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use tigereye_experiments::{Host, library};
+
+/// How many parents of an experiment's folder are searched for its data.
+const PARENTS: usize = 3;
+
+/// The world of one experiment.
+pub(crate) struct FileHost {
+    folder: Option<PathBuf>,
+    bar: ProgressBar,
+    prefix: String,
+}
+
+impl FileHost {
+    /// `folder` is the experiment file's; `None` for a built-in one. `prefix` opens the progress line.
+    pub(crate) fn new(folder: Option<PathBuf>, prefix: String) -> Self {
+        // Hidden by indicatif where standard error is no terminal.
+        let bar = ProgressBar::new(0);
+        bar.set_style(sweep_style());
+        bar.set_message(prefix.clone());
+        Self { folder, bar, prefix }
+    }
+
+    /// Removes the progress line.
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// A line with rate and time left.
+pub(crate) fn sweep_style() -> ProgressStyle {
+    ProgressStyle::with_template("{msg} [{bar:30}] {percent:>3} % {per_sec} {eta} left")
+        .unwrap_or_else(|_| ProgressStyle::default_bar())
+        .progress_chars("=> ")
+}
+
+impl Host for FileHost {
+    fn read(&self, path: &str) -> Result<Vec<u8>, String> {
+        let mut tried = Vec::new();
+        let mut folder = self.folder.clone();
+        for _ in 0..=PARENTS {
+            let Some(here) = folder else { break };
+            let candidate = here.join(path);
+            if candidate.is_file() {
+                return crate::files::read(&candidate).map_err(|e| e.to_string());
+            }
+            folder = here.canonicalize().ok().and_then(|p| p.parent().map(PathBuf::from));
+            tried.push(here.display().to_string());
+        }
+        tried.push("the built-in data".to_owned());
+        library::data(path)
+            .map(<[u8]>::to_vec)
+            .ok_or_else(|| format!("no file {path} in {}", tried.join(", ")))
+    }
+
+    fn progress(&self, what: &str, done: u64, total: u64) -> ControlFlow<()> {
+        // One update in a while is enough for the eye.
+        if done.is_multiple_of(64) || done == total {
+            self.bar.set_message(format!("{} {what}", self.prefix));
+            self.bar.set_length(total.max(done));
+            self.bar.set_position(done);
+        }
+        if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}

@@ -1,0 +1,26 @@
+//! Ctrl-C: the first asks the computation to end, the second ends the program.
+
+use crate::error::CliError;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// Installs the handler.
+pub(crate) fn install() -> Result<(), CliError> {
+    ctrlc::set_handler(|| {
+        if ASKED.swap(true, Ordering::SeqCst) {
+            std::process::exit(130);
+        }
+    })
+    .map_err(|e| CliError::Input(format!("cannot watch for interrupts: {e}")))
+}
+
+/// Whether the user asked to end.
+pub(crate) fn asked() -> bool {
+    ASKED.load(Ordering::SeqCst)
+}
+
+/// An error where the user asked to end.
+pub(crate) fn check() -> Result<(), CliError> {
+    if asked() { Err(CliError::Interrupted) } else { Ok(()) }
+}

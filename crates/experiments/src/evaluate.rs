@@ -1,0 +1,182 @@
+//! One experiment from settings to outcome.
+
+use crate::digest::{Digest, digest};
+use crate::draw::{Drawn, draw_figure};
+use crate::host::Host;
+use crate::measure;
+use crate::outcome::{DataFile, ExperimentOutcome};
+use crate::provenance::{hash_of_field, provenance};
+use crate::runs::{Results, RunError, run_all};
+use crate::settings::{RunSettings, Settings};
+use rayon::prelude::*;
+use serde_json::json;
+use thiserror::Error;
+use tigereye_core::Normalization;
+use tigereye_io::IoError;
+use tigereye_transport::StoppingRule;
+
+/// An experiment that could not be evaluated.
+#[derive(Debug, Error)]
+pub enum ExperimentError {
+    /// A run, figure or check could not be made.
+    #[error("experiment {slug}: {source}")]
+    Run {
+        /// Name of the experiment.
+        slug: String,
+        /// What went wrong.
+        source: RunError,
+    },
+    /// A result could not be encoded.
+    #[error("experiment {slug}, run \"{run}\": {source}")]
+    Encoding {
+        /// Name of the experiment.
+        slug: String,
+        /// Name of the run.
+        run: String,
+        /// What went wrong.
+        source: Box<IoError>,
+    },
+}
+
+/// An outcome with the digest that snapshot tests compare.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// Figures, checks, data; its `seconds` are 0 until the caller sets them.
+    pub outcome: ExperimentOutcome,
+    /// The numbers worth remembering.
+    pub digest: Digest,
+}
+
+/// Runs an experiment, draws its figures and judges its checks. Gradients use at most `memory_bytes`.
+///
+/// # Errors
+/// [`ExperimentError`]; a failed check is no error but part of the outcome.
+pub fn evaluate(
+    settings: &Settings,
+    command: &str,
+    memory_bytes: u64,
+    host: &dyn Host,
+) -> Result<Evaluation, ExperimentError> {
+    let slug = settings.slug.clone();
+    let failed = |source| ExperimentError::Run { slug: settings.slug.clone(), source };
+    let results = run_all(settings, memory_bytes, host).map_err(failed)?;
+    let drawn: Vec<Drawn> = settings
+        .experiment
+        .figures
+        .par_iter()
+        .map(|f| draw_figure(f, settings, &results))
+        .collect::<Result<_, _>>()
+        .map_err(failed)?;
+    let checks = settings
+        .experiment
+        .checks
+        .iter()
+        .map(|c| measure::check(c, settings, &results))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(failed)?;
+    let mut data = data_files(settings, command, &results)?;
+    let mut figures = Vec::new();
+    for Drawn { figure, tables } in drawn {
+        figures.push(figure);
+        data.extend(tables);
+    }
+    let e = &settings.experiment;
+    let outcome = ExperimentOutcome {
+        slug,
+        title: e.title.clone(),
+        source: e.source.clone(),
+        section: e.section.clone(),
+        claim: e.claim.clone(),
+        look_for: e.look_for.clone(),
+        figures,
+        checks,
+        work: work_of(settings, &results),
+        data,
+        seconds: 0.0,
+        command: command.to_owned(),
+    };
+    let digest = digest(settings, &results, &outcome);
+    Ok(Evaluation { outcome, digest })
+}
+
+fn work_of(settings: &Settings, results: &Results) -> Vec<(String, u64)> {
+    let mut work = Vec::new();
+    for (name, _) in &settings.runs {
+        if let Some(r) = results.lights.get(name) {
+            work.push((format!("{name}: steps"), r.work.steps as u64));
+            work.push((format!("{name}: cell updates"), r.work.cell_updates));
+        }
+        if let Some(g) = results.gradients.get(name) {
+            work.push((format!("{name}: sources"), g.work.sources));
+            work.push((format!("{name}: steps of all sources"), g.work.iterations_total));
+            work.push((format!("{name}: most steps of a source"), g.work.iterations_max));
+            work.push((format!("{name}: cell updates"), g.work.cell_updates));
+        }
+    }
+    work
+}
+
+/// Every run's result as VTK image data with its provenance.
+fn data_files(
+    settings: &Settings,
+    command: &str,
+    results: &Results,
+) -> Result<Vec<DataFile>, ExperimentError> {
+    let mut files = Vec::new();
+    for (name, run) in &settings.runs {
+        let story = story_of(settings, command, run);
+        let image = if let Some(r) = results.lights.get(name) {
+            tigereye_io::image_from_light(&r.last, &story)
+        } else if let Some(g) = results.gradients.get(name) {
+            tigereye_io::image_from_ltg(&g.volume, &story)
+        } else {
+            continue;
+        };
+        let bytes = tigereye_io::vti::write(&image).map_err(|source| ExperimentError::Encoding {
+            slug: settings.slug.clone(),
+            run: name.clone(),
+            source: Box::new(source),
+        })?;
+        files.push(DataFile { name: format!("{name}.vti"), bytes });
+    }
+    Ok(files)
+}
+
+fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
+    let (scene, omega_step) = match run {
+        RunSettings::Light(l) => (&l.scene, None),
+        RunSettings::Gradient(g) => (&g.scene, Some(g.omega_step)),
+    };
+    let (stop, threshold) = match scene.stopping.rule {
+        StoppingRule::FluxChange { threshold } => ("flux", threshold),
+        StoppingRule::DistributionChange { threshold } => ("distribution", threshold),
+        StoppingRule::Converged { tolerance } => ("stationary", tolerance),
+        StoppingRule::Steps(_) => ("steps", 0.0),
+    };
+    let parameters = json!({
+        "field": scene.field,
+        "directions": scene.directions.count(),
+        "normalization": normalization_name(scene.normalization),
+        "stop": stop,
+        "threshold": threshold,
+        "max_iterations": scene.stopping.max_iterations,
+        "omega_step": omega_step,
+    });
+    let hash = settings.fields.get(&scene.field).map(hash_of_field).unwrap_or_default();
+    provenance(command, &parameters, &hash)
+}
+
+/// The name of a normalisation as options spell it.
+#[must_use]
+pub fn normalization_name(normalization: Normalization) -> String {
+    match normalization {
+        Normalization::Global => "global".to_owned(),
+        Normalization::Local => "local".to_owned(),
+        Normalization::LocalAbove { fraction, below: tigereye_core::Below::Absorb } => {
+            format!("local-above:{fraction}")
+        }
+        Normalization::LocalAbove { fraction, below: tigereye_core::Below::Global } => {
+            format!("local-above-global:{fraction}")
+        }
+    }
+}

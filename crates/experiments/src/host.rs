@@ -1,0 +1,17 @@
+//! What an experiment needs from outside.
+
+use std::ops::ControlFlow;
+
+/// The world as experiments see it. The program implements it with files, a clock and a progress bar.
+pub trait Host: Sync {
+    /// Bytes of a data file that an experiment names.
+    ///
+    /// # Errors
+    /// A sentence saying where it was looked for.
+    fn read(&self, path: &str) -> Result<Vec<u8>, String>;
+
+    /// Something happens: `done` of `total` parts of `what`. `Break` ends the experiment.
+    fn progress(&self, _what: &str, _done: u64, _total: u64) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}

@@ -1,0 +1,124 @@
+//! The result in short, and the list of all experiments.
+
+use std::collections::BTreeMap;
+
+use maud::{Markup, html};
+
+use super::About;
+use super::links::place;
+use super::numbers::{count, counted, duration};
+use super::verdict::Tally;
+use crate::ExperimentOutcome;
+
+/// Experiments by section, sections ascending, experiments of a section in the order given.
+pub(super) type Sections<'a> = BTreeMap<&'a str, Vec<&'a ExperimentOutcome>>;
+
+/// `outcomes` by section.
+pub(super) fn by_section(outcomes: &[ExperimentOutcome]) -> Sections<'_> {
+    let mut sections = Sections::new();
+    for outcome in outcomes {
+        sections.entry(&outcome.section).or_default().push(outcome);
+    }
+    sections
+}
+
+/// Id of the section at position `index`. Two hyphens set the page's own ids apart from slugs.
+pub(super) fn section_id(index: usize) -> String {
+    format!("page--section-{}", index + 1)
+}
+
+/// How the run went: one sentence, its numbers, and what failed.
+pub(super) fn result(outcomes: &[ExperimentOutcome], about: &About) -> Markup {
+    let tally = Tally::of(outcomes);
+    html! {
+        section.result.(tally.class()) aria-labelledby="page--result" {
+            h2 #page--result { "Result" }
+            p.headline { span aria-hidden="true" { (tally.sign()) " " } (headline(outcomes.len(), tally)) }
+            dl.numbers {
+                (entry("Experiments", html! { (count(outcomes.len() as u64)) }))
+                (entry("Checks", html! { (count(tally.checks as u64)) }))
+                (entry("Passed", html! { (count(tally.passed() as u64)) }))
+                (entry("Failed", html! { (count(tally.failed as u64)) }))
+                (entry("Time", html! { (duration(about.seconds)) }))
+                (entry("Version", html! { (about.version) }))
+            }
+            p.command { code { (about.command) } }
+            p.setting { (setting(about)) }
+            (failures(outcomes))
+        }
+    }
+}
+
+fn entry(name: &str, value: Markup) -> Markup {
+    html! { div { dt { (name) } dd { (value) } } }
+}
+
+fn headline(experiments: usize, tally: Tally) -> String {
+    if experiments == 0 {
+        return "No experiment was run, so nothing was checked.".into();
+    }
+    let verdict = if tally.checks == 0 { "nothing was checked".into() } else { tally.sentence() };
+    format!("{}: {verdict}.", counted(experiments, "experiment"))
+}
+
+fn setting(about: &About) -> String {
+    let resolution = if about.full {
+        "Run at the thesis’s own resolutions (--full)"
+    } else {
+        "Run at the default resolutions; --full runs the thesis’s own where they are larger"
+    };
+    format!("{resolution}. {}; only the times depend on it.", counted(about.threads, "thread"))
+}
+
+/// Every failed check with a link to its experiment.
+fn failures(outcomes: &[ExperimentOutcome]) -> Markup {
+    let mut failed =
+        outcomes.iter().flat_map(|o| o.checks.iter().filter(|c| !c.passed).map(move |c| (o, c))).peekable();
+    html! {
+        @if failed.peek().is_some() {
+            ul.failures {
+                @for (outcome, check) in failed {
+                    li {
+                        span.verdict.failed { span aria-hidden="true" { "✗ " } "failed" }
+                        " " a href=(place(&outcome.slug)) { (outcome.title) } ": " (check.name)
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The list of experiments, by section, with how each went.
+pub(super) fn contents(sections: &Sections<'_>) -> Markup {
+    html! {
+        nav.contents aria-labelledby="page--contents" {
+            h2 #page--contents { "Contents" }
+            ul.sections {
+                @for (i, (section, outcomes)) in sections.iter().enumerate() {
+                    li {
+                        a.section href={ "#" (section_id(i)) } { (section) }
+                        ul { @for outcome in outcomes { (line(outcome)) } }
+                    }
+                }
+                li { a.section href="#page--lines" { "Where the thesis draws tensor lines" } }
+                li { a.section href="#page--glossary" { "Glossary" } }
+            }
+        }
+    }
+}
+
+fn line(outcome: &ExperimentOutcome) -> Markup {
+    let tally = Tally::of([outcome]);
+    html! {
+        li {
+            span.verdict.(tally.class()) {
+                span aria-hidden="true" title=(tally.sentence()) { (tally.sign()) }
+                span.unseen { (tally.sentence()) ": " }
+            }
+            a href=(place(&outcome.slug)) { (outcome.title) }
+            @if tally.failed > 0 {
+                span.failed-count aria-hidden="true" { (tally.failed) " of " (tally.checks) " failed" }
+            }
+        }
+    }
+}

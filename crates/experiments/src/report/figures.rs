@@ -1,0 +1,56 @@
+//! The figures of an experiment.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::{Markup, html};
+
+use super::links::{address, path};
+use crate::Figure;
+
+/// Up to this width in pixels three figures share a row.
+const SMALL_PX: f64 = 400.0;
+
+/// Up to this width in pixels two figures share a row.
+const MEDIUM_PX: f64 = 800.0;
+
+/// All figures, one to three in a row.
+pub(super) fn figures(slug: &str, figures: &[Figure]) -> Markup {
+    html! {
+        @if !figures.is_empty() {
+            div.figures { @for f in figures { (figure(slug, f)) } }
+        }
+    }
+}
+
+fn figure(slug: &str, figure: &Figure) -> Markup {
+    let address_of = |ending: &str| address(&path(slug, &format!("{}.{ending}", figure.name)));
+    let (width, height) = (figure.width_px.round() as u32, figure.height_px.round() as u32);
+    html! {
+        figure.(size_class(figure.width_px)) style={ "--width:" (width) "px" } {
+            a.plate href=(address_of("svg")) {
+                img src={ "data:image/png;base64," (STANDARD.encode(&figure.png)) } alt=(figure.alt)
+                    width=(width) height=(height);
+            }
+            figcaption {
+                (figure.caption)
+                " "
+                span.files {
+                    "Full size: "
+                    a href=(address_of("svg")) { "SVG" }
+                    ", "
+                    a href=(address_of("png")) { "PNG" }
+                }
+            }
+        }
+    }
+}
+
+fn size_class(width_px: f64) -> &'static str {
+    if width_px <= SMALL_PX {
+        "small"
+    } else if width_px <= MEDIUM_PX {
+        "medium"
+    } else {
+        "large"
+    }
+}

@@ -1,0 +1,127 @@
+//! One article for each experiment.
+
+use maud::{Markup, html};
+
+use super::figures::figures;
+use super::links::{address, path};
+use super::numbers::{count, counted, duration, file_size, number};
+use super::verdict::{Tally, excess, mark};
+use crate::{CheckOutcome, DataFile, Expected, ExperimentOutcome};
+
+/// Everything about one experiment.
+pub(super) fn article(outcome: &ExperimentOutcome) -> Markup {
+    let tally = Tally::of([outcome]);
+    let heading = format!("{}--title", outcome.slug);
+    html! {
+        article #(outcome.slug) aria-labelledby=(heading) {
+            header {
+                h3 #(heading) { (outcome.title) }
+                p.facts {
+                    (tally.badge())
+                    span { (outcome.source) }
+                    span { (duration(outcome.seconds)) }
+                }
+            }
+            @if !outcome.claim.is_empty() {
+                blockquote.claim { p.label { "Claim examined" } p { (outcome.claim) } }
+            }
+            @if !outcome.look_for.is_empty() {
+                p.look-for { b { "What to look for. " } (outcome.look_for) }
+            }
+            (figures(&outcome.slug, &outcome.figures))
+            (checks(&outcome.title, &outcome.checks))
+            footer {
+                p.again { "Run it again: " code { (outcome.command) } }
+                (data(&outcome.slug, &outcome.data))
+                (work(&outcome.work))
+            }
+        }
+    }
+}
+
+/// The checks as a table, those that failed first.
+fn checks(title: &str, checks: &[CheckOutcome]) -> Markup {
+    let (passed, failed): (Vec<_>, Vec<_>) = checks.iter().partition(|c| c.passed);
+    html! {
+        @if !checks.is_empty() {
+            // Without a tab stop the keyboard could not scroll it.
+            div.scroll tabindex="0" role="region" aria-label={ "Checks of " (title) } {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { "Result" }
+                            th scope="col" { "Check" }
+                            th.number scope="col" { "This run" }
+                            th.number scope="col" { "Expected" }
+                            th.number scope="col" { "Tolerance" }
+                            th scope="col" { "Basis" }
+                        }
+                    }
+                    tbody { @for check in failed.into_iter().chain(passed) { (row(check)) } }
+                }
+            }
+        }
+    }
+}
+
+fn row(check: &CheckOutcome) -> Markup {
+    html! {
+        tr.failing[!check.passed] {
+            td.mark {
+                (mark(check))
+                @if let Some(beyond) = excess(check).filter(|_| !check.passed) {
+                    span.beyond { "by " (number(beyond)) }
+                }
+            }
+            th scope="row" { (check.name) }
+            td.number { (number(check.value)) }
+            td.number { (expected(check.expected)) }
+            td.number { (tolerance(check.expected)) }
+            td.basis { (check.basis) }
+        }
+    }
+}
+
+fn expected(expected: Expected) -> Markup {
+    match expected {
+        Expected::Near { value, .. } => number(value),
+        Expected::AtMost(bound) => html! { span.bound { "at most " } (number(bound)) },
+        Expected::AtLeast(bound) => html! { span.bound { "at least " } (number(bound)) },
+    }
+}
+
+fn tolerance(expected: Expected) -> Markup {
+    match expected {
+        Expected::Near { tolerance: 0.0, .. } => html! { "exact" },
+        Expected::Near { tolerance, .. } => html! { "± " (number(tolerance)) },
+        Expected::AtMost(_) | Expected::AtLeast(_) => {
+            html! { span.bound { span aria-hidden="true" { "–" } span.unseen { "none" } } }
+        }
+    }
+}
+
+fn data(slug: &str, data: &[DataFile]) -> Markup {
+    html! {
+        @if !data.is_empty() {
+            p.data {
+                "Data: "
+                @for (i, file) in data.iter().enumerate() {
+                    @if i > 0 { ", " }
+                    a href=(address(&path(slug, &file.name))) { (file.name) }
+                    " (" (file_size(file.bytes.len())) ")"
+                }
+            }
+        }
+    }
+}
+
+fn work(work: &[(String, u64)]) -> Markup {
+    html! {
+        @if !work.is_empty() {
+            details {
+                summary { "Work done: " (counted(work.len(), "counter")) }
+                dl.work { @for (label, n) in work { div { dt { (label) } dd { (count(*n)) } } } }
+            }
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! The page as a whole.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
+
+use super::About;
+use super::contents::{Sections, by_section, contents, result, section_id};
+use super::gallery::article;
+use super::glossary::glossary;
+use super::introduction::{about_tensor_lines, introduction};
+use super::numbers::counted;
+use super::verdict::Tally;
+use crate::ExperimentOutcome;
+
+const CLOSING: &str = "\
+    All pictures and numbers were computed in this run; summary.json beside this page holds the same \
+    results for programs.";
+
+/// All outcomes as one page that needs no other file: style and pictures are inside.
+///
+/// Sections stand in ascending order of their names, the experiments of a section in the order given. Links
+/// to the figures and data at full size are relative: the page belongs into the results folder.
+#[must_use]
+pub fn html(outcomes: &[ExperimentOutcome], about: &About) -> String {
+    let sections = by_section(outcomes);
+    let page = markup! {
+        (DOCTYPE)
+        html lang="en" {
+            (head(outcomes))
+            body {
+                a.skip href="#page--contents" { "Skip to the contents" }
+                (masthead())
+                main {
+                    (introduction())
+                    (result(outcomes, about))
+                    (contents(&sections))
+                    (gallery(&sections))
+                    (about_tensor_lines())
+                    (glossary())
+                }
+                footer.page {
+                    p { "Written by tigereye " (about.version) ". " (CLOSING) }
+                }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn head(outcomes: &[ExperimentOutcome]) -> Markup {
+    let tally = Tally::of(outcomes);
+    markup! {
+        head {
+            meta charset="utf-8";
+            meta name="viewport" content="width=device-width, initial-scale=1";
+            meta name="color-scheme" content="light dark";
+            title { "tigereye: " (counted(outcomes.len(), "experiment")) ", " (tally.sentence()) }
+            style { (PreEscaped(include_str!("style.css"))) }
+        }
+    }
+}
+
+fn masthead() -> Markup {
+    markup! {
+        header.page {
+            h1 { "tigereye" }
+            p {
+                "Light in tensor fields: the evaluations of the master’s thesis "
+                cite { "Light Transport Techniques for Tensor Field Visualization" }
+                " (Heidelberg University), computed anew and checked"
+            }
+        }
+    }
+}
+
+fn gallery(sections: &Sections<'_>) -> Markup {
+    markup! {
+        @for (i, (section, outcomes)) in sections.iter().enumerate() {
+            section.experiments aria-labelledby=(section_id(i)) {
+                h2 #(section_id(i)) { (section) }
+                @for outcome in outcomes { (article(outcome)) }
+                p.back { a href="#page--contents" { "Back to the contents" } }
+            }
+        }
+    }
+}

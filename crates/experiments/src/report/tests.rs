@@ -1,0 +1,195 @@
+//! Tests of the page and the summary on made-up outcomes.
+
+use serde_json::Value;
+
+use super::{About, html, summary_json};
+use crate::{CheckOutcome, DataFile, Expected, ExperimentOutcome, Figure};
+
+fn about() -> About {
+    let command = "tigereye reproduce --out results".into();
+    About { version: "1.2.3".into(), seconds: 75.0, command, full: false, threads: 4 }
+}
+
+fn check(name: &str, value: f64, expected: Expected) -> CheckOutcome {
+    CheckOutcome {
+        name: name.into(),
+        value,
+        expected,
+        basis: "geometry".into(),
+        passed: expected.is_met_by(value),
+    }
+}
+
+fn outcome(slug: &str, section: &str, checks: Vec<CheckOutcome>) -> ExperimentOutcome {
+    let figure = Figure {
+        name: "light map".into(),
+        caption: "Light after ten steps.".into(),
+        alt: "A bright spot".into(),
+        width_px: 300.0,
+        height_px: 200.0,
+        png: vec![1, 2, 3],
+        svg: "<svg/>".into(),
+    };
+    ExperimentOutcome {
+        slug: slug.into(),
+        title: format!("Title of {slug}"),
+        source: "Thesis, Fig. 4.1".into(),
+        section: section.into(),
+        claim: "Light follows 1/r.".into(),
+        look_for: "A straight line.".into(),
+        figures: vec![figure],
+        checks,
+        work: vec![("steps".into(), 12_345), ("cells".into(), 7), ("steps".into(), 9)],
+        data: vec![DataFile { name: "samples.csv".into(), bytes: vec![0; 2048] }],
+        seconds: 1.5,
+        command: format!("tigereye reproduce --only {slug}"),
+    }
+}
+
+fn mixed() -> Vec<ExperimentOutcome> {
+    let near = Expected::Near { value: 0.5, tolerance: 0.01 };
+    vec![
+        outcome("drain", "4.5 Gradient", vec![check("column", 50.0, Expected::AtLeast(40.0))]),
+        outcome(
+            "attenuation",
+            "4.1 Propagation",
+            vec![check("good flux", 0.505, near), check("bad flux", 0.6, near)],
+        ),
+        outcome("energy", "4.1 Propagation", vec![check("drift", f64::NAN, Expected::AtMost(3e-13))]),
+    ]
+}
+
+/// Values of an attribute, wherever it stands in a tag.
+fn attribute_values<'a>(page: &'a str, attribute: &str) -> Vec<&'a str> {
+    page.split(&format!(" {attribute}=\"")).skip(1).filter_map(|rest| rest.split('"').next()).collect()
+}
+
+#[test]
+fn summary_has_the_agreed_shape() {
+    let text = summary_json(&mixed(), 12.5);
+    let summary: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!((&summary["passed"], &summary["seconds"]), (&Value::from(false), &Value::from(12.5)));
+    let drain = &summary["experiments"][0];
+    assert_eq!(drain["slug"], "drain");
+    assert_eq!(drain["passed"], true);
+    assert_eq!(drain["figures"], serde_json::json!(["drain/light map.png", "drain/light map.svg"]));
+    assert_eq!(drain["work"], serde_json::json!({ "steps": 12_345, "cells": 7, "steps (2)": 9 }));
+    let bound = serde_json::json!({
+        "name": "column", "value": 50.0, "expected": 40.0, "tolerance": 0.0, "passed": true,
+        "kind": "at least", "basis": "geometry",
+    });
+    assert_eq!(drain["checks"][0], bound);
+    let near = &summary["experiments"][1]["checks"][1];
+    assert_eq!((&near["expected"], &near["tolerance"]), (&Value::from(0.5), &Value::from(0.01)));
+    assert_eq!(summary["experiments"][2]["checks"][0]["value"], Value::Null);
+}
+
+#[test]
+fn summary_keys_stand_in_a_fixed_order() {
+    let text = summary_json(&mixed()[..1], 1.0);
+    let keys: Vec<&str> =
+        text.lines().filter_map(|l| l.trim().strip_prefix('"')?.split_once("\": ")).map(|(k, _)| k).collect();
+    let expect = "passed seconds experiments slug title source seconds passed figures checks \
+                  name value expected tolerance passed kind basis command work steps cells steps (2)";
+    assert_eq!(keys.join(" "), expect);
+}
+
+#[test]
+fn page_has_every_experiment_in_ascending_sections() {
+    let page = html(&mixed(), &about());
+    let ids = attribute_values(&page, "id");
+    let articles: Vec<_> = ids.iter().filter(|id| ["attenuation", "energy", "drain"].contains(id)).collect();
+    assert_eq!(articles, [&"attenuation", &"energy", &"drain"]);
+    let mut unique = ids.clone();
+    unique.sort_unstable();
+    unique.dedup();
+    assert_eq!(unique.len(), ids.len(), "ids are unique");
+}
+
+#[test]
+fn page_needs_nothing_outside_itself() {
+    let page = html(&mixed(), &about());
+    for address in [attribute_values(&page, "src"), attribute_values(&page, "href")].concat() {
+        let inside = address.starts_with('#') || address.starts_with("data:image/png;base64,");
+        assert!(inside || address.starts_with("./"), "{address}");
+    }
+    for forbidden in ["http:", "https:", "url(", "@import", "<script", "<link"] {
+        assert!(!page.contains(forbidden), "{forbidden}");
+    }
+    for link in attribute_values(&page, "href").iter().filter_map(|a| a.strip_prefix('#')) {
+        assert!(page.contains(&format!(" id=\"{link}\"")), "nothing at #{link}");
+    }
+}
+
+#[test]
+fn files_beside_the_page_are_linked_by_relative_address() {
+    let page = html(&mixed(), &about());
+    for link in ["./drain/light%20map.svg", "./drain/light%20map.png", "./drain/samples.csv"] {
+        assert!(attribute_values(&page, "href").contains(&link), "{link}");
+    }
+    assert!(page.contains("samples.csv</a> (2.0 kB)"));
+}
+
+#[test]
+fn text_is_escaped_everywhere() {
+    let evil = "<script>alert(\"x\")</script>";
+    let mut hostile = outcome(evil, evil, vec![check(evil, 1.0, Expected::AtMost(0.0))]);
+    for text in [
+        &mut hostile.title,
+        &mut hostile.source,
+        &mut hostile.claim,
+        &mut hostile.look_for,
+        &mut hostile.command,
+    ] {
+        *text = evil.into();
+    }
+    hostile.checks[0].basis = evil.into();
+    hostile.work = vec![(evil.into(), 1)];
+    hostile.data[0].name = evil.into();
+    let figure = &mut hostile.figures[0];
+    (figure.name, figure.caption, figure.alt) = (evil.into(), evil.into(), evil.into());
+    let about = About { version: evil.into(), command: evil.into(), ..about() };
+    let page = html(&[hostile], &about);
+    assert!(!page.contains("<script") && !page.contains("\"x\""));
+    assert!(page.contains("&lt;script&gt;"));
+}
+
+#[test]
+fn failing_checks_come_first_and_say_so() {
+    let page = html(&mixed(), &about());
+    assert!(page.contains("3 experiments: 2 of 4 checks failed."));
+    assert!(page.contains("1 of 2 checks failed"));
+    let article = page.split("<article id=\"attenuation\"").nth(1).expect("the article");
+    let (bad, good) = (article.find("bad flux").expect("bad"), article.find("good flux").expect("good"));
+    assert!(bad < good);
+    let row = article.split("<tr").find(|r| r.contains("bad flux")).expect("its row");
+    assert!(row.contains("✗") && row.contains("failed") && row.contains("by ") && row.contains("0.09"));
+    assert!(page.contains("not a number"));
+}
+
+#[test]
+fn figures_have_alternative_text_and_size() {
+    let page = html(&mixed(), &about());
+    assert!(page.contains("alt=\"A bright spot\" width=\"300\" height=\"200\""));
+    assert!(page.contains("data:image/png;base64,AQID"));
+}
+
+#[test]
+fn nothing_run_is_still_a_page() {
+    let page = html(&[], &about());
+    assert!(page.contains("No experiment was run") && page.contains("Glossary") && page.ends_with("</html>"));
+    assert!(!page.contains("passed.") && !page.contains("<table"));
+    let summary: Value = serde_json::from_str(&summary_json(&[], 0.0)).expect("JSON");
+    assert_eq!(summary["experiments"], serde_json::json!([]));
+}
+
+#[test]
+fn an_experiment_without_checks_is_not_praised() {
+    let page = html(&[outcome("bare", "1", vec![])], &about());
+    assert!(page.contains("nothing was checked") && page.contains("no checks") && !page.contains("✓"));
+}
+
+#[test]
+fn equal_outcomes_give_equal_pages() {
+    assert_eq!(html(&mixed(), &about()), html(&mixed(), &about()));
+}

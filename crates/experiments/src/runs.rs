@@ -1,0 +1,244 @@
+//! Runs settings and keeps what figures and checks ask for.
+
+use crate::host::Host;
+use crate::settings::{GradientSettings, LightSettings, RunSettings, Settings};
+use crate::spec::EngineChoice;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use thiserror::Error;
+use tigereye_core::{
+    Cell, CoreError, Field, LightDistribution, StopReason, Tensor2, TransmissionField, Work, math,
+};
+use tigereye_ltg::{LtgError, LtgOutcome, LtgSettings, SweepObserver, sweep};
+use tigereye_render::RenderError;
+use tigereye_transport::{
+    EightLobe, Engine, Level, Problem, SampleSpace, Scattering, Scheme, StepView, TransportError,
+};
+
+/// A run that could not be made, although its settings were in order.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum RunError {
+    /// A field that cannot transmit light.
+    #[error("run \"{run}\": {source}")]
+    Field {
+        /// Name of the run.
+        run: String,
+        /// What is wrong with the field.
+        source: CoreError,
+    },
+    /// A propagation that cannot start.
+    #[error("run \"{run}\": {source}")]
+    Propagation {
+        /// Name of the run.
+        run: String,
+        /// What is wrong with it.
+        source: TransportError,
+    },
+    /// A sweep that cannot start.
+    #[error("run \"{run}\": {source}")]
+    Sweep {
+        /// Name of the run.
+        run: String,
+        /// What is wrong with it.
+        source: LtgError,
+    },
+    /// The host asked to end.
+    #[error("interrupted")]
+    Interrupted,
+    /// A picture that cannot be drawn.
+    #[error("figure \"{figure}\": {source}")]
+    Figure {
+        /// Name of the figure.
+        figure: String,
+        /// What is wrong with it.
+        source: RenderError,
+    },
+    /// A panel without anything to show.
+    #[error(
+        "figure \"{figure}\", panel \"{panel}\" has nothing to show: is its step among the run's `frames`, its direction \
+         among the slices, its cell in the grid?"
+    )]
+    Panel {
+        /// Name of the figure.
+        figure: String,
+        /// Heading of the panel.
+        panel: String,
+    },
+    /// An expression in a figure or check that cannot be read.
+    #[error("`{expression}`: {problem}")]
+    Expression {
+        /// The expression.
+        expression: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+}
+
+/// Results of all runs of an experiment.
+#[derive(Debug, Default)]
+pub(crate) struct Results {
+    pub(crate) lights: BTreeMap<String, LightResult>,
+    pub(crate) gradients: BTreeMap<String, LtgOutcome>,
+}
+
+/// What a propagation leaves for figures and checks.
+#[derive(Debug)]
+pub(crate) struct LightResult {
+    pub(crate) transmission: TransmissionField,
+    pub(crate) sources: Vec<Cell>,
+    pub(crate) last: LightDistribution,
+    pub(crate) frames: BTreeMap<usize, LightDistribution>,
+    /// Energy in the grid before the first step and after each, W.
+    pub(crate) energies: Vec<f64>,
+    /// Mean and standard deviation of the energy's distance from the centre, after each step (index 0: before the first);
+    /// empty unless asked for.
+    pub(crate) radii: Vec<(f64, f64)>,
+    pub(crate) stop: StopReason,
+    pub(crate) work: Work,
+}
+
+pub(crate) fn run_all(settings: &Settings, memory_bytes: u64, host: &dyn Host) -> Result<Results, RunError> {
+    let mut results = Results::default();
+    for (name, run) in &settings.runs {
+        let scene = match run {
+            RunSettings::Light(l) => &l.scene,
+            RunSettings::Gradient(g) => &g.scene,
+        };
+        let Some(field) = settings.fields.get(&scene.field) else { continue };
+        match run {
+            RunSettings::Light(light) => {
+                let result = run_light(name, light, field, host)?;
+                results.lights.insert(name.clone(), result);
+            }
+            RunSettings::Gradient(gradient) => {
+                let result = run_gradient(name, gradient, field, memory_bytes, host)?;
+                results.gradients.insert(name.clone(), result);
+            }
+        }
+    }
+    Ok(results)
+}
+
+fn run_light(
+    name: &str,
+    settings: &LightSettings,
+    field: &Field<Tensor2>,
+    host: &dyn Host,
+) -> Result<LightResult, RunError> {
+    let scene = &settings.scene;
+    let transmission = TransmissionField::from_tensors(field, scene.directions, scene.normalization)
+        .map_err(|source| RunError::Field { run: name.to_owned(), source })?;
+    let scheme = Scheme::new(scene.directions, scene.weights);
+    let problem = Problem {
+        scheme: &scheme,
+        transmission: &transmission,
+        lights: &settings.lights,
+        stopping: scene.stopping,
+    };
+    let start = before_first_step(&problem);
+    let mut frames = BTreeMap::new();
+    let mut energies = vec![start.total_energy()];
+    let mut radii = if settings.trace_radius { vec![energy_radius(&start.energy())] } else { Vec::new() };
+    if settings.frames.contains(&0) {
+        frames.insert(0, start);
+    }
+    let mut interrupted = false;
+    let mut observe = |view: &dyn StepView| {
+        energies.push(view.energy());
+        if settings.trace_radius {
+            radii.push(energy_radius(&view.distribution().energy()));
+        }
+        if settings.frames.binary_search(&view.step()).is_ok() {
+            frames.insert(view.step(), view.distribution());
+        }
+        if view.step().is_multiple_of(64) && host.progress(name, view.step() as u64, 0).is_break() {
+            interrupted = true;
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    };
+    let engine: &dyn Engine = match settings.engine {
+        EngineChoice::EightLobe => &EightLobe,
+        EngineChoice::SampleSpace => &SampleSpace,
+    };
+    let outcome = engine
+        .propagate_observed(&problem, &mut observe)
+        .map_err(|source| RunError::Propagation { run: name.to_owned(), source })?;
+    if interrupted {
+        return Err(RunError::Interrupted);
+    }
+    Ok(LightResult {
+        sources: settings.lights.iter().map(|l| l.cell).collect(),
+        last: outcome.distribution,
+        frames,
+        energies,
+        radii,
+        stop: outcome.stop,
+        work: outcome.work,
+        transmission,
+    })
+}
+
+/// The lights alone.
+fn before_first_step(problem: &Problem<'_>) -> LightDistribution {
+    let grid = problem.transmission.grid();
+    let directions = problem.scheme.directions();
+    let s = directions.count();
+    let mut samples = vec![0.0; grid.cells() * s];
+    for light in problem.lights {
+        let i = grid.index(light.cell) * s;
+        samples[i..i + s].copy_from_slice(light.initial_profile(directions).samples());
+    }
+    LightDistribution::new(directions, samples, Field::from_fn(grid, |_| [0.0; 8]))
+}
+
+/// Mean and standard deviation of the distance (cells) of energy from the centre of the grid; 0 in the dark.
+pub(crate) fn energy_radius(energy: &Field<f64>) -> (f64, f64) {
+    let grid = energy.grid();
+    let centre = [(grid.width() - 1) as f64 / 2.0, (grid.height() - 1) as f64 / 2.0];
+    let radius = |c: Cell| math::hypot(c.x as f64 - centre[0], c.y as f64 - centre[1]);
+    let total: f64 = energy.values().iter().sum();
+    if total <= 0.0 {
+        return (0.0, 0.0);
+    }
+    let mean = energy.iter().map(|(c, e)| radius(c) * e).sum::<f64>() / total;
+    let variance =
+        energy.iter().map(|(c, e)| (radius(c) - mean) * (radius(c) - mean) * e).sum::<f64>() / total;
+    (mean, variance.sqrt())
+}
+
+struct Watch<'a> {
+    name: &'a str,
+    host: &'a dyn Host,
+}
+
+impl SweepObserver for Watch<'_> {
+    fn progress(&self, done: u64, total: u64) -> ControlFlow<()> {
+        self.host.progress(self.name, done, total)
+    }
+}
+
+fn run_gradient(
+    name: &str,
+    settings: &GradientSettings,
+    field: &Field<Tensor2>,
+    memory_bytes: u64,
+    host: &dyn Host,
+) -> Result<LtgOutcome, RunError> {
+    let scene = &settings.scene;
+    let transmission = TransmissionField::from_tensors(field, scene.directions, scene.normalization)
+        .map_err(|source| RunError::Field { run: name.to_owned(), source })?;
+    let scheme = Scheme::new(scene.directions, scene.weights);
+    let scattering = Scattering::new(&scheme, &transmission);
+    let ltg = LtgSettings {
+        stopping: scene.stopping,
+        omega_step: settings.omega_step,
+        slices: settings.slices.clone(),
+        memory_bytes,
+        level: Level::detect(),
+    };
+    sweep(&scattering, &ltg, &Watch { name, host }).map_err(|source| match source {
+        LtgError::Interrupted { .. } => RunError::Interrupted,
+        source => RunError::Sweep { run: name.to_owned(), source },
+    })
+}

@@ -1,0 +1,433 @@
+//! Experiment files to settings: names looked up, fields made, nothing optional left. All problems are reported at once.
+
+use crate::host::Host;
+use crate::spec::{self, Experiment, FieldSource, Named, ProfileShape, Run, Scope, SpecError};
+use crate::uses::{self, RunKind};
+use std::collections::BTreeMap;
+use tigereye_core::{Below, Cell, Directions, Field, Grid, Normalization, PolarProfile, Tensor2};
+use tigereye_fields::{Arguments, Expression, ExpressionField, Form};
+use tigereye_ltg::{omega_step_of_slices, omega_step_of_volumes};
+use tigereye_transport::{Light, SharedWeights, Stopping, StoppingRule, emitter};
+
+/// An experiment, ready to run.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Name: the file's without folder and ending.
+    pub slug: String,
+    /// The file, with panels and checks of other scopes removed.
+    pub experiment: Experiment,
+    /// Fields by name.
+    pub fields: BTreeMap<String, Field<Tensor2>>,
+    /// Runs in order.
+    pub runs: Vec<(String, RunSettings)>,
+}
+
+/// A run, ready to start.
+#[derive(Clone, Debug)]
+pub enum RunSettings {
+    /// Light from some cells.
+    Light(LightSettings),
+    /// A gradient.
+    Gradient(GradientSettings),
+}
+
+/// What runs of both kinds share.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Name of the field.
+    pub field: String,
+    /// Angular sampling.
+    pub directions: Directions,
+    /// How profiles are scaled.
+    pub normalization: Normalization,
+    /// Cone weights of the overlap.
+    pub weights: SharedWeights,
+    /// When each propagation ends.
+    pub stopping: Stopping,
+}
+
+/// A propagation, ready to start.
+#[derive(Clone, Debug)]
+pub struct LightSettings {
+    /// Field and scheme.
+    pub scene: Scene,
+    /// The lights.
+    pub lights: Vec<Light>,
+    /// What computes it.
+    pub engine: spec::EngineChoice,
+    /// Steps to keep, ascending.
+    pub frames: Vec<usize>,
+    /// Whether the energy's radius is wanted for every step.
+    pub trace_radius: bool,
+}
+
+/// A sweep, ready to start.
+#[derive(Clone, Debug)]
+pub struct GradientSettings {
+    /// Field and scheme.
+    pub scene: Scene,
+    /// Half-width of the angular difference, samples.
+    pub omega_step: usize,
+    /// Sample indices; `None`: all.
+    pub slices: Option<Vec<usize>>,
+}
+
+/// Resolves an experiment that was read from `text` in `file`.
+///
+/// # Errors
+/// Every problem found, in the order of the file's sections.
+pub fn resolve(
+    file: &str,
+    text: &str,
+    experiment: Experiment,
+    full: bool,
+    host: &dyn Host,
+) -> Result<Settings, Vec<SpecError>> {
+    let slug = slug_of(file);
+    let mut resolver = Resolver { file, text, problems: Vec::new() };
+    let mut experiment = experiment;
+    let mut fields = BTreeMap::new();
+    for (name, source) in experiment.fields.iter() {
+        match make_field(source, host) {
+            Ok(field) => _ = fields.insert(name.to_owned(), field),
+            Err(problem) => resolver.fault(name, format!("field \"{name}\": {problem}")),
+        }
+    }
+    let mut runs = Vec::new();
+    for (name, run) in experiment.runs.iter() {
+        if let Some(settings) = resolver.run(&experiment, name, run, &fields) {
+            let scope = match run {
+                Run::Light { scope, .. } | Run::Gradient { scope, .. } => *scope,
+            };
+            if full || scope == Scope::Always {
+                runs.push((name.to_owned(), settings));
+            }
+        }
+    }
+    resolver.references(&experiment);
+    let runs_now: Vec<&str> = runs.iter().map(|(n, _)| n.as_str()).collect();
+    if resolver.problems.is_empty() {
+        for figure in &mut experiment.figures {
+            figure.panels.retain(|p| uses::of_panel(p).iter().all(|(r, _)| runs_now.contains(r)));
+        }
+        experiment.figures.retain(|f| !f.panels.is_empty());
+        experiment
+            .checks
+            .retain(|c| uses::of_quantity(&c.quantity).iter().all(|(r, _)| runs_now.contains(r)));
+        Ok(Settings { slug, experiment, fields, runs })
+    } else {
+        Err(resolver.problems)
+    }
+}
+
+/// Name of an experiment: its file's without folder and ending.
+#[must_use]
+pub fn slug_of(file: &str) -> String {
+    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
+    name.strip_suffix(".ron").unwrap_or(name).to_owned()
+}
+
+struct Resolver<'a> {
+    file: &'a str,
+    text: &'a str,
+    problems: Vec<SpecError>,
+}
+
+impl Resolver<'_> {
+    /// Reports a problem with something called `name`.
+    fn fault(&mut self, name: &str, problem: String) {
+        let (line, column) = spec::place_of(self.text, &format!("\"{name}\""));
+        self.problems.push(SpecError { file: self.file.to_owned(), line, column, problem });
+    }
+
+    fn run(
+        &mut self,
+        experiment: &Experiment,
+        name: &str,
+        run: &Run,
+        fields: &BTreeMap<String, Field<Tensor2>>,
+    ) -> Option<RunSettings> {
+        let (field_name, directions, normalization, weights, stop) = match run {
+            Run::Light { field, directions, normalization, weights, stop, .. }
+            | Run::Gradient { field, directions, normalization, weights, stop, .. } => {
+                (field, directions.0, *normalization, *weights, *stop)
+            }
+        };
+        if experiment.fields.get(field_name).is_none() {
+            let known = experiment.fields.names();
+            self.fault(
+                field_name,
+                format!("run \"{name}\" names a field \"{field_name}\": expected one of {known}"),
+            );
+            return None;
+        }
+        let field = fields.get(field_name)?;
+        let scene = Scene {
+            field: field_name.clone(),
+            directions,
+            normalization: normalization_of(normalization),
+            weights: match weights {
+                spec::Weights::Thesis => SharedWeights::Thesis,
+                spec::Weights::Geometric => SharedWeights::Geometric,
+            },
+            stopping: stopping_of(stop),
+        };
+        match run {
+            Run::Light { lights, engine, frames, .. } => {
+                self.light(name, scene, field.grid(), lights, *engine, frames, experiment)
+            }
+            Run::Gradient { omega_step, slices_deg, .. } => {
+                self.gradient(name, scene, *omega_step, slices_deg.as_deref())
+            }
+        }
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the parts of one variant of the file's Run")]
+    fn light(
+        &mut self,
+        name: &str,
+        scene: Scene,
+        grid: Grid,
+        sources: &[spec::LightSource],
+        engine: spec::EngineChoice,
+        frames: &[usize],
+        experiment: &Experiment,
+    ) -> Option<RunSettings> {
+        let mut lights = Vec::new();
+        for source in sources {
+            let cell = source.cell.map_or(grid.centre(), |(x, y)| Cell::new(x, y));
+            match profile_of(&source.profile, scene.directions) {
+                Ok(profile) => lights.push(match source.emission {
+                    spec::EmissionKind::Continuous => Light::continuous(cell, profile),
+                    spec::EmissionKind::Impulse => Light::impulse(cell, profile),
+                }),
+                Err(problem) => {
+                    self.fault(name, format!("run \"{name}\", light at ({}, {}): {problem}", cell.x, cell.y))
+                }
+            }
+        }
+        if let Err(e) = tigereye_transport::check_lights(&lights, grid, scene.directions) {
+            self.fault(name, format!("run \"{name}\": {e}"));
+            return None;
+        }
+        let mut frames = frames.to_vec();
+        frames.sort_unstable();
+        frames.dedup();
+        if let StoppingRule::Steps(n) = scene.stopping.rule
+            && let Some(&late) = frames.iter().find(|&&f| f > n)
+        {
+            self.fault(name, format!("run \"{name}\" keeps step {late} but ends after {n} steps"));
+        }
+        let trace_radius = uses::wants_radius(experiment, name);
+        Some(RunSettings::Light(LightSettings { scene, lights, engine, frames, trace_radius }))
+    }
+
+    fn gradient(
+        &mut self,
+        name: &str,
+        scene: Scene,
+        omega_step: spec::OmegaStep,
+        slices_deg: Option<&[spec::Finite]>,
+    ) -> Option<RunSettings> {
+        let s = scene.directions.count();
+        let omega_step = match omega_step {
+            spec::OmegaStep::Volumes => omega_step_of_volumes(scene.directions),
+            spec::OmegaStep::Slices => omega_step_of_slices(scene.directions),
+            spec::OmegaStep::Samples(k) => k,
+        };
+        if !(1..=s / 2).contains(&omega_step) {
+            self.fault(name, format!("run \"{name}\": angular step {omega_step}: expected 1 to {}", s / 2));
+            return None;
+        }
+        let mut slices = Vec::new();
+        for deg in slices_deg.unwrap_or_default() {
+            match sample_of(deg.get(), scene.directions) {
+                Ok(t) => slices.push(t),
+                Err(problem) => self.fault(name, format!("run \"{name}\": {problem}")),
+            }
+        }
+        let slices = slices_deg.is_some().then_some(slices);
+        Some(RunSettings::Gradient(GradientSettings { scene, omega_step, slices }))
+    }
+
+    /// Checks every name that figures and checks mention.
+    fn references(&mut self, experiment: &Experiment) {
+        let mut runs: Vec<(String, &str, RunKind)> = Vec::new();
+        let mut fields: Vec<(String, &str)> = Vec::new();
+        for figure in &experiment.figures {
+            let who = format!("figure \"{}\"", figure.name);
+            for panel in &figure.panels {
+                runs.extend(uses::of_panel(panel).into_iter().map(|(run, kind)| (who.clone(), run, kind)));
+                fields.extend(uses::fields_of_panel(panel).into_iter().map(|f| (who.clone(), f)));
+            }
+        }
+        for check in &experiment.checks {
+            let who = format!("check \"{}\"", check.name);
+            runs.extend(
+                uses::of_quantity(&check.quantity).into_iter().map(|(run, kind)| (who.clone(), run, kind)),
+            );
+            fields.extend(uses::field_of_quantity(&check.quantity).map(|f| (who.clone(), f)));
+        }
+        for (who, run, kind) in runs {
+            let found = experiment.runs.get(run).map(RunKind::of);
+            if found.is_none() {
+                let known = experiment.runs.names();
+                self.fault(run, format!("{who} names a run \"{run}\": expected one of {known}"));
+            } else if found != Some(kind) {
+                self.fault(run, format!("{who} takes \"{run}\" for a {kind:?} run, which it is not"));
+            }
+        }
+        for (who, field) in fields.into_iter().filter(|(_, f)| experiment.fields.get(f).is_none()) {
+            let known = experiment.fields.names();
+            self.fault(field, format!("{who} names a field \"{field}\": expected one of {known}"));
+        }
+        self.figure_names(experiment);
+    }
+
+    fn figure_names(&mut self, experiment: &Experiment) {
+        let mut names: Vec<&str> = experiment.figures.iter().map(|f| f.name.as_str()).collect();
+        names.sort_unstable();
+        if let Some(twice) = names.windows(2).find(|w| w[0] == w[1]) {
+            self.fault(twice[0], format!("two figures are called \"{}\"", twice[0]));
+        }
+        for name in names {
+            if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_') {
+                self.fault(
+                    name,
+                    format!("figure \"{name}\": a name is a file's: expected letters, digits, - and _"),
+                );
+            }
+        }
+    }
+}
+
+fn normalization_of(rule: spec::NormalizationRule) -> Normalization {
+    use spec::NormalizationRule as Rule;
+    match rule {
+        Rule::Local => Normalization::Local,
+        Rule::Global => Normalization::Global,
+        Rule::LocalAbove(f) => Normalization::LocalAbove { fraction: f.get(), below: Below::Absorb },
+        Rule::LocalAboveGlobal(f) => Normalization::LocalAbove { fraction: f.get(), below: Below::Global },
+    }
+}
+
+fn stopping_of(stop: spec::Stop) -> Stopping {
+    match stop {
+        spec::Stop::FluxChange { threshold, max_iterations } => {
+            Stopping { rule: StoppingRule::FluxChange { threshold: threshold.get() }, max_iterations }
+        }
+        spec::Stop::DistributionChange { threshold, max_iterations } => {
+            Stopping { rule: StoppingRule::DistributionChange { threshold: threshold.get() }, max_iterations }
+        }
+        spec::Stop::Stationary => Stopping::STATIONARY,
+        spec::Stop::Steps(n) => Stopping::steps(n),
+    }
+}
+
+/// The sample at an angle, which must be one.
+pub(crate) fn sample_of(degrees: f64, directions: Directions) -> Result<usize, String> {
+    let t = directions.nearest(degrees);
+    let off = (directions.angle_deg(t) - degrees).rem_euclid(360.0);
+    if off.min(360.0 - off) < 1e-9 {
+        Ok(t)
+    } else {
+        let step = 360.0 / directions.count() as f64;
+        Err(format!(
+            "{degrees} degrees is no sample of {}: expected a multiple of {step} degrees",
+            directions.count()
+        ))
+    }
+}
+
+/// Samples of a light's profile.
+///
+/// # Errors
+/// A sentence for an expression that cannot be read, or an angle that is no sample.
+pub fn profile_of(shape: &ProfileShape, directions: Directions) -> Result<PolarProfile, String> {
+    match shape {
+        ProfileShape::Isotropic(i) => Ok(PolarProfile::constant(directions, i.get())),
+        ProfileShape::Emitter { theta_deg, power, intensity } => {
+            let theta = tigereye_core::math::radians(theta_deg.get());
+            let unit = emitter(directions, theta, power.get());
+            Ok(PolarProfile::from_fn(directions, |t| intensity.get() * unit.samples()[t]))
+        }
+        ProfileShape::Pulse { theta_deg } => {
+            let sample = sample_of(theta_deg.get(), directions)?;
+            Ok(PolarProfile::from_fn(
+                directions,
+                |t| if t == sample { directions.count() as f64 } else { 0.0 },
+            ))
+        }
+        ProfileShape::Expression(text) => profile_of_expression(text, directions),
+    }
+}
+
+/// Samples of an expression in `theta` (radians), negative values clipped.
+///
+/// # Errors
+/// A sentence naming the place in the expression, or the sample that is not finite.
+pub fn profile_of_expression(text: &str, directions: Directions) -> Result<PolarProfile, String> {
+    let expression = Expression::parse(text, &["theta"]).map_err(|e| format!("`{text}`: {e}"))?;
+    let samples = (0..directions.count()).map(|t| expression.eval(&[directions.angle_rad(t)])).collect();
+    PolarProfile::from_samples(directions, samples)
+        .map(PolarProfile::clipped)
+        .map_err(|e| format!("`{text}`: {e}"))
+}
+
+fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, String> {
+    match source {
+        FieldSource::Generator { name, parameters } => {
+            let arguments = arguments_of(parameters)?;
+            tigereye_fields::generate(name, &arguments).map_err(|e| e.to_string())
+        }
+        FieldSource::Axes { width, height, phi, s1, s2 } => {
+            let form = Form::Axes { phi: phi.clone(), s1: s1.clone(), s2: s2.clone() };
+            ExpressionField { width: *width, height: *height, form }.build().map_err(|e| e.to_string())
+        }
+        FieldSource::Components { width, height, xx, xy, yx, yy } => {
+            let form = Form::Components { xx: xx.clone(), xy: xy.clone(), yx: yx.clone(), yy: yy.clone() };
+            ExpressionField { width: *width, height: *height, form }.build().map_err(|e| e.to_string())
+        }
+        FieldSource::File { path, array, stride } => {
+            let bytes = host.read(path)?;
+            let field = tensors_from_file(path, &bytes, array.as_deref())?;
+            strided(&field, *stride)
+        }
+    }
+}
+
+fn arguments_of(parameters: &Named<spec::Parameter>) -> Result<Arguments, String> {
+    let mut arguments = Arguments::new();
+    for (key, value) in parameters.iter() {
+        arguments.insert(key, &value.0).map_err(|e| e.to_string())?;
+    }
+    Ok(arguments)
+}
+
+/// Tensors from the bytes of a file whose name tells the format.
+///
+/// # Errors
+/// A sentence with the place in the file.
+pub fn tensors_from_file(path: &str, bytes: &[u8], array: Option<&str>) -> Result<Field<Tensor2>, String> {
+    let extension = path.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
+    match extension.as_str() {
+        "txt" => tigereye_io::matrices::read(bytes).map_err(|e| e.to_string()),
+        "npy" => tigereye_io::npy::read_tensors(bytes).map_err(|e| e.to_string()),
+        "vti" => tigereye_io::vti::read(bytes)
+            .and_then(|image| tigereye_io::tensors_from_image(&image, array))
+            .map(|image| image.field)
+            .map_err(|e| e.to_string()),
+        other => Err(format!("the ending .{other} is not readable: expected .txt, .npy or .vti")),
+    }
+}
+
+/// Every `stride`-th cell of both directions.
+fn strided(field: &Field<Tensor2>, stride: usize) -> Result<Field<Tensor2>, String> {
+    if stride == 0 {
+        return Err("a stride of 0 keeps no cell: expected 1 or more".to_owned());
+    }
+    let grid = field.grid();
+    let kept = Grid::new(grid.width().div_ceil(stride), grid.height().div_ceil(stride))
+        .map_err(|e| e.to_string())?;
+    Ok(Field::from_fn(kept, |c| *field.at(Cell::new(c.x * stride, c.y * stride))))
+}

@@ -1,0 +1,342 @@
+//! What may stand in an experiment file.
+//!
+//! Strict: unknown keys, missing keys, wrong types and numbers out of range are errors with line and column. Keys carry
+//! their units. Everything is documented here because this is the reference for people who write such files.
+
+mod checks;
+mod figures;
+mod load;
+mod named;
+mod numbers;
+
+pub use checks::{Check, Expectation, Mirror, Quantity, SchemeConstant};
+pub use figures::{Axis, Curve, Figure, FlatView, Panel, ProfileSource, Scale, SeriesSource};
+pub(crate) use load::place_of;
+pub use load::{SpecError, load};
+pub use named::Named;
+pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive};
+
+use serde::Deserialize;
+
+/// The format this version reads.
+pub const FORMAT: u32 = 1;
+
+/// One experiment file.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Experiment {
+    /// Version of the format, 1.
+    pub format: u32,
+    /// Heading.
+    pub title: String,
+    /// What it reproduces, for example `Thesis, Fig. 4.8`.
+    pub source: String,
+    /// Section of the gallery; sections are sorted.
+    pub section: String,
+    /// The sentence that the figures support or examine.
+    pub claim: String,
+    /// What to look for, for someone who has not read the source.
+    pub look_for: String,
+    /// When the whole experiment runs.
+    #[serde(default)]
+    pub scope: Scope,
+    /// Tensor fields by name.
+    #[serde(default)]
+    pub fields: Named<FieldSource>,
+    /// Propagations and gradients by name, in order.
+    #[serde(default)]
+    pub runs: Named<Run>,
+    /// Pictures.
+    pub figures: Vec<Figure>,
+    /// What must hold.
+    pub checks: Vec<Check>,
+}
+
+/// When something runs.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+pub enum Scope {
+    /// In every run.
+    #[default]
+    Always,
+    /// Only with `--full`; figures and checks that need it are left out otherwise.
+    Full,
+}
+
+/// Where a tensor field comes from.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub enum FieldSource {
+    /// A generator with its parameters, as `tigereye field list` shows them.
+    Generator {
+        /// Name of the generator.
+        name: String,
+        /// Parameters that differ from their defaults, for example `{"size": "51"}`.
+        #[serde(default)]
+        parameters: Named<Parameter>,
+    },
+    /// Half-axes by expressions in x, y (-1 to 1, y up), i, j, n, r, theta.
+    Axes {
+        /// Cells per row.
+        width: usize,
+        /// Cells per column.
+        height: usize,
+        /// Direction of the major half-axis, radians.
+        phi: String,
+        /// Major half-axis.
+        s1: String,
+        /// Minor half-axis.
+        s2: String,
+    },
+    /// The four components by expressions in the same variables.
+    Components {
+        /// Cells per row.
+        width: usize,
+        /// Cells per column.
+        height: usize,
+        /// Component xx.
+        xx: String,
+        /// Component xy.
+        xy: String,
+        /// Component yx.
+        yx: String,
+        /// Component yy.
+        yy: String,
+    },
+    /// A file (`.txt`, `.npy` or `.vti`), looked up beside the experiment file, in its parent folders, and among the data
+    /// that the program carries.
+    File {
+        /// Path of the file.
+        path: String,
+        /// Array to take from a `.vti`; `None`: its active tensors or its only tensor array.
+        #[serde(default)]
+        array: Option<String>,
+        /// Every how many cells one is kept, from the upper left.
+        #[serde(default = "one")]
+        stride: usize,
+    },
+}
+
+fn one() -> usize {
+    1
+}
+
+/// A generator's parameter: a number, a flag or a word.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(try_from = "ron::Value")]
+pub struct Parameter(pub String);
+
+impl TryFrom<ron::Value> for Parameter {
+    type Error = String;
+
+    fn try_from(value: ron::Value) -> Result<Self, String> {
+        match value {
+            ron::Value::Bool(b) => Ok(Self(b.to_string())),
+            ron::Value::String(s) => Ok(Self(s)),
+            ron::Value::Number(n) => Ok(Self(number_text(n.into_f64()))),
+            other => Err(format!("expected a number, true, false or a string, found {other:?}")),
+        }
+    }
+}
+
+fn number_text(x: f64) -> String {
+    format!("{x}")
+}
+
+/// A computation.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub enum Run {
+    /// Light from some cells.
+    Light {
+        /// Name of the field.
+        field: String,
+        /// Angular samples S, a multiple of 8.
+        #[serde(default)]
+        directions: DirectionCount,
+        /// How profiles are scaled.
+        #[serde(default)]
+        normalization: NormalizationRule,
+        /// Cone weights of the overlap.
+        #[serde(default)]
+        weights: Weights,
+        /// The lights.
+        lights: Vec<LightSource>,
+        /// When to end.
+        #[serde(default)]
+        stop: Stop,
+        /// What computes it.
+        #[serde(default)]
+        engine: EngineChoice,
+        /// Steps whose distribution is kept for figures and checks besides the last one; 0 is the state before the first.
+        #[serde(default)]
+        frames: Vec<usize>,
+        /// When it runs.
+        #[serde(default)]
+        scope: Scope,
+    },
+    /// The light transport gradient of a field.
+    Gradient {
+        /// Name of the field.
+        field: String,
+        /// Angular samples S, a multiple of 8.
+        #[serde(default)]
+        directions: DirectionCount,
+        /// How profiles are scaled.
+        #[serde(default)]
+        normalization: NormalizationRule,
+        /// Cone weights of the overlap.
+        #[serde(default)]
+        weights: Weights,
+        /// When each propagation ends.
+        #[serde(default)]
+        stop: Stop,
+        /// Half-width of the angular difference.
+        #[serde(default)]
+        omega_step: OmegaStep,
+        /// Angles to compute, degrees; all when left out. Each must be a sample.
+        #[serde(default)]
+        slices_deg: Option<Vec<Finite>>,
+        /// When it runs.
+        #[serde(default)]
+        scope: Scope,
+    },
+}
+
+/// How profiles are scaled against each other.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub enum NormalizationRule {
+    /// By their own means: nothing absorbs.
+    #[default]
+    Local,
+    /// By the largest mean (eq. 3.11).
+    Global,
+    /// Locally from this fraction of the largest mean, absorbing below.
+    LocalAbove(Fraction),
+    /// Locally from this fraction of the largest mean, globally below.
+    LocalAboveGlobal(Fraction),
+}
+
+/// Cone weights of the overlap of face and diagonal cones.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+pub enum Weights {
+    /// The printed constants.
+    #[default]
+    Thesis,
+    /// The values their formula gives for beta = atan(1/2).
+    Geometric,
+}
+
+/// What computes a distribution.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+pub enum EngineChoice {
+    /// Eight fluxes a cell.
+    #[default]
+    EightLobe,
+    /// Whole profiles: slow, the oracle.
+    SampleSpace,
+}
+
+/// A light.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct LightSource {
+    /// Column and row, 0 on the upper left; left out: the centre.
+    #[serde(default)]
+    pub cell: Option<(usize, usize)>,
+    /// When it shines.
+    #[serde(default)]
+    pub emission: EmissionKind,
+    /// What it shines.
+    #[serde(default)]
+    pub profile: ProfileShape,
+}
+
+/// When a light shines.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+pub enum EmissionKind {
+    /// Always; its cell's profile is replaced after every step.
+    #[default]
+    Continuous,
+    /// Once, before the first step.
+    Impulse,
+}
+
+/// What a light shines, W/rad.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub enum ProfileShape {
+    /// The same in every direction.
+    Isotropic(Positive),
+    /// `max(0, cos(theta - theta0))^power`.
+    Emitter {
+        /// Brightest direction, degrees.
+        theta_deg: Finite,
+        /// 0 spherical, 1 Lambert, 2 cone, more: narrower.
+        power: NonNegative,
+        /// Intensity in the brightest direction, W/rad.
+        #[serde(default = "Positive::one")]
+        intensity: Positive,
+    },
+    /// One sample.
+    Pulse {
+        /// Direction, degrees; must be a sample.
+        theta_deg: Finite,
+    },
+    /// An expression in `theta` (radians), negative values clipped.
+    Expression(String),
+}
+
+impl Default for ProfileShape {
+    fn default() -> Self {
+        Self::Isotropic(Positive::one())
+    }
+}
+
+/// When a propagation ends.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub enum Stop {
+    /// Change of the total flux below a threshold (the published programme).
+    FluxChange {
+        /// W.
+        threshold: NonNegative,
+        /// At most this many steps and one.
+        #[serde(default = "thousand")]
+        max_iterations: usize,
+    },
+    /// Change of the distribution below a threshold (the text of the thesis).
+    DistributionChange {
+        /// W.
+        threshold: NonNegative,
+        /// At most this many steps and one.
+        #[serde(default = "thousand")]
+        max_iterations: usize,
+    },
+    /// Relative change of the distribution at most 1e-10: the stationary state.
+    Stationary,
+    /// Exactly so many steps.
+    Steps(usize),
+}
+
+fn thousand() -> usize {
+    1000
+}
+
+impl Default for Stop {
+    fn default() -> Self {
+        Self::FluxChange { threshold: NonNegative::half(), max_iterations: thousand() }
+    }
+}
+
+/// Half-width K of the angular difference, in samples.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+pub enum OmegaStep {
+    /// ceil(S/12), as in most published volumes.
+    #[default]
+    Volumes,
+    /// S/16, as in the published slices.
+    Slices,
+    /// This many samples.
+    Samples(usize),
+}

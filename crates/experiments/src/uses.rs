@@ -1,0 +1,128 @@
+//! Which runs and fields the figures and checks of an experiment mention.
+
+use crate::spec::{Experiment, Panel, ProfileSource, Quantity, Run, SeriesSource};
+
+/// The kinds of runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum RunKind {
+    Light,
+    Gradient,
+}
+
+impl RunKind {
+    pub(crate) const fn of(run: &Run) -> Self {
+        match run {
+            Run::Light { .. } => Self::Light,
+            Run::Gradient { .. } => Self::Gradient,
+        }
+    }
+}
+
+/// Runs a panel shows.
+pub(crate) fn of_panel(panel: &Panel) -> Vec<(&str, RunKind)> {
+    match panel {
+        Panel::Glyphs { .. } | Panel::Orientation { .. } => Vec::new(),
+        Panel::Overlay { run, .. } | Panel::Energy { run, .. } => vec![(run, RunKind::Light)],
+        Panel::Slice { run, .. } | Panel::Flat { run, .. } => vec![(run, RunKind::Gradient)],
+        Panel::Polar { curves, .. } => curves
+            .iter()
+            .filter_map(|c| match &c.source {
+                ProfileSource::Light { run, .. } | ProfileSource::Windowed { run, .. } => {
+                    Some((run.as_str(), RunKind::Light))
+                }
+                _ => None,
+            })
+            .collect(),
+        Panel::Chart { series, .. } => series.iter().filter_map(of_series).collect(),
+    }
+}
+
+fn of_series(series: &SeriesSource) -> Option<(&str, RunKind)> {
+    use SeriesSource as S;
+    match series {
+        S::Points { .. } | S::Formula { .. } => None,
+        S::Deviation { of, .. } => of_series(of),
+        S::NetFlux { run, .. }
+        | S::OutwardLobe { run, .. }
+        | S::EnergyError { run, .. }
+        | S::RadiusMean { run, .. }
+        | S::RadiusSpread { run, .. } => Some((run, RunKind::Light)),
+        S::SliceRow { run, .. } | S::MeanOverCells { run, .. } => Some((run, RunKind::Gradient)),
+    }
+}
+
+/// Fields a panel shows.
+pub(crate) fn fields_of_panel(panel: &Panel) -> Vec<&str> {
+    match panel {
+        Panel::Glyphs { field, .. } | Panel::Orientation { field, .. } => vec![field],
+        Panel::Polar { curves, .. } => curves
+            .iter()
+            .filter_map(|c| match &c.source {
+                ProfileSource::Ellipse { field, .. } => Some(field.as_str()),
+                _ => None,
+            })
+            .collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// Runs a quantity is measured on.
+pub(crate) fn of_quantity(quantity: &Quantity) -> Vec<(&str, RunKind)> {
+    use Quantity as Q;
+    match quantity {
+        Q::Scheme(_)
+        | Q::EmitterFlux(_)
+        | Q::DeterminantError { .. }
+        | Q::MajorAxisDeg { .. }
+        | Q::MajorAxisError { .. }
+        | Q::IsotropicShare { .. }
+        | Q::ZeroShare { .. }
+        | Q::LargestAxis { .. } => Vec::new(),
+        Q::Steps { run }
+        | Q::Stopped { run }
+        | Q::TotalEnergy { run }
+        | Q::EnergyDrift { run }
+        | Q::NetFluxRatio { run, .. }
+        | Q::LobeRatio { run, .. }
+        | Q::EnergyRatio { run, .. }
+        | Q::RingShare { run, .. }
+        | Q::BoxShare { run, .. }
+        | Q::LightSymmetry { run, .. }
+        | Q::RadiusMean { run, .. }
+        | Q::RadiusSpread { run, .. }
+        | Q::FrontRoundness { run, .. } => vec![(run, RunKind::Light)],
+        Q::LightDifference { run, from } => vec![(run, RunKind::Light), (from, RunKind::Light)],
+        Q::GradientAt { run, .. }
+        | Q::GradientMax { run }
+        | Q::GradientMean { run }
+        | Q::GradientLimited { run }
+        | Q::RidgeColumnError { run, .. }
+        | Q::RidgeContrast { run, .. }
+        | Q::GradientSymmetry { run, .. } => vec![(run, RunKind::Gradient)],
+        Q::GradientCorrelation { run, with } => vec![(run, RunKind::Gradient), (with, RunKind::Gradient)],
+    }
+}
+
+/// The field a quantity is measured on.
+pub(crate) fn field_of_quantity(quantity: &Quantity) -> Option<&str> {
+    use Quantity as Q;
+    match quantity {
+        Q::DeterminantError { field }
+        | Q::MajorAxisDeg { field, .. }
+        | Q::MajorAxisError { field, .. }
+        | Q::IsotropicShare { field }
+        | Q::ZeroShare { field }
+        | Q::LargestAxis { field } => Some(field),
+        _ => None,
+    }
+}
+
+/// Whether anything asks for the radius of the energy of `run` at every step.
+pub(crate) fn wants_radius(experiment: &Experiment, run: &str) -> bool {
+    let in_check = experiment.checks.iter().any(|c| {
+        matches!(&c.quantity, Quantity::RadiusMean { run: r, .. } | Quantity::RadiusSpread { run: r, .. } if r == run)
+    });
+    let wants = |s: &SeriesSource| matches!(s, SeriesSource::RadiusMean { run: r, .. } | SeriesSource::RadiusSpread { run: r, .. } if r == run);
+    let mut panels = experiment.figures.iter().flat_map(|f| &f.panels);
+    in_check || panels.any(|p| matches!(p, Panel::Chart { series, .. } if series.iter().any(wants)))
+}

@@ -1,0 +1,30 @@
+//! Fields by their specification.
+
+use tigereye_core::{Directions, Field, Normalization, Tensor2, TransmissionField};
+use tigereye_fields::{generate, parse_spec};
+use tigereye_transport::{Scheme, SharedWeights};
+
+/// The field of a specification that is right.
+pub(crate) fn field(spec: &str) -> Field<Tensor2> {
+    let parsed = parse_spec(spec).unwrap_or_else(|e| panic!("{spec}: {e}"));
+    generate(&parsed.name, &parsed.arguments).unwrap_or_else(|e| panic!("{spec}: {e}"))
+}
+
+/// `samples` directions.
+pub(crate) fn directions(samples: usize) -> Directions {
+    Directions::new(samples).expect("a multiple of 8")
+}
+
+/// The published scheme.
+pub(crate) fn scheme(samples: usize) -> Scheme {
+    Scheme::new(directions(samples), SharedWeights::Thesis)
+}
+
+/// The transmission of a tensor field.
+pub(crate) fn transmission(
+    tensors: &Field<Tensor2>,
+    samples: usize,
+    normalization: Normalization,
+) -> TransmissionField {
+    TransmissionField::from_tensors(tensors, directions(samples), normalization).expect("finite tensors")
+}

@@ -1,0 +1,450 @@
+//! Laws of the light transport gradient: its definition, its symmetries, and what it must not depend on.
+
+mod common;
+
+use common::{field, scheme, transmission};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
+use tigereye_core::{Cell, Field, Grid, LtgVolume, Normalization, Tensor2, TransmissionField};
+use tigereye_ltg::{
+    LtgError, LtgOutcome, LtgSettings, Phase, SweepObserver, omega_step_of_slices, omega_step_of_volumes,
+    sweep,
+};
+use tigereye_tests::{Symmetry, difference_over_largest};
+use tigereye_transport::{
+    EightLobe, Engine, Level, Light, Problem, SampleSpace, Scattering, Scheme, Stopping, StoppingRule,
+};
+
+/// Difference from the brute-force gradient relative to the value itself (1): another order of summation, and the
+/// difference of nearly equal samples.
+const BRUTE_FORCE: f64 = 1e-12;
+/// Difference of a moved gradient relative to the largest value (1): the tensors' decomposition rounds differently in
+/// every frame.
+const SYMMETRY: f64 = 1e-12;
+/// Spread of equal values relative to themselves (1): rounding of sums that start elsewhere.
+const UNIFORMITY: f64 = 1e-13;
+/// Mean number of steps (steps): published with two decimals.
+const PRINTED_STEPS: f64 = 5e-3;
+
+/// A field prepared for sweeps.
+struct Scene {
+    scheme: Scheme,
+    transmission: TransmissionField,
+}
+
+impl Scene {
+    fn new(tensors: &Field<Tensor2>, samples: usize, normalization: Normalization) -> Self {
+        Self { scheme: scheme(samples), transmission: transmission(tensors, samples, normalization) }
+    }
+
+    fn of(spec: &str, samples: usize) -> Self {
+        Self::new(&field(spec), samples, Normalization::Local)
+    }
+
+    fn settings(&self, omega_step: usize) -> LtgSettings {
+        LtgSettings { omega_step, ..LtgSettings::reference(self.scheme.directions()) }
+    }
+
+    fn try_sweep(
+        &self,
+        settings: &LtgSettings,
+        observer: &dyn SweepObserver,
+    ) -> Result<LtgOutcome, LtgError> {
+        sweep(&Scattering::new(&self.scheme, &self.transmission), settings, observer)
+    }
+
+    fn steps_of(&self, light: Light) -> usize {
+        let lights = [light];
+        let problem = Problem {
+            scheme: &self.scheme,
+            transmission: &self.transmission,
+            lights: &lights,
+            stopping: Stopping::REFERENCE,
+        };
+        EightLobe.propagate(&problem).expect("a propagation").work.steps
+    }
+
+    fn sweep(&self, settings: &LtgSettings) -> LtgOutcome {
+        self.try_sweep(settings, &()).unwrap_or_else(|e| panic!("{e}"))
+    }
+}
+
+/// `b(x, y, t)` of every pulse as the definition has it, and the steps each one took.
+struct AllPulses {
+    grid: Grid,
+    samples: usize,
+    distributions: Vec<Vec<f64>>,
+    steps: Vec<u64>,
+}
+
+impl AllPulses {
+    fn solve(scene: &Scene, stopping: Stopping) -> Self {
+        let (grid, samples) = (scene.transmission.grid(), scene.scheme.directions().count());
+        let (mut distributions, mut steps) = (Vec::new(), Vec::new());
+        for t in 0..samples {
+            for cell in grid.iter() {
+                let lights = [Light::pulse(cell, t)];
+                let problem = Problem {
+                    scheme: &scene.scheme,
+                    transmission: &scene.transmission,
+                    lights: &lights,
+                    stopping,
+                };
+                let outcome = SampleSpace.propagate(&problem).expect("a pulse");
+                let mut b = outcome.distribution.samples().to_vec();
+                b[grid.index(cell) * samples + t] = 0.0;
+                distributions.push(b);
+                steps.push(outcome.work.steps as u64);
+            }
+        }
+        Self { grid, samples, distributions, steps }
+    }
+
+    fn index(&self, x: usize, y: usize, t: usize) -> usize {
+        t % self.samples * self.grid.cells() + self.grid.index(Cell::new(x, y))
+    }
+
+    fn half_difference(&self, a: usize, b: usize) -> f64 {
+        let pairs = self.distributions[a].iter().zip(&self.distributions[b]);
+        0.5 * pairs.map(|(a, b)| (a - b).abs()).sum::<f64>()
+    }
+
+    /// Eqs. 3.17 to 3.20, slice by slice.
+    fn gradient(&self, omega_step: usize) -> Vec<f64> {
+        let mut values = Vec::new();
+        for t in 0..self.samples {
+            for Cell { x, y } in self.grid.iter() {
+                if self.grid.is_border(Cell::new(x, y)) {
+                    values.push(0.0);
+                    continue;
+                }
+                let along_x = self.half_difference(self.index(x + 1, y, t), self.index(x - 1, y, t));
+                let along_y = self.half_difference(self.index(x, y + 1, t), self.index(x, y - 1, t));
+                let (after, before) = (t + omega_step, t + self.samples - omega_step);
+                let turned = self.half_difference(self.index(x, y, after), self.index(x, y, before));
+                values.push((along_x * along_x + along_y * along_y + turned * turned).sqrt());
+            }
+        }
+        values
+    }
+
+    /// Steps of the pulses whose distributions are compared: all but those in the corners.
+    fn steps_of_compared(&self) -> impl Iterator<Item = u64> + '_ {
+        let (w, h) = (self.grid.width(), self.grid.height());
+        self.steps.iter().enumerate().filter_map(move |(i, &steps)| {
+            let Cell { x, y } = self.grid.cell(i % self.grid.cells());
+            let corner = (x == 0 || x + 1 == w) && (y == 0 || y + 1 == h);
+            (!corner).then_some(steps)
+        })
+    }
+}
+
+/// Largest difference of two values relative to the second; zeros must be zeros.
+fn largest_relative_difference(found: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(found.len(), expected.len());
+    let relative = |(a, b): (&f64, &f64)| if a == b { 0.0 } else { (a - b).abs() / b.abs() };
+    found.iter().zip(expected).map(relative).fold(0.0, f64::max)
+}
+
+fn bits(volume: &LtgVolume) -> Vec<u64> {
+    volume.values().iter().map(|v| v.to_bits()).collect()
+}
+
+fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool").install(work)
+}
+
+#[test]
+fn sweep_is_the_definition() {
+    let zeros = {
+        let mut tensors = field("random:width=7,height=6,seed=3");
+        for i in [9, 17, 18, 30] {
+            tensors.values_mut()[i] = Tensor2::ZERO;
+        }
+        tensors
+    };
+    let scenes = [
+        ("random", Scene::of("random:width=7,height=6", 16)),
+        ("bow", Scene::of("bow:width=7,height=6,anisotropy=4", 16)),
+        ("total anisotropy", Scene::of("rings:width=7,height=6,total=true", 16)),
+        ("zero cells", Scene::new(&zeros, 16, Normalization::Global)),
+    ];
+    let rules = [
+        Stopping::REFERENCE,
+        Stopping::steps(6),
+        Stopping { rule: StoppingRule::DistributionChange { threshold: 0.3 }, max_iterations: 200 },
+        Stopping { rule: StoppingRule::Converged { tolerance: 1e-6 }, max_iterations: 2000 },
+    ];
+    for (name, scene) in &scenes {
+        for stopping in rules {
+            let pulses = AllPulses::solve(scene, stopping);
+            for omega_step in [1, 2, 5] {
+                let settings = LtgSettings { stopping, ..scene.settings(omega_step) };
+                let outcome = scene.sweep(&settings);
+                let expected = pulses.gradient(omega_step);
+                let difference = largest_relative_difference(outcome.volume.values(), &expected);
+                let what = format!("{name}, {:?}, K = {omega_step}", stopping.rule);
+                assert!(difference <= BRUTE_FORCE, "{what}: off by {difference:e}");
+                assert!(expected.iter().any(|&v| v > 1.0), "{what}: something to compare");
+                // Every pulse takes the steps it takes alone.
+                assert_eq!(outcome.work.sources, pulses.steps_of_compared().count() as u64, "{what}");
+                assert_eq!(outcome.work.iterations_total, pulses.steps_of_compared().sum::<u64>(), "{what}");
+                let longest = pulses.steps_of_compared().max().expect("pulses");
+                assert_eq!(outcome.work.iterations_max, longest, "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn border_cells_are_zero_and_inner_cells_are_not() {
+    let volume = Scene::of("random:width=9,height=7", 16).sweep(&LtgSettings {
+        stopping: Stopping::steps(8),
+        ..LtgSettings::reference(common::directions(16))
+    });
+    for t in 0..16 {
+        for (cell, &value) in volume.volume.slice(t).expect("a full volume").iter() {
+            assert_eq!(value == 0.0, volume.volume.grid().is_border(cell), "{cell:?}, t = {t}: {value}");
+        }
+    }
+}
+
+#[test]
+fn grids_without_inner_cells_have_no_gradient() {
+    for spec in ["random:width=2,height=9", "random:width=9,height=1"] {
+        let scene = Scene::of(spec, 8);
+        let outcome = scene.sweep(&scene.settings(1));
+        assert!(outcome.volume.values().iter().all(|&v| v == 0.0), "{spec}");
+        assert_eq!(outcome.work.sources, 0, "{spec}");
+    }
+}
+
+#[test]
+fn gradient_does_not_depend_on_threads_or_instruction_set() {
+    for scene in
+        [Scene::of("random:width=11,height=9", 16), Scene::of("rings:width=10,height=11,total=true", 24)]
+    {
+        let settings = LtgSettings { level: Level::BASELINE, ..scene.settings(2) };
+        let expected = with_threads(1, || scene.sweep(&settings));
+        for threads in [1, 2, 5] {
+            for level in Level::available() {
+                let found = with_threads(threads, || scene.sweep(&LtgSettings { level, ..settings.clone() }));
+                let what = format!("{threads} threads, {}", level.name());
+                assert_eq!(bits(&found.volume), bits(&expected.volume), "{what}");
+                assert_eq!((found.work, found.limited), (expected.work, expected.limited), "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn gradient_does_not_depend_on_the_memory_bound() {
+    let scene = Scene::of("random:width=11,height=9", 16);
+    for threads in [1, 2] {
+        with_threads(threads, || {
+            let settings = scene.settings(2);
+            let expected = scene.sweep(&settings);
+            let refused = scene.try_sweep(&LtgSettings { memory_bytes: 1, ..settings.clone() }, &());
+            let Err(LtgError::Memory { needed, bound: 1 }) = refused else { panic!("{refused:?}") };
+            let least = u64::try_from(needed).expect("a small field");
+            let mut solved_again = Vec::new();
+            for percent in [100, 120, 150, 200, 300, 400, 600, 1000, 2000] {
+                let memory_bytes = least / 100 * percent + least % 100;
+                let found = scene.sweep(&LtgSettings { memory_bytes, ..settings.clone() });
+                let what = format!("{percent} % of the least memory");
+                assert_eq!(bits(&found.volume), bits(&expected.volume), "{what}");
+                assert!(found.work.sources >= expected.work.sources, "{what}");
+                solved_again.push(found.work.sources - expected.work.sources);
+            }
+            // Strips solve the columns beside them again; with enough memory nothing is solved twice.
+            assert!(solved_again[0] > 0, "the least memory means strips: {solved_again:?}");
+            assert_eq!(solved_again.last(), Some(&0));
+            assert!(solved_again.is_sorted_by(|a, b| a >= b), "more memory, less work: {solved_again:?}");
+            // The refusal names the least bound that is accepted.
+            let below = LtgSettings { memory_bytes: least - 1, ..settings.clone() };
+            assert!(matches!(scene.try_sweep(&below, &()), Err(LtgError::Memory { .. })));
+        });
+    }
+}
+
+#[test]
+fn slices_are_the_slices_of_the_full_volume() {
+    let scene = Scene::of("random:width=9,height=8", 32);
+    let settings = scene.settings(3);
+    let full = scene.sweep(&settings).volume;
+    for chosen in [vec![0], vec![8], vec![1, 31], vec![30, 2, 8, 8], (0..32).rev().collect::<Vec<_>>()] {
+        let outcome = scene.sweep(&LtgSettings { slices: Some(chosen.clone()), ..settings.clone() });
+        let mut ascending = chosen.clone();
+        ascending.sort_unstable();
+        ascending.dedup();
+        assert_eq!(outcome.volume.slices(), ascending);
+        for &t in &ascending {
+            let slice = |v: &LtgVolume| -> Vec<u64> {
+                v.slice(t).expect("a slice held").values().iter().map(|v| v.to_bits()).collect()
+            };
+            assert_eq!(slice(&outcome.volume), slice(&full), "slice {t} of {chosen:?}");
+        }
+    }
+}
+
+#[test]
+fn gradient_mirrors_and_turns_with_the_field() {
+    for spec in ["random:width=9,height=7", "bow:width=9,height=8,anisotropy=4"] {
+        let tensors = field(spec);
+        for samples in [8, 16, 24] {
+            let omega_step = omega_step_of_volumes(common::directions(samples));
+            let run = |tensors: &Field<Tensor2>| {
+                let scene = Scene::new(tensors, samples, Normalization::Global);
+                scene.sweep(&scene.settings(omega_step))
+            };
+            let straight = run(&tensors);
+            for symmetry in Symmetry::ALL {
+                let moved = run(&symmetry.field(&tensors));
+                assert_eq!(moved.work, straight.work, "{spec}, S = {samples}, {symmetry:?}");
+                let (mut found, mut expected) = (Vec::new(), Vec::new());
+                for t in 0..samples {
+                    for cell in tensors.grid().iter() {
+                        let there = symmetry.cell(tensors.grid(), cell);
+                        let value = moved.volume.value(there, symmetry.sample(samples, t));
+                        found.push(value.expect("a value"));
+                        expected.push(straight.volume.value(cell, t).expect("a value"));
+                    }
+                }
+                let difference = difference_over_largest(&found, &expected);
+                assert!(difference <= SYMMETRY, "{spec}, S = {samples}, {symmetry:?}: {difference:e}");
+            }
+        }
+    }
+}
+
+/// After n steps a pulse has not met the rim where it is n cells away; its neighbours need one more.
+#[test]
+fn gradient_of_a_uniform_field_is_uniform_away_from_the_rim() {
+    let steps = 4;
+    for spec in ["x:width=14,height=13", "isotropic:width=14,height=13"] {
+        let scene = Scene::of(spec, 16);
+        let outcome = scene.sweep(&LtgSettings { stopping: Stopping::steps(steps), ..scene.settings(2) });
+        let grid = outcome.volume.grid();
+        let away = |c: Cell| {
+            let margin = steps + 1;
+            (margin..grid.width() - margin).contains(&c.x) && (margin..grid.height() - margin).contains(&c.y)
+        };
+        for t in 0..16 {
+            let slice = outcome.volume.slice(t).expect("a slice");
+            let values: Vec<f64> = slice.iter().filter(|(c, _)| away(*c)).map(|(_, &v)| v).collect();
+            assert_eq!(values.len(), 4 * 3);
+            for &v in &values {
+                assert!((v - values[0]).abs() <= UNIFORMITY * values[0], "{spec}, t = {t}: {values:?}");
+            }
+            // Both fields are their own mirror images.
+            let centre = Cell::new(6, 6);
+            for mirrored in [(16 - t) % 16, (24 - t) % 16] {
+                let (a, b) = (outcome.volume.value(centre, t), outcome.volume.value(centre, mirrored));
+                let (a, b) = (a.expect("a value"), b.expect("a value"));
+                assert!((a - b).abs() <= UNIFORMITY * a, "{spec}, t = {t}: {a} and {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_pulse_but_the_corners_is_solved_once() {
+    for (width, height) in [(3, 3), (5, 9), (12, 4)] {
+        for samples in [8, 16] {
+            let scene = Scene::of(&format!("spiral:width={width},height={height}"), samples);
+            let outcome = scene.sweep(&scene.settings(1));
+            assert_eq!(outcome.work.sources, ((width * height - 4) * samples) as u64, "{width} x {height}");
+        }
+    }
+}
+
+/// Breaks after some sources.
+struct Impatient {
+    after: u64,
+    calls: AtomicU64,
+    phases: AtomicU64,
+}
+
+impl SweepObserver for Impatient {
+    fn phase(&self, _phase: Phase) {
+        self.phases.fetch_add(1, Ordering::Relaxed);
+    }
+    fn progress(&self, done: u64, total: u64) -> ControlFlow<()> {
+        assert!(done <= total, "{done} of {total}");
+        self.calls.fetch_add(1, Ordering::Relaxed);
+        if done >= self.after { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+fn impatient(after: u64) -> Impatient {
+    Impatient { after, calls: AtomicU64::new(0), phases: AtomicU64::new(0) }
+}
+
+#[test]
+fn an_observer_interrupts_the_sweep() {
+    let scene = Scene::of("random:width=9,height=8", 16);
+    let settings = scene.settings(2);
+    let all = (9 * 8 - 4) * 16;
+    for threads in [1, 2] {
+        let observer = impatient(100);
+        let outcome = with_threads(threads, || scene.try_sweep(&settings, &observer));
+        let Err(LtgError::Interrupted { done, total }) = outcome else { panic!("{outcome:?}") };
+        assert_eq!(total, all);
+        assert!((100..all).contains(&done), "{done} of {total}");
+    }
+    let observer = impatient(u64::MAX);
+    let watched = scene.try_sweep(&settings, &observer).expect("a sweep");
+    assert_eq!(bits(&watched.volume), bits(&scene.sweep(&settings).volume), "watching changes nothing");
+    assert!(observer.calls.into_inner() > 0 && observer.phases.into_inner() > 0);
+}
+
+#[test]
+fn impossible_sweeps_are_refused_before_any_work() {
+    let scene = Scene::of("random:width=9,height=8", 16);
+    let settings = scene.settings(2);
+    let refusal = |settings: LtgSettings| {
+        let observer = impatient(u64::MAX);
+        let error = scene.try_sweep(&settings, &observer).expect_err("a refusal");
+        assert_eq!(observer.calls.into_inner() + observer.phases.into_inner(), 0, "{error}: work was done");
+        error
+    };
+    let memory = refusal(LtgSettings { memory_bytes: 1000, ..settings.clone() });
+    assert!(matches!(memory, LtgError::Memory { bound: 1000, needed } if needed > 1000), "{memory:?}");
+    for omega_step in [0, 9] {
+        let error = refusal(LtgSettings { omega_step, ..settings.clone() });
+        assert_eq!(error, LtgError::OmegaStep { omega_step, directions: 16 });
+    }
+    let error = refusal(LtgSettings { slices: Some(vec![3, 16]), ..settings.clone() });
+    assert_eq!(error, LtgError::Slice { slice: 16, directions: 16 });
+    assert_eq!(refusal(LtgSettings { slices: Some(vec![]), ..settings.clone() }), LtgError::NoSlices);
+    let rule = StoppingRule::FluxChange { threshold: f64::NAN };
+    let error = refusal(LtgSettings { stopping: Stopping { rule, max_iterations: 9 }, ..settings });
+    assert!(matches!(error, LtgError::Stopping(_)), "{error:?}");
+}
+
+#[test]
+fn work_of_inverse13_is_known() {
+    let scene = Scene::of("inverse:size=13,anisotropy=4", 64);
+    let directions = scene.scheme.directions();
+    assert_eq!((omega_step_of_volumes(directions), omega_step_of_slices(directions)), (6, 4));
+    let outcome = scene.sweep(&LtgSettings::reference(directions));
+    // The published mean of 12.88 steps is over all 13 x 13 x 64 pulses, the corners' among them.
+    let in_corners: usize = [(0, 0), (12, 0), (0, 12), (12, 12)]
+        .iter()
+        .flat_map(|&(x, y)| (0..64).map(move |t| Light::pulse(Cell::new(x, y), t)))
+        .map(|light| scene.steps_of(light))
+        .sum();
+    let mean = (outcome.work.iterations_total + in_corners as u64) as f64 / f64::from(13 * 13 * 64);
+    assert!((mean - 12.88).abs() <= PRINTED_STEPS, "{mean} steps on average");
+    insta::assert_debug_snapshot!((outcome.work, outcome.limited), @r"
+    (
+        SweepWork {
+            sources: 10560,
+            iterations_total: 137756,
+            iterations_max: 21,
+            cell_updates: 13888524,
+        },
+        0,
+    )
+    ");
+}

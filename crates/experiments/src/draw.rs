@@ -6,12 +6,12 @@ use crate::runs::{LightResult, Results, RunError};
 use crate::settings::{Settings, sample_of};
 use crate::spec::{self, FlatView, Panel, ProfileSource, SeriesSource};
 use std::fmt::Write as _;
-use tigereye_core::{Cell, Field, Grid, PolarProfile, transmission_ellipse};
+use tigereye_core::{Cell, Field, Grid, LightDistribution, PolarProfile, transmission_ellipse};
 use tigereye_fields::Expression;
 use tigereye_render::{
-    Chart, ChartAxis, GlyphOptions, GlyphScale, HeatOptions, HeatScale, IntensityScale, OrientationOptions,
-    Overlay, PolarOptions, PolarPlotOptions, PolarSeries, Rgba, SERIES_PALETTE, Scene, Series,
-    TransmissionScale, glyphs, heat_map, line_chart, orientation_map, polar_overlay, polar_plot,
+    Chart, ChartAxis, GlyphColour, GlyphOptions, GlyphScale, HeatOptions, HeatScale, IntensityScale,
+    OrientationOptions, Overlay, PolarOptions, PolarPlotOptions, PolarSeries, Rgba, SERIES_PALETTE, Scene,
+    Series, TransmissionScale, glyphs, heat_map, line_chart, orientation_map, polar_overlay, polar_plot,
     small_multiples,
 };
 use tigereye_transport::{Scheme, SharedWeights, emitter};
@@ -81,16 +81,19 @@ impl Draw<'_> {
         let failed = |source| RunError::Figure { figure: figure.to_owned(), source };
         let own_title = |title: &String| if self.alone { title.clone() } else { String::new() };
         match panel {
-            Panel::Glyphs { field, title } => {
-                let scene = self.settings.fields.get(field).map(|f| self.glyphs(f, own_title(title)));
+            Panel::Glyphs { field, colour, title } => {
+                let scene =
+                    self.settings.fields.get(field).map(|f| self.glyphs(f, *colour, own_title(title)));
                 shown(scene, title, figure)
             }
             Panel::Orientation { field, title } => {
                 let scene = self.settings.fields.get(field).map(|f| self.orientation(f, own_title(title)));
                 shown(scene, title, figure)
             }
-            Panel::Overlay { run, step, scale, title } => {
-                let scene = self.light(run).and_then(|r| self.overlay(r, *step, *scale, own_title(title)));
+            Panel::Overlay { run, step, scale, transmission, title } => {
+                let scene = self.light(run).and_then(|r| {
+                    self.overlay(r, at_step(r, *step)?, *scale, *transmission, own_title(title))
+                });
                 shown(scene, title, figure)
             }
             Panel::Energy { run, step, decades, title } => {
@@ -132,12 +135,19 @@ impl Draw<'_> {
         (!self.alone).then(|| (PANEL_PX / grid.width().max(grid.height())).max(2))
     }
 
-    fn glyphs(&self, field: &Field<tigereye_core::Tensor2>, title: String) -> Scene {
+    fn glyphs(
+        &self,
+        field: &Field<tigereye_core::Tensor2>,
+        colour: spec::GlyphColour,
+        title: String,
+    ) -> Scene {
         let scale = if same_size(field) { GlyphScale::Field } else { GlyphScale::SquareRoot };
-        glyphs(
-            field,
-            &GlyphOptions { title, scale, cell_px: self.cell_px(field.grid()), ..GlyphOptions::default() },
-        )
+        let colour = match colour {
+            spec::GlyphColour::Anisotropy => GlyphColour::Anisotropy,
+            spec::GlyphColour::Sign => GlyphColour::AxisSign,
+        };
+        let cell_px = self.cell_px(field.grid());
+        glyphs(field, &GlyphOptions { title, scale, colour, cell_px, ..GlyphOptions::default() })
     }
 
     fn orientation(&self, field: &Field<tigereye_core::Tensor2>, title: String) -> Scene {
@@ -148,8 +158,9 @@ impl Draw<'_> {
     fn overlay(
         &self,
         r: &LightResult,
-        step: Option<usize>,
+        light: &LightDistribution,
         scale: spec::Scale,
+        transmission: bool,
         title: String,
     ) -> Option<Scene> {
         let intensity = match scale {
@@ -167,7 +178,7 @@ impl Draw<'_> {
             cell_px: self.cell_px(r.last.grid()),
             ..PolarOptions::default()
         };
-        Some(polar_overlay(Some(&r.transmission), Some(at_step(r, step)?), &options))
+        Some(polar_overlay(transmission.then_some(&r.transmission), Some(light), &options))
     }
 
     fn energy(

@@ -5,6 +5,8 @@
 //! the cell behind it, so the buffers need no clearing between steps.
 
 use crate::scattering::{CellScattering, Scattering};
+use crate::simd::{Plain, Vector};
+use core::ops::{Add, Deref, DerefMut, Range};
 use tigereye_core::{Cell, Grid, NEIGHBOUR_OFFSETS};
 
 /// Eight fluxes (W) for each of N lanes.
@@ -58,71 +60,150 @@ impl Padding {
     pub(crate) const fn index(self, x: usize, y: usize) -> usize {
         (y + 1) * self.stride + x + 1
     }
-    /// The padded cell that the light of padded cell `i` in direction `k` reaches.
-    #[inline(always)]
-    pub(crate) const fn towards(self, i: usize, k: usize) -> usize {
-        let (dx, dy) = NEIGHBOUR_OFFSETS[k];
-        (i as isize + dy * self.stride as isize + dx) as usize
+    /// The cell above and to the left of (x, y), which may be a ghost.
+    const fn ghost(self, x: usize, y: usize) -> usize {
+        y * self.stride + x
     }
 }
 
-/// `M a`, its sum and the sum of `a` of one cell.
+/// Fluxes of many cells, dark at first. Lanes that fill a cache line lie in one.
+#[derive(Debug)]
+pub(crate) struct State<const N: usize> {
+    /// The cells begin where a cache line does; a line more than they need.
+    values: Vec<f64>,
+    start: usize,
+    cells: usize,
+}
+
+impl<const N: usize> State<N> {
+    const LINE_BYTES: usize = 64;
+
+    pub(crate) fn dark(cells: usize) -> Self {
+        let values = vec![0.0; cells * 8 * N + Self::LINE_BYTES / size_of::<f64>()];
+        // Where alignment is unknown the numbers are the same, only slower to reach.
+        let start = values.as_ptr().align_offset(Self::LINE_BYTES).min(Self::LINE_BYTES / size_of::<f64>());
+        Self { values, start, cells }
+    }
+    #[inline(always)]
+    fn range(&self) -> Range<usize> {
+        self.start..self.start + self.cells * 8 * N
+    }
+}
+
+impl<const N: usize> Deref for State<N> {
+    type Target = [Lobes<N>];
+    #[inline(always)]
+    fn deref(&self) -> &[Lobes<N>] {
+        self.values[self.range()].as_chunks().0.as_chunks().0
+    }
+}
+
+impl<const N: usize> DerefMut for State<N> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [Lobes<N>] {
+        let range = self.range();
+        self.values[range].as_chunks_mut().0.as_chunks_mut().0
+    }
+}
+
+impl<const N: usize> Clone for State<N> {
+    fn clone(&self) -> Self {
+        let mut state = Self::dark(self.cells);
+        state.copy_from_slice(self);
+        state
+    }
+}
+
+/// Vector `c` of the lanes of eight fluxes.
+#[inline(always)]
+pub(crate) fn load8<const N: usize, const W: usize, V: Vector<W>>(
+    proof: V::Proof,
+    a: &Lobes<N>,
+    c: usize,
+) -> [V; 8] {
+    let mut v = [V::splat(proof, 0.0); 8];
+    for j in 0..8 {
+        v[j] = V::load_part(proof, &a[j], c);
+    }
+    v
+}
+
+/// `M a`.
 ///
 /// The order of the additions is symmetric under mirroring and quarter turns: symmetric light stays symmetric to the
 /// last bit wherever the matrices are.
 #[inline(always)]
-pub(crate) fn scatter<const N: usize>(m: &CellScattering, a: &Lobes<N>) -> (Lobes<N>, [f64; N], [f64; N]) {
-    let mut ma = [[0.0; N]; 8];
+pub(crate) fn scattered<const W: usize, V: Vector<W>>(
+    proof: V::Proof,
+    m: &CellScattering,
+    a: &[V; 8],
+) -> [V; 8] {
+    let mut ma = *a;
     for k in 0..8 {
         let b = &m.band[k % 4];
-        let (left2, left1, here) = (&a[(k + 6) % 8], &a[(k + 7) % 8], &a[k]);
-        let (right1, right2) = (&a[(k + 1) % 8], &a[(k + 2) % 8]);
-        for l in 0..N {
-            let near = b[1] * left1[l] + b[3] * right1[l];
-            let far = b[0] * left2[l] + b[4] * right2[l];
-            ma[k][l] = (b[2] * here[l] + near) + far;
-        }
+        let b = |d: usize| V::splat(proof, b[d]);
+        let near = b(1) * a[(k + 7) % 8] + b(3) * a[(k + 1) % 8];
+        let far = b(0) * a[(k + 6) % 8] + b(4) * a[(k + 2) % 8];
+        ma[k] = (b(2) * a[k] + near) + far;
     }
-    (ma, sum8(&ma), sum8(a))
+    ma
 }
 
 /// Sum over the eight directions, opposite ones first.
 #[inline(always)]
-pub(crate) fn sum8<const N: usize>(a: &Lobes<N>) -> [f64; N] {
-    let mut sum = [0.0; N];
-    for l in 0..N {
-        sum[l] = ((a[0][l] + a[4][l]) + (a[2][l] + a[6][l])) + ((a[1][l] + a[5][l]) + (a[3][l] + a[7][l]));
-    }
-    sum
+pub(crate) fn sum_of_eight<V: Copy + Add<Output = V>>(a: &[V; 8]) -> V {
+    ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]))
 }
 
 /// `Phi = Tbar energy (M a) / sum(M a)`; nothing where nothing passes.
 #[inline(always)]
+pub(crate) fn normalized_to<const W: usize, V: Vector<W>>(
+    proof: V::Proof,
+    rate: f64,
+    energy: V,
+    ma: &[V; 8],
+    sum_ma: V,
+) -> [V; 8] {
+    let quotient = V::splat(proof, rate) * energy / sum_ma;
+    let factor = V::if_positive(sum_ma, quotient, V::splat(proof, 0.0));
+    let mut phi = *ma;
+    for k in 0..8 {
+        phi[k] = factor * ma[k];
+    }
+    phi
+}
+
+/// `M a`, its sum and the sum of `a` of one cell, lane by lane.
+pub(crate) fn scatter<const N: usize>(m: &CellScattering, a: &Lobes<N>) -> (Lobes<N>, [f64; N], [f64; N]) {
+    let a = a.map(Plain);
+    let ma = scattered((), m, &a);
+    (ma.map(|v| v.0), sum_of_eight(&ma).0, sum_of_eight(&a).0)
+}
+
+/// Sum over the eight directions, lane by lane.
+pub(crate) fn sum8<const N: usize>(a: &Lobes<N>) -> [f64; N] {
+    sum_of_eight(&a.map(Plain)).0
+}
+
+/// [`normalized_to`], lane by lane.
 pub(crate) fn normalized<const N: usize>(
     rate: f64,
     energy: &[f64; N],
     ma: &Lobes<N>,
     sum_ma: &[f64; N],
 ) -> Lobes<N> {
-    let mut factor = [0.0; N];
-    for l in 0..N {
-        let quotient = rate * energy[l] / sum_ma[l];
-        factor[l] = if sum_ma[l] > 0.0 { quotient } else { 0.0 };
-    }
-    let mut phi = [[0.0; N]; 8];
-    for k in 0..8 {
-        for l in 0..N {
-            phi[k][l] = factor[l] * ma[k][l];
-        }
-    }
-    phi
+    normalized_to((), rate, Plain(*energy), &ma.map(Plain), Plain(*sum_ma)).map(|v| v.0)
 }
 
-/// Two states and where they differ from 0.
+/// The current state and the one before.
 pub(crate) struct Buffers<const N: usize> {
-    pub(crate) from: Vec<Lobes<N>>,
-    pub(crate) to: Vec<Lobes<N>>,
+    pub(crate) from: State<N>,
+    pub(crate) to: State<N>,
     pub(crate) padding: Padding,
+    /// Where the current state begins in `from`: 0, or after every other [`Buffers::step_in_place`] two rows on.
+    pub(crate) start: usize,
+    /// The last step's flux to existing neighbours of each row.
+    row_flux: Vec<[f64; N]>,
     grid: Grid,
 }
 
@@ -132,91 +213,223 @@ pub(crate) type Specials<const N: usize> = [(Cell, Lobes<N>)];
 impl<const N: usize> Buffers<N> {
     pub(crate) fn new(grid: Grid) -> Self {
         let padding = Padding::of(grid);
-        let dark = vec![[[0.0; N]; 8]; padding.len()];
-        Self { from: dark.clone(), to: dark, padding, grid }
+        let state = || State::dark(Self::cells(grid));
+        Self { from: state(), to: state(), padding, start: 0, row_flux: vec![[0.0; N]; grid.height()], grid }
+    }
+
+    /// Cells of each of the two states: those of the grid, the ring and two more rows.
+    pub(crate) const fn cells(grid: Grid) -> usize {
+        let padding = Padding::of(grid);
+        padding.len() + 2 * padding.stride
     }
 
     /// Makes both states dark again after a propagation that reached `window`.
     pub(crate) fn clear(&mut self, window: Window) {
-        // Passed-on light may lie one cell outside of the window that passed it on, in the ghost ring too.
-        for y in 0..=(window.y1 - window.y0 + 2) {
-            let start =
-                self.padding.index(window.x0, window.y0) + y * self.padding.stride - self.padding.stride - 1;
-            let row = start..start + window.x1 - window.x0 + 3;
+        // Passed-on light may lie one cell outside of the window that passed it on, in the ghost ring too, and after
+        // steps in place two rows on.
+        for y in window.y0..window.y1 + 5 {
+            let row = self.padding.ghost(window.x0, y)..self.padding.ghost(window.x1 + 3, y);
             self.from[row.clone()].fill([[0.0; N]; 8]);
             self.to[row].fill([[0.0; N]; 8]);
         }
+        self.start = 0;
     }
 
-    /// Passes light on from every cell of `window` and makes the result the current state (`from`). Returns the flux
-    /// that went to existing neighbours: each row alone, then rows in order.
-    #[inline(always)]
+    /// [`Buffers::step_with`] on any processor.
     pub(crate) fn step(
         &mut self,
         field: &Scattering<'_>,
         window: Window,
         specials: &Specials<N>,
     ) -> [f64; N] {
-        let mut total = [0.0; N];
-        let mut specials = specials.iter().peekable();
+        self.step_with::<N, Plain<N>>((), field, window, specials)
+    }
+
+    /// Passes light on from every cell of `window` and makes the result the current state (`from`) and the one before
+    /// `to`. Returns the flux that went to existing neighbours: each row alone, then rows in order.
+    #[inline(always)]
+    pub(crate) fn step_with<const W: usize, V: Vector<W>>(
+        &mut self,
+        proof: V::Proof,
+        field: &Scattering<'_>,
+        window: Window,
+        specials: &Specials<N>,
+    ) -> [f64; N] {
         for y in window.y0..=window.y1 {
-            let mut row = [0.0; N];
-            let mut x = window.x0;
-            while x <= window.x1 {
-                let special = specials.next_if(|(c, _)| c.y == y);
-                let end = special.map_or(window.x1 + 1, |(c, _)| c.x);
-                self.pass_span(field, y, x, end, &mut row);
-                if let Some((cell, phi)) = special {
-                    self.pass_border(*cell, phi, &mut row);
-                }
-                x = end + 1;
+            let from = &self.from[self.padding.index(0, y)..];
+            let to = &mut self.to[self.padding.ghost(0, y)..];
+            let mut row = Row { grid: self.grid, y, from, to, flux: [0.0; N] };
+            row.pass::<W, V>(proof, field, window, specials);
+            self.row_flux[y] = row.flux;
+        }
+        std::mem::swap(&mut self.from, &mut self.to);
+        self.total_flux(window)
+    }
+
+    /// The same without keeping the state before: half the memory to move.
+    ///
+    /// The new state lies two rows before or after the old one in the same buffer, and rows are passed on in the order
+    /// that overwrites only what has been read (a compressed grid: Pohl et al., Parallel Processing Letters 13, 2003).
+    #[inline(always)]
+    pub(crate) fn step_in_place<const W: usize, V: Vector<W>>(
+        &mut self,
+        proof: V::Proof,
+        field: &Scattering<'_>,
+        window: Window,
+        specials: &Specials<N>,
+    ) -> [f64; N] {
+        let two_rows = 2 * self.padding.stride;
+        let forth = self.start == 0;
+        let new_start = if forth { two_rows } else { 0 };
+        for n in 0..=window.y1 - window.y0 {
+            let y = if forth { window.y1 - n } else { window.y0 + n };
+            // What the old state left in the last three rows of the new one goes: two are not written whole, and the
+            // third not at all.
+            if n + 1 >= window.y1 - window.y0 {
+                self.darken(window, y + 2);
             }
+            let old = self.start + self.padding.index(0, y);
+            let new = new_start + self.padding.ghost(0, y);
+            let (from, to) = if forth {
+                let (from, to) = self.from.split_at_mut(new);
+                (&from[old..], to)
+            } else {
+                let (to, from) = self.from.split_at_mut(old);
+                (&*from, &mut to[new..])
+            };
+            let mut row = Row { grid: self.grid, y, from, to, flux: [0.0; N] };
+            row.pass::<W, V>(proof, field, window, specials);
+            self.row_flux[y] = row.flux;
+        }
+        self.darken(window, if forth { window.y0 + 1 } else { window.y1 + 3 });
+        self.start = new_start;
+        self.total_flux(window)
+    }
+
+    /// Makes one row of the buffer dark where light of `window` reaches. Row 0 is the ghost row of a state that starts
+    /// at 0, row 2 that of one that starts two rows on.
+    fn darken(&mut self, window: Window, row: usize) {
+        let row = self.padding.ghost(window.x0, row)..self.padding.ghost(window.x1 + 3, row);
+        self.from[row].fill([[0.0; N]; 8]);
+    }
+
+    fn total_flux(&self, window: Window) -> [f64; N] {
+        let mut total = [0.0; N];
+        for row in &self.row_flux[window.y0..=window.y1] {
             for l in 0..N {
                 total[l] += row[l];
             }
         }
-        std::mem::swap(&mut self.from, &mut self.to);
         total
     }
+}
 
-    /// Cells `x..end` of row `y`.
+/// One row that passes its light on.
+struct Row<'a, const N: usize> {
+    grid: Grid,
+    y: usize,
+    /// The current state from column 0 of the row on.
+    from: &'a [Lobes<N>],
+    /// The new state from the ghost column of the row above on.
+    to: &'a mut [Lobes<N>],
+    /// Flux to existing neighbours.
+    flux: [f64; N],
+}
+
+impl<const N: usize> Row<'_, N> {
     #[inline(always)]
-    fn pass_span(&mut self, field: &Scattering<'_>, y: usize, x: usize, end: usize, row: &mut [f64; N]) {
-        let (w, h) = (self.grid.width(), self.grid.height());
-        let inner_row = y > 0 && y + 1 < h;
-        for x in x..end {
-            let m = &field.cells[y * w + x];
-            let i = self.padding.index(x, y);
-            let (ma, sum_ma, energy) = scatter(m, &self.from[i]);
-            let phi = normalized(m.rate, &energy, &ma, &sum_ma);
-            if inner_row && x > 0 && x + 1 < w {
-                for k in 0..8 {
-                    self.to[self.padding.towards(i, k)][k] = phi[k];
-                }
-                let passed = sum8(&phi);
-                for l in 0..N {
-                    row[l] += passed[l];
-                }
+    fn pass<const W: usize, V: Vector<W>>(
+        &mut self,
+        proof: V::Proof,
+        field: &Scattering<'_>,
+        window: Window,
+        specials: &Specials<N>,
+    ) {
+        let (y, mut x) = (self.y, window.x0);
+        for (cell, phi) in specials.iter().filter(|(c, _)| c.y == y) {
+            self.pass_span::<W, V>(proof, field, x..cell.x);
+            self.pass_special(cell.x, phi);
+            x = cell.x + 1;
+        }
+        self.pass_span::<W, V>(proof, field, x..window.x1 + 1);
+    }
+
+    /// Cells `span`: borders apart, so that the inner loop asks nothing.
+    #[inline(always)]
+    fn pass_span<const W: usize, V: Vector<W>>(
+        &mut self,
+        proof: V::Proof,
+        field: &Scattering<'_>,
+        span: Range<usize>,
+    ) {
+        let first = span.start.max(1).min(span.end);
+        let last = span.end.min(self.grid.width() - 1).max(first);
+        for part in [span.start..first, first..last, last..span.end] {
+            if part.is_empty() {
+                continue;
+            }
+            let reached = self.reached(part.start);
+            if reached == [true; 8] {
+                self.pass_cells::<true, W, V>(proof, field, part, &reached);
             } else {
-                self.pass_border(Cell::new(x, y), &phi, row);
+                self.pass_cells::<false, W, V>(proof, field, part, &reached);
             }
         }
     }
 
-    /// One cell whose neighbours may be missing.
+    /// Which neighbours of a cell exist.
+    fn reached(&self, x: usize) -> [bool; 8] {
+        std::array::from_fn(|k| self.grid.neighbour(Cell::new(x, self.y), k).is_some())
+    }
+
+    /// Cells `span`, of which the neighbours `reached` exist: all of them if `INNER`.
     #[inline(always)]
-    fn pass_border(&mut self, cell: Cell, phi: &Lobes<N>, row: &mut [f64; N]) {
-        let i = self.padding.index(cell.x, cell.y);
+    fn pass_cells<const INNER: bool, const W: usize, V: Vector<W>>(
+        &mut self,
+        proof: V::Proof,
+        field: &Scattering<'_>,
+        span: Range<usize>,
+        reached: &[bool; 8],
+    ) {
+        let cell = self.grid.index(Cell::new(span.start, self.y));
+        let matrices = &field.cells[cell..cell + span.len()];
+        let from = &self.from[span.clone()];
+        let (above, rest) = self.to[span.start..].split_at_mut(self.grid.width() + 2);
+        let (here, below) = rest.split_at_mut(self.grid.width() + 2);
+        for (j, (a, m)) in from.iter().zip(matrices).enumerate() {
+            let to = [&mut above[j..j + 3], &mut here[j..j + 3], &mut below[j..j + 3]];
+            for c in 0..N / W {
+                let a = load8::<N, W, V>(proof, a, c);
+                let ma = scattered(proof, m, &a);
+                let mut phi = normalized_to(proof, m.rate, sum_of_eight(&a), &ma, sum_of_eight(&ma));
+                for k in 0..8 {
+                    let (dx, dy) = NEIGHBOUR_OFFSETS[k];
+                    phi[k].store_part(&mut to[(dy + 1) as usize][(dx + 1) as usize][k], c);
+                    if !INNER && !reached[k] {
+                        phi[k] = V::splat(proof, 0.0);
+                    }
+                }
+                sum_of_eight(&phi).add_to(proof, &mut self.flux, c);
+            }
+        }
+    }
+
+    /// One cell that passes on `phi`.
+    #[inline(always)]
+    fn pass_special(&mut self, x: usize, phi: &Lobes<N>) {
+        let reached = self.reached(x);
         let mut passed = *phi;
         for k in 0..8 {
-            self.to[self.padding.towards(i, k)][k] = phi[k];
-            if self.grid.neighbour(cell, k).is_none() {
+            let (dx, dy) = NEIGHBOUR_OFFSETS[k];
+            let row = (dy + 1) as usize * (self.grid.width() + 2);
+            self.to[row + x + (dx + 1) as usize][k] = phi[k];
+            if !reached[k] {
                 passed[k] = [0.0; N];
             }
         }
         let passed = sum8(&passed);
         for l in 0..N {
-            row[l] += passed[l];
+            self.flux[l] += passed[l];
         }
     }
 }

@@ -72,11 +72,7 @@ pub fn emitter(directions: Directions, theta0_rad: f64, m: f64) -> PolarProfile 
 ///
 /// # Errors
 /// The first fault: no light, one outside the grid, two in a cell, a dark one, another sampling.
-pub fn check_lights(
-    lights: &[Light],
-    grid: Grid,
-    directions: Directions,
-) -> Result<(), TransportError> {
+pub fn check_lights(lights: &[Light], grid: Grid, directions: Directions) -> Result<(), TransportError> {
     if lights.is_empty() {
         return Err(TransportError::NoLight);
     }

@@ -3,6 +3,7 @@
 //! Between 45k and 45(k+1) degrees only four lobes differ from 0 and their sum is `P cos + Q sin` of the angle from 45k.
 
 use crate::Scheme;
+use crate::simd::{Plain, Vector};
 use core::f64::consts::FRAC_1_SQRT_2;
 
 /// Samples of one 45-degree sector, the same for all eight.
@@ -19,21 +20,22 @@ impl Sectors {
         Self { unit: (0..d.count() / 8).map(|i| d.unit(i).map(|v| v / l)).collect() }
     }
 
-    /// `sum_t |sum_j a_j c_j(t)|` for N sets of lobes at once.
-    #[inline(always)]
+    /// `sum_t |sum_j a_j c_j(t)|`, lane by lane.
     pub(crate) fn l1<const N: usize>(&self, a: &[[f64; N]; 8]) -> [f64; N] {
-        let mut sum = [0.0; N];
+        self.l1_with((), &a.map(Plain)).0
+    }
+
+    /// `sum_t |sum_j a_j c_j(t)|`.
+    #[inline(always)]
+    pub(crate) fn l1_with<const W: usize, V: Vector<W>>(&self, proof: V::Proof, a: &[V; 8]) -> V {
+        let diagonal = V::splat(proof, FRAC_1_SQRT_2);
+        let mut sum = V::splat(proof, 0.0);
         for k in 0..8 {
-            let (before, here, next, after) = (&a[(k + 7) % 8], &a[k], &a[(k + 1) % 8], &a[(k + 2) % 8]);
-            let (mut p, mut q) = ([0.0; N], [0.0; N]);
-            for l in 0..N {
-                p[l] = here[l] + FRAC_1_SQRT_2 * (before[l] + next[l]);
-                q[l] = after[l] + FRAC_1_SQRT_2 * (next[l] - before[l]);
-            }
+            let (before, here, next, after) = (a[(k + 7) % 8], a[k], a[(k + 1) % 8], a[(k + 2) % 8]);
+            let p = here + diagonal * (before + next);
+            let q = after + diagonal * (next - before);
             for &[c, s] in &self.unit {
-                for l in 0..N {
-                    sum[l] += (p[l] * c + q[l] * s).abs();
-                }
+                sum = sum + (p * V::splat(proof, c) + q * V::splat(proof, s)).abs();
             }
         }
         sum

@@ -30,6 +30,9 @@ pub enum Panel {
     Glyphs {
         /// Name of the field.
         field: String,
+        /// What the colours mean.
+        #[serde(default)]
+        colour: GlyphColour,
         /// Heading of the panel.
         title: String,
     },
@@ -50,6 +53,9 @@ pub enum Panel {
         /// How brightness is drawn.
         #[serde(default)]
         scale: Scale,
+        /// Whether the transmission is drawn.
+        #[serde(default = "yes")]
+        transmission: bool,
         /// Heading of the panel.
         title: String,
     },
@@ -107,6 +113,20 @@ pub enum Panel {
         /// Heading of the panel.
         title: String,
     },
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// What the colours of glyphs mean.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+pub enum GlyphColour {
+    /// Fractional anisotropy.
+    #[default]
+    Anisotropy,
+    /// Tension and compression: for stresses. (The sign of a generator's rotated diagonal tensor means nothing.)
+    Sign,
 }
 
 /// How the brightness of an overlay is drawn.

@@ -10,7 +10,7 @@ mod named;
 mod numbers;
 
 pub use checks::{Check, Expectation, Mirror, Quantity, SchemeConstant};
-pub use figures::{Axis, Curve, Figure, FlatView, Panel, ProfileSource, Scale, SeriesSource};
+pub use figures::{Axis, Curve, Figure, FlatView, GlyphColour, Panel, ProfileSource, Scale, SeriesSource};
 pub(crate) use load::place_of;
 pub use load::{SpecError, load};
 pub use named::Named;

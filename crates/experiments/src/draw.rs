@@ -234,6 +234,7 @@ impl Draw<'_> {
             range,
             overlays,
             cell_px: self.cell_px(grid),
+            missing: Some("border, 0 by definition".to_owned()),
             ..HeatOptions::default()
         };
         heat_map(&inner, &options)

@@ -46,6 +46,8 @@ pub struct HeatOptions {
     pub overlays: Vec<Overlay>,
     /// Pixels per cell; by default whole, such that the longer side has about 480.
     pub cell_px: Option<usize>,
+    /// What the legend calls cells whose value is not a number; by default `not a finite number`.
+    pub missing: Option<String>,
 }
 
 /// The field as a heat map. Values that are not finite are grey and hatched and named in the legend; a field without any
@@ -75,7 +77,7 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     page.scene.items.push(raster(field, &page, block, colour));
     let broken: Vec<Cell> = field.iter().filter(|(_, v)| !v.is_finite()).map(|(c, _)| c).collect();
     page.hatch(&broken);
-    let mut legend = value_legend(field.values(), &summary, &axis, block);
+    let mut legend = value_legend(field.values(), &summary, &axis, block, options.missing.as_deref());
     overlay::draw(&mut page, &options.overlays, &mut legend);
     overlay::draw_sources(&mut page, &options.sources, &mut legend);
     let (edge, top, height) = (page.left + page.width(), page.top, page.side_height());
@@ -209,7 +211,13 @@ fn block_mean(field: &Field<f64>, x0: usize, y0: usize, block: usize) -> f64 {
     sum / count
 }
 
-fn value_legend(values: &[f64], summary: &Summary, axis: &Axis, block: usize) -> Vec<Entry> {
+fn value_legend(
+    values: &[f64],
+    summary: &Summary,
+    axis: &Axis,
+    block: usize,
+    missing: Option<&str>,
+) -> Vec<Entry> {
     let mut legend = Vec::new();
     if axis.logarithmic && values.iter().any(|v| v.is_finite() && *v < axis.low) {
         let negative = values.iter().any(|v| v.is_finite() && *v < 0.0);
@@ -222,7 +230,10 @@ fn value_legend(values: &[f64], summary: &Summary, axis: &Axis, block: usize) ->
     }
     let broken = values.len() - summary.finite;
     if broken > 0 {
-        let text = format!("not a finite number ({broken} of {} cells)", values.len());
+        let text = missing.map_or_else(
+            || format!("not a finite number ({broken} of {} cells)", values.len()),
+            ToOwned::to_owned,
+        );
         legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), text));
     }
     if summary.finite == 0 {

@@ -136,7 +136,7 @@ pub(crate) struct PropagateArgs {
     /// A file (.txt, .npy, .vti) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
     /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1).
-    #[arg(long = "light", value_name = "X,Y[,PROFILE]", required = true)]
+    #[arg(long = "light", value_name = "X,Y[,PROFILE]", required = true, allow_hyphen_values = true)]
     pub(crate) lights: Vec<String>,
     /// The lights flash once instead of shining all the time.
     #[arg(long)]
@@ -170,9 +170,9 @@ pub(crate) enum Picture {
 pub(crate) struct LtgArgs {
     /// A file (.txt, .npy, .vti) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
-    /// Output: .vti or .npy.
-    #[arg(short, long = "output", value_name = "OUT")]
-    pub(crate) output: PathBuf,
+    /// Outputs by their endings: .vti, .npy; .png, .svg show the only slice, or the mean over the slices.
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
+    pub(crate) outputs: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) scheme: SchemeArgs,
     /// Half-width of the angular difference, samples; ceil(S/12) by default.

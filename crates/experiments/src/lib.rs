@@ -12,6 +12,7 @@ mod host;
 pub mod library;
 mod measure;
 mod outcome;
+mod places;
 pub mod provenance;
 pub mod report;
 mod runs;

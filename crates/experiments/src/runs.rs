@@ -54,10 +54,7 @@ pub enum RunError {
         source: RenderError,
     },
     /// A panel without anything to show.
-    #[error(
-        "figure \"{figure}\", panel \"{panel}\" has nothing to show: is its step among the run's `frames`, its direction \
-         among the slices, its cell in the grid?"
-    )]
+    #[error("figure \"{figure}\", panel \"{panel}\" has nothing to show: the run ended before its step")]
     Panel {
         /// Name of the figure.
         figure: String,

@@ -1,6 +1,7 @@
 //! Experiment files to settings: names looked up, fields made, nothing optional left. All problems are reported at once.
 
 use crate::host::Host;
+use crate::places::Known;
 use crate::spec::{self, Experiment, FieldSource, Named, ProfileShape, Run, Scope, SpecError};
 use crate::uses::{self, RunKind};
 use std::collections::BTreeMap;
@@ -96,15 +97,12 @@ pub fn resolve(
     let mut runs = Vec::new();
     for (name, run) in experiment.runs.iter() {
         if let Some(settings) = resolver.run(&experiment, name, run, &fields) {
-            let scope = match run {
-                Run::Light { scope, .. } | Run::Gradient { scope, .. } => *scope,
-            };
-            if full || scope == Scope::Always {
-                runs.push((name.to_owned(), settings));
-            }
+            runs.push((name.to_owned(), settings));
         }
     }
     resolver.references(&experiment);
+    resolver.places(&experiment, &fields, &runs);
+    runs.retain(|(name, _)| full || experiment.runs.get(name).map(scope_of) == Some(Scope::Always));
     let runs_now: Vec<&str> = runs.iter().map(|(n, _)| n.as_str()).collect();
     if resolver.problems.is_empty() {
         for figure in &mut experiment.figures {
@@ -125,6 +123,12 @@ pub fn resolve(
 pub fn slug_of(file: &str) -> String {
     let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
     name.strip_suffix(".ron").unwrap_or(name).to_owned()
+}
+
+const fn scope_of(run: &Run) -> Scope {
+    match run {
+        Run::Light { scope, .. } | Run::Gradient { scope, .. } => *scope,
+    }
 }
 
 struct Resolver<'a> {
@@ -282,6 +286,33 @@ impl Resolver<'_> {
             self.fault(field, format!("{who} names a field \"{field}\": expected one of {known}"));
         }
         self.figure_names(experiment);
+    }
+
+    /// Checks every step, slice and cell that figures and checks mention.
+    fn places(
+        &mut self,
+        experiment: &Experiment,
+        fields: &BTreeMap<String, Field<Tensor2>>,
+        runs: &[(String, RunSettings)],
+    ) {
+        let known = Known {
+            run: &|name| runs.iter().find(|(n, _)| n == name).map(|(_, r)| r),
+            field: &|name| fields.get(name),
+        };
+        let mut faults: Vec<(&str, String)> = Vec::new();
+        for figure in &experiment.figures {
+            for problem in figure.panels.iter().filter_map(|p| known.fault_of_panel(p)) {
+                faults.push((&figure.name, format!("figure \"{}\": {problem}", figure.name)));
+            }
+        }
+        for check in &experiment.checks {
+            if let Some(problem) = known.fault_of_quantity(&check.quantity) {
+                faults.push((&check.name, format!("check \"{}\": {problem}", check.name)));
+            }
+        }
+        for (name, problem) in faults {
+            self.fault(name, problem);
+        }
     }
 
     fn figure_names(&mut self, experiment: &Experiment) {

@@ -8,7 +8,7 @@ use tigereye_core::CoreError;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FieldError {
     /// No generator of this name.
-    #[error("there is no field `{name}`{}; the list of fields names them all", did_you_mean(*suggestion))]
+    #[error("there is no field `{name}`{}", did_you_mean(*suggestion))]
     UnknownGenerator {
         /// Name given.
         name: String,

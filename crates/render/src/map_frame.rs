@@ -183,10 +183,12 @@ pub(crate) fn stride(cell_px: f64, pitch_px: f64) -> usize {
     ((pitch_px / cell_px).ceil() as usize).max(1)
 }
 
-/// Every `every`-th column and row, starting half a step from the edge so that glyphs stay within the frame.
+/// Every `every`-th column and row, the middle ones among them: structures about the centre must not fall between the
+/// glyphs. The outermost are half a step from the edge, so that glyphs stay within the frame.
 pub(crate) fn sampled_cells(grid: Grid, every: usize) -> impl Iterator<Item = Cell> {
     let samples = move |side: usize| {
-        let first = if side <= every { (side - 1) / 2 } else { every / 2 };
+        let middle = (side - 1) / 2;
+        let first = if side <= every { middle } else { every / 2 + (middle + every - every / 2) % every };
         let beyond = side.saturating_sub(every / 2).max(first + 1);
         (first..beyond).step_by(every)
     };

@@ -1,8 +1,8 @@
 //! `tigereye check`: experiment files, parsed and validated.
 
 use crate::args::CheckArgs;
-use crate::commands::print_text;
 use crate::commands::reproduce::{Source, prepare};
+use crate::commands::{counted, print_text};
 use crate::error::CliError;
 
 pub(crate) fn check(args: &CheckArgs) -> Result<u8, CliError> {
@@ -12,12 +12,12 @@ pub(crate) fn check(args: &CheckArgs) -> Result<u8, CliError> {
         match Source::from_file(path).and_then(|source| prepare(&source, true)) {
             Ok(settings) => {
                 let e = &settings.experiment;
-                let (figures, checks) = (e.figures.len(), e.checks.len());
-                print_text(&format!(
-                    "{}: ok, {} runs, {figures} figures, {checks} checks\n",
-                    path.display(),
-                    settings.runs.len()
-                ));
+                let parts = [
+                    counted(settings.runs.len(), "run"),
+                    counted(e.figures.len(), "figure"),
+                    counted(e.checks.len(), "check"),
+                ];
+                print_text(&format!("{}: ok, {}\n", path.display(), parts.join(", ")));
             }
             Err(CliError::Inputs(found)) => faults.extend(found),
             Err(e) => faults.push(e.to_string()),

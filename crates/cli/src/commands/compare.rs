@@ -9,6 +9,9 @@ use std::path::Path;
 use tigereye_core::{Field, Tensor2};
 use tigereye_io::{npy, vti};
 
+/// Names of gradient volumes: ours and the published ones.
+const VOLUME_ARRAYS: [&str; 2] = [tigereye_io::LTG_ARRAY, "Energy"];
+
 /// Numbers with a shape, slowest index first.
 struct Numbers {
     what: String,
@@ -57,7 +60,8 @@ fn numbers(text: &str) -> Result<Numbers, CliError> {
 /// A volume where the file is one, otherwise the tensors, otherwise the only array.
 fn image(text: &str, bytes: &[u8]) -> Result<Numbers, CliError> {
     let image = vti::read(bytes).map_err(|e| CliError::input(text, e))?;
-    if let Ok(volume) = tigereye_io::ltg_from_image(&image) {
+    let is_volume = VOLUME_ARRAYS.iter().any(|name| image.point_array(name).is_some());
+    if is_volume && let Ok(volume) = tigereye_io::ltg_from_image(&image) {
         let shape = vec![volume.slices.len(), volume.grid.height(), volume.grid.width()];
         let what = "a gradient volume".to_owned();
         return Ok(Numbers { what, shape, slices: Some(volume.slices), values: volume.values });

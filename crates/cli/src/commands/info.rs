@@ -3,10 +3,13 @@
 use crate::args::InfoArgs;
 use crate::commands::{print_json, print_text};
 use crate::error::CliError;
+use crate::files;
 use crate::input::Input;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
+use std::path::Path;
 use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Tensor2, is_totally_anisotropic};
+use tigereye_io::{DataArray, PROVENANCE, vti};
 
 /// Relative difference of the half-axes below which a tensor counts as degenerate.
 const DEGENERATE_BELOW: f64 = 1e-9;
@@ -14,6 +17,14 @@ const DEGENERATE_BELOW: f64 = 1e-9;
 const ASYMMETRIC_ABOVE: f64 = 1e-9;
 
 pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
+    if let Some(facts) = facts_of_result(args)? {
+        if args.json {
+            print_json(&facts);
+        } else {
+            print_text(&result_as_text(&facts));
+        }
+        return Ok(0);
+    }
     let input = Input::open(&args.input, args.array.as_deref())?;
     let facts = facts(&input);
     if args.json {
@@ -22,6 +33,53 @@ pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
         print_text(&as_text(&facts));
     }
     Ok(0)
+}
+
+/// Image data without tensors, such as a gradient volume or a light distribution: its arrays and its provenance.
+fn facts_of_result(args: &InfoArgs) -> Result<Option<Value>, CliError> {
+    let path = Path::new(&args.input);
+    if files::extension(path) != "vti" || args.array.is_some() {
+        return Ok(None);
+    }
+    let image = vti::read(&files::read(path)?).map_err(|e| CliError::input(&args.input, e))?;
+    if image.text(PROVENANCE).is_none() || tigereye_io::tensors_from_image(&image, None).is_ok() {
+        return Ok(None);
+    }
+    let arrays: Vec<Value> = image.point_arrays.iter().map(array_facts).collect();
+    Ok(Some(json!({
+        "input": args.input,
+        "kind": "result of tigereye",
+        "dimensions": image.dimensions,
+        "arrays": arrays,
+        "provenance": image.text(PROVENANCE).and_then(|t| serde_json::from_str::<Value>(t).ok()),
+    })))
+}
+
+fn array_facts(array: &DataArray) -> Value {
+    let low = array.values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = array.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    json!({ "name": array.name, "components": array.components, "min": low, "max": high })
+}
+
+fn result_as_text(facts: &Value) -> String {
+    let mut text = format!(
+        "{}: a result of tigereye, no tensor field; {} points\n",
+        facts["input"].as_str().unwrap_or_default(),
+        facts["dimensions"]
+    );
+    // Writing to a string cannot fail.
+    for array in facts["arrays"].as_array().into_iter().flatten() {
+        let _ = writeln!(
+            text,
+            "  {} ({} components): {} to {}",
+            array["name"].as_str().unwrap_or_default(),
+            array["components"],
+            array["min"],
+            array["max"]
+        );
+    }
+    let _ = writeln!(text, "  made by: {}", facts["provenance"]["command"].as_str().unwrap_or("unknown"));
+    text
 }
 
 fn facts(input: &Input) -> Value {

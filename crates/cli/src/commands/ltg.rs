@@ -1,7 +1,7 @@
 //! `tigereye ltg`: the light transport gradient volume.
 
 use crate::args::{LtgArgs, Precision};
-use crate::commands::propagate::{stop_name, stopping_of};
+use crate::commands::propagate::{PNG_SCALE, check_output, stop_name, stopping_of};
 use crate::commands::{command_line, print_json, print_text};
 use crate::error::CliError;
 use crate::input::Input;
@@ -9,22 +9,21 @@ use crate::{files, host, interrupt, system};
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
+use std::path::Path;
 use std::sync::Mutex;
 use std::time::Instant;
-use tigereye_core::{Normalization, TransmissionField};
+use tigereye_core::{Field, LtgVolume, Normalization, TransmissionField};
 use tigereye_experiments::normalization_name;
 use tigereye_experiments::provenance::provenance;
 use tigereye_io::{npy, vti};
 use tigereye_ltg::{LtgError, LtgOutcome, LtgSettings, Phase, SweepObserver, omega_step_of_volumes, sweep};
+use tigereye_render::{HeatOptions, Scene, heat_map};
 use tigereye_transport::{Level, Scattering, Scheme, SharedWeights};
 
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
-    let ending = files::extension(&args.output);
-    if !matches!(ending.as_str(), "vti" | "npy") {
-        let name = args.output.display().to_string();
-        return Err(CliError::input(&name, "the ending tells the format: expected .vti or .npy"));
+    for output in &args.outputs {
+        check_output(output)?;
     }
-    files::check_writable(&args.output)?;
     let start = Instant::now();
     let input = Input::open(&args.input, args.scheme.array.as_deref())?;
     let normalization = input.normalization(args.scheme.normalization);
@@ -43,16 +42,10 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     })?;
     let seconds = watch.finish();
     interrupt::check()?;
-    let bytes = match ending.as_str() {
-        "npy" => npy::write_ltg(&outcome.volume),
-        _ => {
-            let story =
-                provenance(&command_line(), &parameters(args, &settings, normalization), &input.blake3);
-            let image = tigereye_io::image_from_ltg(&outcome.volume, &story);
-            vti::write(&image).map_err(|e| CliError::input(&args.output.display().to_string(), e))?
-        }
-    };
-    files::write(&args.output, &bytes)?;
+    let story = provenance(&command_line(), &parameters(args, &settings, normalization), &input.blake3);
+    for output in &args.outputs {
+        files::write(output, &encoded(output, args, &outcome.volume, &story)?)?;
+    }
     let summary = summary(args, &settings, &outcome, seconds, start.elapsed().as_secs_f64());
     if args.json {
         print_json(&summary);
@@ -60,6 +53,33 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
         print_text(&sentence(&outcome, &summary));
     }
     Ok(0)
+}
+
+/// A volume in the format of the output's ending.
+fn encoded(output: &Path, args: &LtgArgs, volume: &LtgVolume, story: &str) -> Result<Vec<u8>, CliError> {
+    let name = output.display().to_string();
+    match files::extension(output).as_str() {
+        "npy" => Ok(npy::write_ltg(volume)),
+        "vti" => {
+            vti::write(&tigereye_io::image_from_ltg(volume, story)).map_err(|e| CliError::input(&name, e))
+        }
+        "png" => picture(args, volume).to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
+        _ => picture(args, volume).to_svg().map(String::into_bytes).map_err(|e| CliError::input(&name, e)),
+    }
+}
+
+/// The only slice, or the mean over the slices.
+fn picture(args: &LtgArgs, volume: &LtgVolume) -> Scene {
+    let (field, quantity) = match volume.slices() {
+        [t] => (volume.slice(*t), format!("LTG at {} degrees / (W/rad)", volume.directions().angle_deg(*t))),
+        _ => (None, "mean LTG over direction / (W/rad)".to_owned()),
+    };
+    let field = field.unwrap_or_else(|| volume.mean_over_directions());
+    let grid = field.grid();
+    // The border is 0 by definition and would stretch the scale.
+    let inner = Field::from_fn(grid, |c| if grid.is_border(c) { f64::NAN } else { *field.at(c) });
+    let missing = Some("border, 0 by definition".to_owned());
+    heat_map(&inner, &HeatOptions { title: args.input.clone(), quantity, missing, ..HeatOptions::default() })
 }
 
 fn settings_of(args: &LtgArgs) -> LtgSettings {
@@ -124,6 +144,9 @@ fn summary(
 
 fn sentence(outcome: &LtgOutcome, summary: &Value) -> String {
     let number = |v: &Value| v.as_f64().unwrap_or(f64::NAN);
+    if outcome.work.sources == 0 {
+        return "the field has no inner cells: every value is 0\n".to_owned();
+    }
     let limited = match outcome.limited {
         0 => String::new(),
         n => format!("; {n} sources met --max-iterations before the threshold"),

@@ -21,6 +21,11 @@ pub(crate) fn print_text(text: &str) {
     let _ = std::io::stdout().write_all(text.as_bytes());
 }
 
+/// A number with its noun.
+pub(crate) fn counted(n: usize, noun: &str) -> String {
+    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
+}
+
 /// The command line as the user gave it, for provenance.
 pub(crate) fn command_line() -> String {
     let mut words = std::env::args();

@@ -1,7 +1,7 @@
 //! `tigereye propagate`: one light distribution.
 
 use crate::args::{Picture, PropagateArgs, SchemeArgs, StopRule};
-use crate::commands::{command_line, print_json, print_text};
+use crate::commands::{command_line, counted, print_json, print_text};
 use crate::error::CliError;
 use crate::input::Input;
 use crate::{files, interrupt, system};
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
-use tigereye_core::{Cell, Normalization, PolarProfile, TransmissionField};
+use tigereye_core::{Cell, Normalization, PolarProfile, StopReason, TransmissionField};
 use tigereye_experiments::normalization_name;
 use tigereye_experiments::provenance::provenance;
 use tigereye_experiments::settings::profile_of_expression;
@@ -22,7 +22,7 @@ use tigereye_transport::{
 };
 
 /// Resolution of PNG pictures.
-const PNG_SCALE: f64 = 2.0;
+pub(super) const PNG_SCALE: f64 = 2.0;
 
 pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     for output in &args.outputs {
@@ -52,7 +52,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
 }
 
 /// Refuses an output before anything is computed.
-fn check_output(output: &Path) -> Result<(), CliError> {
+pub(super) fn check_output(output: &Path) -> Result<(), CliError> {
     match files::extension(output).as_str() {
         "vti" | "npy" | "png" | "svg" => files::check_writable(output),
         _ => Err(CliError::input(
@@ -167,7 +167,10 @@ fn report(args: &PropagateArgs, input: &Input, outcome: &Outcome, seconds: f64) 
     let grid = input.field.grid();
     let energy = outcome.distribution.energy();
     let largest = energy.values().iter().fold(0.0, |m: f64, &e| m.max(e));
-    let stop = format!("{:?}", outcome.stop);
+    let (stop, stop_words) = match outcome.stop {
+        StopReason::Converged => ("converged", "until the stopping rule was met"),
+        StopReason::StepLimit => ("step_limit", "until the limit on steps"),
+    };
     if args.json {
         print_json(&json!({
             "width": grid.width(),
@@ -185,9 +188,10 @@ fn report(args: &PropagateArgs, input: &Input, outcome: &Outcome, seconds: f64) 
             "mean": outcome.distribution.total_energy() / grid.cells() as f64,
         }));
     } else {
-        let (steps, energy) = (outcome.work.steps, outcome.distribution.total_energy());
+        let energy = outcome.distribution.total_energy();
+        let steps = counted(outcome.work.steps, "step");
         print_text(&format!(
-            "{steps} steps ({stop}), energy in the grid {energy:.6} W, brightest cell {largest:.6} W\n"
+            "{steps} {stop_words}; energy in the grid {energy:.6} W, brightest cell {largest:.6} W\n"
         ));
     }
 }

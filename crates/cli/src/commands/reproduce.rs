@@ -1,7 +1,7 @@
 //! `tigereye reproduce` and `tigereye run`: experiments to a report.
 
 use crate::args::{ReproduceArgs, Resources, RunArgs};
-use crate::commands::print_text;
+use crate::commands::{counted, print_text};
 use crate::error::CliError;
 use crate::host::FileHost;
 use crate::{files, interrupt, system};
@@ -202,8 +202,8 @@ fn run_one(
     outcome.seconds = start.elapsed().as_secs_f64();
     let failed = outcome.checks.iter().filter(|c| !c.passed).count();
     let verdict = match failed {
-        0 => format!("{} checks passed", outcome.checks.len()),
-        n => format!("{n} of {} checks FAILED", outcome.checks.len()),
+        0 => format!("{} passed", counted(outcome.checks.len(), "check")),
+        n => format!("{n} of {} FAILED", counted(outcome.checks.len(), "check")),
     };
     eprintln!("{prefix} {}: {verdict}, {:.1} s", settings.slug, outcome.seconds);
     Ok(outcome)
@@ -225,7 +225,8 @@ fn write_outcome(out: &Path, outcome: &ExperimentOutcome) -> Result<(), CliError
 
 /// Says how it went; the exit code.
 fn conclude(outcomes: &[ExperimentOutcome], out: &Path, seconds: f64) -> u8 {
-    let checks = outcomes.iter().map(|o| o.checks.len()).sum::<usize>();
+    let experiments = counted(outcomes.len(), "experiment");
+    let checks = counted(outcomes.iter().map(|o| o.checks.len()).sum(), "check");
     let failed: Vec<String> = outcomes
         .iter()
         .flat_map(|o| {
@@ -245,8 +246,7 @@ fn conclude(outcomes: &[ExperimentOutcome], out: &Path, seconds: f64) -> u8 {
         0
     } else {
         print_text(&format!(
-            "{} experiments, {checks} checks, {} failed in {seconds:.0} s\n{}\nreport: {report}\n",
-            outcomes.len(),
+            "{experiments}, {checks}, {} failed in {seconds:.0} s\n{}\nreport: {report}\n",
             failed.len(),
             failed.join("\n")
         ));

@@ -28,13 +28,13 @@ pub fn html(outcomes: &[ExperimentOutcome], about: &About) -> String {
             (head(outcomes))
             body {
                 a.skip href="#page--contents" { "Skip to the contents" }
-                (masthead())
+                (masthead(is_of_thesis(outcomes)))
                 main {
                     (introduction())
                     (result(outcomes, about))
                     (contents(&sections))
                     (gallery(&sections))
-                    (about_tensor_lines())
+                    @if is_of_thesis(outcomes) { (about_tensor_lines()) }
                     (glossary())
                 }
                 footer.page {
@@ -59,14 +59,23 @@ fn head(outcomes: &[ExperimentOutcome]) -> Markup {
     }
 }
 
-fn masthead() -> Markup {
+/// Whether the page shows anything of the thesis: users also run experiments of their own.
+fn is_of_thesis(outcomes: &[ExperimentOutcome]) -> bool {
+    outcomes.is_empty() || outcomes.iter().any(|o| o.source.contains("Thesis"))
+}
+
+fn masthead(of_thesis: bool) -> Markup {
     markup! {
         header.page {
             h1 { "tigereye" }
-            p {
-                "Light in tensor fields: the evaluations of the master’s thesis "
-                cite { "Light Transport Techniques for Tensor Field Visualization" }
-                " (Heidelberg University), computed anew and checked"
+            @if of_thesis {
+                p {
+                    "Light in tensor fields: the evaluations of the master’s thesis "
+                    cite { "Light Transport Techniques for Tensor Field Visualization" }
+                    " by Sebastian Bek (Heidelberg University), computed anew and checked"
+                }
+            } @else {
+                p { "Light in tensor fields: experiments and their checks" }
             }
         }
     }

@@ -122,7 +122,7 @@ fn yes() -> bool {
 /// What the colours of glyphs mean.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 pub enum GlyphColour {
-    /// Fractional anisotropy.
+    /// Linear anisotropy `(s1 - s2) / (s1 + s2)`.
     #[default]
     Anisotropy,
     /// Tension and compression: for stresses. (The sign of a generator's rotated diagonal tensor means nothing.)

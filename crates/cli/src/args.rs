@@ -104,10 +104,10 @@ pub(crate) struct SchemeArgs {
     #[arg(long, value_name = "N", default_value = "32", value_parser = parse_directions)]
     pub(crate) directions: Directions,
     /// Stop when the stopping rule's measure falls below F; 0 never stops early.
-    #[arg(long, value_name = "F", default_value = "0.5", value_parser = parse_threshold)]
+    #[arg(long, value_name = "F", default_value = "0.5", value_parser = parse_threshold, allow_hyphen_values = true)]
     pub(crate) threshold: f64,
     /// At most N+1 steps.
-    #[arg(long, value_name = "N", default_value_t = 1000)]
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) max_iterations: usize,
     /// What the threshold is compared with.
     #[arg(long, value_enum, default_value_t = StopRule::Flux)]
@@ -142,7 +142,7 @@ pub(crate) struct PropagateArgs {
     #[arg(long)]
     pub(crate) impulse: bool,
     /// Exactly N steps instead of a stopping rule.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) steps: Option<usize>,
     /// Outputs by their endings: .vti, .npy, .png, .svg.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
@@ -176,10 +176,10 @@ pub(crate) struct LtgArgs {
     #[command(flatten)]
     pub(crate) scheme: SchemeArgs,
     /// Half-width of the angular difference, samples; ceil(S/12) by default.
-    #[arg(long, value_name = "K")]
+    #[arg(long, value_name = "K", value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) omega_step: Option<usize>,
-    /// Only these angular slices (sample indices); the output then holds just them, ascending.
-    #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
+    /// Only these angular slices (sample indices: 90 degrees are S/4); the output then holds just them, ascending.
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) slices: Option<Vec<usize>>,
     /// Precision of the computation.
     #[arg(long, value_enum, default_value_t = Precision::F64)]
@@ -218,10 +218,10 @@ pub(crate) struct CompareArgs {
     pub(crate) b: String,
     /// Largest relative difference accepted: the L2 difference over the L2 norm of A, and the largest difference over the
     /// largest value of A.
-    #[arg(long, value_name = "REL", default_value = "1e-10", value_parser = parse_threshold)]
+    #[arg(long, value_name = "REL", default_value = "1e-10", value_parser = parse_threshold, allow_hyphen_values = true)]
     pub(crate) tolerance: f64,
     /// Angular slices of volumes to leave out (sample indices).
-    #[arg(long, value_name = "A,B,C", value_delimiter = ',')]
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = parse_count)]
     pub(crate) except_slices: Vec<usize>,
 }
 
@@ -236,6 +236,10 @@ fn parse_threshold(text: &str) -> Result<f64, String> {
         Ok(x) if x.is_finite() && x >= 0.0 => Ok(x),
         _ => Err("expected a finite number from 0".to_owned()),
     }
+}
+
+fn parse_count(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "expected a whole number from 0".to_owned())
 }
 
 fn parse_threads(text: &str) -> Result<usize, String> {

@@ -1,12 +1,13 @@
 //! What the program tells people when something is wrong.
 
 use thiserror::Error;
+use tigereye_experiments::shortened;
 
 /// A fault that ends the program. One clear message each, with the place and what was expected.
 #[derive(Debug, Error)]
 pub(crate) enum CliError {
     /// Input or usage that cannot work.
-    #[error("{0}")]
+    #[error("{}", shortened(.0))]
     Input(String),
     /// Several faults in experiment files, one line each.
     #[error("{}", .0.join("\ntigereye: "))]
@@ -37,6 +38,6 @@ impl CliError {
 
     /// An input fault about something called `subject`.
     pub(crate) fn input(subject: &str, problem: impl std::fmt::Display) -> Self {
-        Self::Input(format!("{subject}: {problem}"))
+        Self::Input(format!("{}: {}", shortened(subject), shortened(&problem.to_string())))
     }
 }

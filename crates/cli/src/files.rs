@@ -2,7 +2,7 @@
 
 use crate::error::CliError;
 use std::io::{Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Largest input file, bytes. Text needs about twenty bytes a number; this holds every field a grid may have.
 const MAX_INPUT: u64 = 16 << 30;
@@ -84,6 +84,16 @@ pub(crate) fn check_writable(path: &Path) -> Result<(), CliError> {
         .tempfile_in(folder)
         .map(drop)
         .map_err(|source| CliError::File { path: path.display().to_string(), action: "writing", source })
+}
+
+/// The same for every way of writing one path: the folder without links and dots, and the name.
+pub(crate) fn place_of(path: &Path) -> PathBuf {
+    let folder = match path.parent() {
+        Some(p) if !p.as_os_str().is_empty() => p,
+        _ => Path::new("."),
+    };
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+    path.file_name().map_or_else(|| folder.clone(), |name| folder.join(name))
 }
 
 /// The ending of a path in lower case, without dot.

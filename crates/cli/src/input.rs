@@ -2,6 +2,7 @@
 
 use crate::error::CliError;
 use crate::files;
+use crate::interrupt;
 use std::path::Path;
 use tigereye_core::{Field, Normalization, Tensor2};
 use tigereye_experiments::provenance::{hash_of_bytes, hash_of_field};
@@ -28,7 +29,7 @@ impl Input {
     /// Reads INPUT: a path with a known ending, or a generator.
     pub(crate) fn open(text: &str, array: Option<&str>) -> Result<Self, CliError> {
         let path = Path::new(text);
-        match files::extension(path).as_str() {
+        let input = match files::extension(path).as_str() {
             "txt" => Self::matrices(text, path),
             "npy" => Self::numpy(text, path),
             "vti" => Self::image(text, path, array),
@@ -37,7 +38,10 @@ impl Input {
                 "its ending is not readable: expected .txt, .npy, .vti or a generator NAME:key=value,key=value",
             )),
             _ => Self::generated(text),
-        }
+        };
+        // Large inputs take a while.
+        interrupt::check()?;
+        input
     }
 
     fn generated(text: &str) -> Result<Self, CliError> {
@@ -122,5 +126,5 @@ impl Input {
 /// Generators have no dots or slashes before their parameters.
 fn looks_like_a_path(text: &str) -> bool {
     let name = text.split(':').next().unwrap_or(text);
-    name.contains(['/', '\\', '.']) || Path::new(text).exists()
+    name.contains(['/', '\\', '.']) || Path::new(text).is_file()
 }

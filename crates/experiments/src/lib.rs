@@ -25,3 +25,17 @@ pub use evaluate::{Evaluation, ExperimentError, evaluate, normalization_name};
 pub use host::Host;
 pub use outcome::{CheckOutcome, DataFile, Expected, ExperimentOutcome, Figure};
 pub use runs::RunError;
+
+/// A message with its middle left out where somebody's input makes it longer than people read.
+#[must_use]
+pub fn shortened(message: &str) -> String {
+    const HEAD: usize = 500;
+    const TAIL: usize = 300;
+    let count = message.chars().count();
+    if count <= HEAD + TAIL {
+        return message.to_owned();
+    }
+    let head: String = message.chars().take(HEAD).collect();
+    let tail: String = message.chars().skip(count - TAIL).collect();
+    format!("{head} [... {} characters ...] {tail}", count - HEAD - TAIL)
+}

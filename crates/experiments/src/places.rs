@@ -3,6 +3,7 @@
 use crate::settings::{LightSettings, RunSettings, sample_of};
 use crate::spec::{Panel, ProfileSource, Quantity, SeriesSource};
 use tigereye_core::{Cell, Field, Grid, Tensor2};
+use tigereye_fields::{Expression, ExpressionField};
 use tigereye_transport::StoppingRule;
 
 /// What is known of an experiment before it runs.
@@ -11,9 +12,22 @@ pub(crate) struct Known<'a> {
     pub(crate) field: &'a dyn Fn(&str) -> Option<&'a Field<Tensor2>>,
 }
 
+/// Something that figures or checks mention and that does not exist.
+pub(crate) struct Misplaced {
+    /// How it is written in the file, to find its place.
+    pub(crate) word: String,
+    /// What is wrong with it.
+    pub(crate) problem: String,
+}
+
+fn fault_of_expression(text: &str, variables: &[&str]) -> Option<Misplaced> {
+    let fault = Expression::parse(text, variables).err()?;
+    Some(Misplaced { word: format!("\"{text}\""), problem: format!("`{text}`: {fault}") })
+}
+
 impl Known<'_> {
     /// The first fault of a panel; names that are unknown are reported elsewhere.
-    pub(crate) fn fault_of_panel(&self, panel: &Panel) -> Option<String> {
+    pub(crate) fn fault_of_panel(&self, panel: &Panel) -> Option<Misplaced> {
         match panel {
             Panel::Overlay { run, step, .. } | Panel::Energy { run, step, .. } => self.step(run, *step),
             Panel::Slice { run, deg, .. } => self.slice(run, deg.get()),
@@ -23,11 +37,13 @@ impl Known<'_> {
         }
     }
 
-    fn fault_of_curve(&self, source: &ProfileSource) -> Option<String> {
+    fn fault_of_curve(&self, source: &ProfileSource) -> Option<Misplaced> {
         match source {
             ProfileSource::Emitter { .. } => None,
             ProfileSource::ConeWeight { neighbour, .. } => {
-                (*neighbour > 7).then(|| format!("neighbour {neighbour}: expected 0 to 7"))
+                let word = || format!("neighbour: {neighbour}");
+                let problem = || format!("neighbour {neighbour}: expected 0 to 7");
+                (*neighbour > 7).then(|| Misplaced { word: word(), problem: problem() })
             }
             ProfileSource::Ellipse { field, cell } => self.cell((self.field)(field)?.grid(), *cell),
             ProfileSource::Light { run, cell, step } => {
@@ -37,20 +53,24 @@ impl Known<'_> {
         }
     }
 
-    fn fault_of_series(&self, series: &SeriesSource) -> Option<String> {
+    fn fault_of_series(&self, series: &SeriesSource) -> Option<Misplaced> {
         match series {
             SeriesSource::SliceRow { run, deg, row, .. } => {
                 self.slice(run, deg.get()).or_else(|| self.cell_of(run, (0, *row)))
             }
-            SeriesSource::Deviation { of, .. } => self.fault_of_series(of),
+            SeriesSource::Deviation { of, from, .. } => {
+                fault_of_expression(from, &["x"]).or_else(|| self.fault_of_series(of))
+            }
+            SeriesSource::Formula { expression, .. } => fault_of_expression(expression, &["x"]),
             _ => None,
         }
     }
 
     /// The first fault of a check's quantity.
-    pub(crate) fn fault_of_quantity(&self, quantity: &Quantity) -> Option<String> {
+    pub(crate) fn fault_of_quantity(&self, quantity: &Quantity) -> Option<Misplaced> {
         use Quantity as Q;
         match quantity {
+            Q::MajorAxisError { phi_deg, .. } => fault_of_expression(phi_deg, &ExpressionField::VARIABLES),
             Q::MajorAxisDeg { field, cell } => self.cell((self.field)(field)?.grid(), *cell),
             Q::EnergyRatio { run, cell, over } => {
                 self.cell_of(run, *cell).or_else(|| self.cell_of(run, *over))
@@ -70,13 +90,14 @@ impl Known<'_> {
         }
     }
 
-    fn cell(&self, grid: Grid, (x, y): (usize, usize)) -> Option<String> {
+    fn cell(&self, grid: Grid, (x, y): (usize, usize)) -> Option<Misplaced> {
         let (w, h) = (grid.width(), grid.height());
-        (!grid.contains(Cell::new(x, y)))
-            .then(|| format!("cell ({x}, {y}) lies outside of the {w} x {h} cells"))
+        let problem = || format!("cell ({x}, {y}) lies outside of the {w} x {h} cells");
+        let outside = !grid.contains(Cell::new(x, y));
+        outside.then(|| Misplaced { word: format!("({x}, {y})"), problem: problem() })
     }
 
-    fn cell_of(&self, run: &str, cell: (usize, usize)) -> Option<String> {
+    fn cell_of(&self, run: &str, cell: (usize, usize)) -> Option<Misplaced> {
         let scene = match (self.run)(run)? {
             RunSettings::Light(l) => &l.scene,
             RunSettings::Gradient(g) => &g.scene,
@@ -84,28 +105,34 @@ impl Known<'_> {
         self.cell((self.field)(&scene.field)?.grid(), cell)
     }
 
-    fn step(&self, run: &str, step: Option<usize>) -> Option<String> {
+    fn step(&self, run: &str, step: Option<usize>) -> Option<Misplaced> {
         let RunSettings::Light(LightSettings { frames, scene, .. }) = (self.run)(run)? else { return None };
         let step = step?;
         let is_last = scene.stopping.rule == StoppingRule::Steps(step);
-        let fault = || format!("step {step} of \"{run}\" is not kept: add it to the run's `frames`");
-        (!is_last && frames.binary_search(&step).is_err()).then(fault)
+        let problem = || format!("step {step} of \"{run}\" is not kept: add it to the run's `frames`");
+        let missing = !is_last && frames.binary_search(&step).is_err();
+        missing.then(|| Misplaced { word: format!("step: {step}"), problem: problem() })
     }
 
-    fn slice(&self, run: &str, deg: f64) -> Option<String> {
+    fn slice(&self, run: &str, deg: f64) -> Option<Misplaced> {
         let RunSettings::Gradient(g) = (self.run)(run)? else { return None };
+        let word = format!("deg: {deg}");
         match sample_of(deg, g.scene.directions) {
-            Ok(sample) => self.sample(run, sample, || format!("the slice at {deg} degrees")),
-            Err(problem) => Some(problem),
+            Ok(sample) => {
+                let missing = self.sample(run, sample, || format!("the slice at {deg} degrees"))?;
+                Some(Misplaced { word, ..missing })
+            }
+            Err(problem) => Some(Misplaced { word, problem }),
         }
     }
 
-    fn sample(&self, run: &str, sample: usize, what: impl Fn() -> String) -> Option<String> {
+    fn sample(&self, run: &str, sample: usize, what: impl Fn() -> String) -> Option<Misplaced> {
         let RunSettings::Gradient(g) = (self.run)(run)? else { return None };
         let missing = match &g.slices {
             Some(slices) => !slices.contains(&sample),
             None => sample >= g.scene.directions.count(),
         };
-        missing.then(|| format!("{} is not among the slices of \"{run}\"", what()))
+        let problem = || format!("{} is not among the slices of \"{run}\"", what());
+        missing.then(|| Misplaced { word: format!("sample: {sample}"), problem: problem() })
     }
 }

@@ -9,7 +9,7 @@ use thiserror::Error;
 use tigereye_core::{
     Cell, CoreError, Field, LightDistribution, StopReason, Tensor2, TransmissionField, Work, math,
 };
-use tigereye_ltg::{LtgError, LtgOutcome, LtgSettings, SweepObserver, sweep};
+use tigereye_ltg::{LtgError, LtgOutcome, LtgSettings, SweepObserver, check_fit, sweep};
 use tigereye_render::RenderError;
 use tigereye_transport::{
     EightLobe, Engine, Level, Problem, SampleSpace, Scattering, Scheme, StepView, TransportError,
@@ -132,7 +132,7 @@ fn run_light(
         lights: &settings.lights,
         stopping: scene.stopping,
     };
-    let start = before_first_step(&problem);
+    let start = problem.before_first_step();
     let mut frames = BTreeMap::new();
     let mut energies = vec![start.total_energy()];
     let mut radii = if settings.trace_radius { vec![energy_radius(&start.energy())] } else { Vec::new() };
@@ -176,19 +176,6 @@ fn run_light(
     })
 }
 
-/// The lights alone.
-fn before_first_step(problem: &Problem<'_>) -> LightDistribution {
-    let grid = problem.transmission.grid();
-    let directions = problem.scheme.directions();
-    let s = directions.count();
-    let mut samples = vec![0.0; grid.cells() * s];
-    for light in problem.lights {
-        let i = grid.index(light.cell) * s;
-        samples[i..i + s].copy_from_slice(light.initial_profile(directions).samples());
-    }
-    LightDistribution::new(directions, samples, Field::from_fn(grid, |_| [0.0; 8]))
-}
-
 /// Mean and standard deviation of the distance (cells) of energy from the centre of the grid; 0 in the dark.
 pub(crate) fn energy_radius(energy: &Field<f64>) -> (f64, f64) {
     let grid = energy.grid();
@@ -223,10 +210,7 @@ fn run_gradient(
     host: &dyn Host,
 ) -> Result<LtgOutcome, RunError> {
     let scene = &settings.scene;
-    let transmission = TransmissionField::from_tensors(field, scene.directions, scene.normalization)
-        .map_err(|source| RunError::Field { run: name.to_owned(), source })?;
-    let scheme = Scheme::new(scene.directions, scene.weights);
-    let scattering = Scattering::new(&scheme, &transmission);
+    let failed = |source| RunError::Sweep { run: name.to_owned(), source };
     let ltg = LtgSettings {
         stopping: scene.stopping,
         omega_step: settings.omega_step,
@@ -234,8 +218,14 @@ fn run_gradient(
         memory_bytes,
         level: Level::detect(),
     };
+    // Before anything large is made.
+    check_fit(field.grid(), scene.directions, &ltg).map_err(failed)?;
+    let transmission = TransmissionField::from_tensors(field, scene.directions, scene.normalization)
+        .map_err(|source| RunError::Field { run: name.to_owned(), source })?;
+    let scheme = Scheme::new(scene.directions, scene.weights);
+    let scattering = Scattering::new(&scheme, &transmission);
     sweep(&scattering, &ltg, &Watch { name, host }).map_err(|source| match source {
         LtgError::Interrupted { .. } => RunError::Interrupted,
-        source => RunError::Sweep { run: name.to_owned(), source },
+        source => failed(source),
     })
 }

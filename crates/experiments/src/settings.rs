@@ -1,7 +1,8 @@
 //! Experiment files to settings: names looked up, fields made, nothing optional left. All problems are reported at once.
 
 use crate::host::Host;
-use crate::places::Known;
+use crate::places::{Known, Misplaced};
+use crate::shortened;
 use crate::spec::{self, Experiment, FieldSource, Named, ProfileShape, Run, Scope, SpecError};
 use crate::uses::{self, RunKind};
 use std::collections::BTreeMap;
@@ -91,7 +92,7 @@ pub fn resolve(
     for (name, source) in experiment.fields.iter() {
         match make_field(source, host) {
             Ok(field) => _ = fields.insert(name.to_owned(), field),
-            Err(problem) => resolver.fault(name, format!("field \"{name}\": {problem}")),
+            Err(problem) => resolver.fault_at(&["fields:"], name, &format!("field \"{name}\": {problem}")),
         }
     }
     let mut runs = Vec::new();
@@ -125,6 +126,13 @@ pub fn slug_of(file: &str) -> String {
     name.strip_suffix(".ron").unwrap_or(name).to_owned()
 }
 
+/// A figure or check that mentions something.
+#[derive(Clone, Copy)]
+struct User<'a> {
+    kind: &'static str,
+    name: &'a str,
+}
+
 const fn scope_of(run: &Run) -> Scope {
     match run {
         Run::Light { scope, .. } | Run::Gradient { scope, .. } => *scope,
@@ -138,10 +146,16 @@ struct Resolver<'a> {
 }
 
 impl Resolver<'_> {
-    /// Reports a problem with something called `name`.
-    fn fault(&mut self, name: &str, problem: String) {
-        let (line, column) = spec::place_of(self.text, &format!("\"{name}\""));
+    /// Reports a problem at the first `"name"` behind the anchors, each looked for behind the one before.
+    fn fault_at(&mut self, anchors: &[&str], name: &str, problem: &str) {
+        let (line, column) = spec::place_after(self.text, anchors, &format!("\"{name}\""));
+        let problem = shortened(problem);
         self.problems.push(SpecError { file: self.file.to_owned(), line, column, problem });
+    }
+
+    /// Reports a problem of a run.
+    fn fault(&mut self, run: &str, problem: String) {
+        self.fault_at(&["runs:"], run, &problem);
     }
 
     fn run(
@@ -210,6 +224,10 @@ impl Resolver<'_> {
                 }
             }
         }
+        // A light without a profile has been reported.
+        if lights.len() < sources.len() {
+            return None;
+        }
         if let Err(e) = tigereye_transport::check_lights(&lights, grid, scene.directions) {
             self.fault(name, format!("run \"{name}\": {e}"));
             return None;
@@ -250,40 +268,56 @@ impl Resolver<'_> {
                 Err(problem) => self.fault(name, format!("run \"{name}\": {problem}")),
             }
         }
+        if scene.stopping.rule == StoppingRule::Steps(0) {
+            self.fault(name, format!("run \"{name}\": a gradient of 0 steps: expected 1 or more"));
+            return None;
+        }
         let slices = slices_deg.is_some().then_some(slices);
         Some(RunSettings::Gradient(GradientSettings { scene, omega_step, slices }))
     }
 
+    /// Reports a problem with the `word` that a figure or check mentions.
+    fn fault_of(&mut self, user: User<'_>, word: &str, problem: &str) {
+        let problem = format!("{} \"{}\" {problem}", user.kind, user.name);
+        self.fault_at(&[&format!("{}s:", user.kind), &format!("\"{}\"", user.name)], word, &problem);
+    }
+
+    /// Reports something a figure or check mentions and that does not exist.
+    fn misplaced(&mut self, user: User<'_>, what: &Misplaced) {
+        let anchors = [format!("{}s:", user.kind), format!("\"{}\"", user.name)];
+        let (line, column) = spec::place_after(self.text, &[&anchors[0], &anchors[1]], &what.word);
+        let problem = shortened(&format!("{} \"{}\": {}", user.kind, user.name, what.problem));
+        self.problems.push(SpecError { file: self.file.to_owned(), line, column, problem });
+    }
+
     /// Checks every name that figures and checks mention.
     fn references(&mut self, experiment: &Experiment) {
-        let mut runs: Vec<(String, &str, RunKind)> = Vec::new();
-        let mut fields: Vec<(String, &str)> = Vec::new();
+        let mut runs: Vec<(User, &str, RunKind)> = Vec::new();
+        let mut fields: Vec<(User, &str)> = Vec::new();
         for figure in &experiment.figures {
-            let who = format!("figure \"{}\"", figure.name);
+            let user = User { kind: "figure", name: &figure.name };
             for panel in &figure.panels {
-                runs.extend(uses::of_panel(panel).into_iter().map(|(run, kind)| (who.clone(), run, kind)));
-                fields.extend(uses::fields_of_panel(panel).into_iter().map(|f| (who.clone(), f)));
+                runs.extend(uses::of_panel(panel).into_iter().map(|(run, kind)| (user, run, kind)));
+                fields.extend(uses::fields_of_panel(panel).into_iter().map(|f| (user, f)));
             }
         }
         for check in &experiment.checks {
-            let who = format!("check \"{}\"", check.name);
-            runs.extend(
-                uses::of_quantity(&check.quantity).into_iter().map(|(run, kind)| (who.clone(), run, kind)),
-            );
-            fields.extend(uses::field_of_quantity(&check.quantity).map(|f| (who.clone(), f)));
+            let user = User { kind: "check", name: &check.name };
+            runs.extend(uses::of_quantity(&check.quantity).into_iter().map(|(run, kind)| (user, run, kind)));
+            fields.extend(uses::field_of_quantity(&check.quantity).map(|f| (user, f)));
         }
-        for (who, run, kind) in runs {
+        for (user, run, kind) in runs {
             let found = experiment.runs.get(run).map(RunKind::of);
             if found.is_none() {
                 let known = experiment.runs.names();
-                self.fault(run, format!("{who} names a run \"{run}\": expected one of {known}"));
+                self.fault_of(user, run, &format!("names a run \"{run}\": expected one of {known}"));
             } else if found != Some(kind) {
-                self.fault(run, format!("{who} takes \"{run}\" for a {kind:?} run, which it is not"));
+                self.fault_of(user, run, &format!("takes \"{run}\" for a {kind:?} run, which it is not"));
             }
         }
-        for (who, field) in fields.into_iter().filter(|(_, f)| experiment.fields.get(f).is_none()) {
+        for (user, field) in fields.into_iter().filter(|(_, f)| experiment.fields.get(f).is_none()) {
             let known = experiment.fields.names();
-            self.fault(field, format!("{who} names a field \"{field}\": expected one of {known}"));
+            self.fault_of(user, field, &format!("names a field \"{field}\": expected one of {known}"));
         }
         self.figure_names(experiment);
     }
@@ -299,19 +333,17 @@ impl Resolver<'_> {
             run: &|name| runs.iter().find(|(n, _)| n == name).map(|(_, r)| r),
             field: &|name| fields.get(name),
         };
-        let mut faults: Vec<(&str, String)> = Vec::new();
         for figure in &experiment.figures {
+            let user = User { kind: "figure", name: &figure.name };
             for problem in figure.panels.iter().filter_map(|p| known.fault_of_panel(p)) {
-                faults.push((&figure.name, format!("figure \"{}\": {problem}", figure.name)));
+                self.misplaced(user, &problem);
             }
         }
         for check in &experiment.checks {
+            let user = User { kind: "check", name: &check.name };
             if let Some(problem) = known.fault_of_quantity(&check.quantity) {
-                faults.push((&check.name, format!("check \"{}\": {problem}", check.name)));
+                self.misplaced(user, &problem);
             }
-        }
-        for (name, problem) in faults {
-            self.fault(name, problem);
         }
     }
 
@@ -319,7 +351,7 @@ impl Resolver<'_> {
         let mut names: Vec<&str> = experiment.figures.iter().map(|f| f.name.as_str()).collect();
         names.sort_unstable();
         if let Some(twice) = names.windows(2).find(|w| w[0] == w[1]) {
-            self.fault(twice[0], format!("two figures are called \"{}\"", twice[0]));
+            self.fault_at(&["figures:"], twice[0], &format!("two figures are called \"{}\"", twice[0]));
         }
         for name in names {
             if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_') {
@@ -421,8 +453,9 @@ fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, S
         }
         FieldSource::File { path, array, stride } => {
             let bytes = host.read(path)?;
-            let field = tensors_from_file(path, &bytes, array.as_deref())?;
-            strided(&field, *stride)
+            let field =
+                tensors_from_file(path, &bytes, array.as_deref()).map_err(|e| format!("{path}: {e}"))?;
+            strided(&field, *stride).map_err(|e| format!("{path}: {e}"))
         }
     }
 }

@@ -15,4 +15,4 @@ mod sweep;
 
 pub use error::LtgError;
 pub use settings::{LtgSettings, omega_step_of_slices, omega_step_of_volumes};
-pub use sweep::{LtgOutcome, Phase, SweepObserver, sweep};
+pub use sweep::{LtgOutcome, Phase, SweepObserver, check_fit, sweep};

@@ -65,9 +65,12 @@ pub(crate) fn plan<const N: usize>(
     if grid.width() < 3 || grid.height() < 3 {
         return Ok(Vec::new());
     }
-    // Three gradient components and the result per value.
-    let fixed =
-        PulseSolver::<N>::bytes(grid) * threads as u128 + (grid.cells() * slices.len() * 4 * 8) as u128;
+    // Transmission profiles (twice while they are made) and matrices per cell; three gradient components and the result
+    // per value.
+    let prepared = grid.cells() as u128 * (2 * directions.count() * 8 + 168) as u128;
+    let fixed = prepared
+        + PulseSolver::<N>::bytes(grid) * threads as u128
+        + (grid.cells() * slices.len() * 4 * 8) as u128;
     let bound = u128::from(memory_bytes);
     let fits = |columns: usize, directions: usize| {
         fixed + ring_bytes::<N>(grid, columns, directions.div_ceil(N)) <= bound

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use tigereye_core::{Cell, Grid, LtgVolume, StopReason, SweepWork};
+use tigereye_core::{Cell, Directions, Grid, LtgVolume, StopReason, SweepWork};
 use tigereye_transport::{
     LaneOf, LaneOutcome, PulseBlock, PulseSolver, Scattering, l1_difference, l1_difference_of_lanes,
 };
@@ -60,6 +60,20 @@ pub fn sweep(
         1 => sweep_lanes::<4>(field, settings, slices, observer),
         _ => sweep_lanes::<8>(field, settings, slices, observer),
     }
+}
+
+/// Whether a sweep with these settings can run on rayon's current thread pool, asked before anything large is made.
+///
+/// # Errors
+/// What [`sweep`] would refuse.
+pub fn check_fit(grid: Grid, directions: Directions, settings: &LtgSettings) -> Result<(), LtgError> {
+    let slices = settings.checked_slices(directions)?;
+    let (k, memory, threads) = (settings.omega_step, settings.memory_bytes, rayon::current_num_threads());
+    match slices.len() {
+        1 => plan::<4>(grid, directions, &slices, k, memory, threads),
+        _ => plan::<8>(grid, directions, &slices, k, memory, threads),
+    }
+    .map(drop)
 }
 
 struct Sweep<'a, const N: usize> {

@@ -1,9 +1,9 @@
 //! What every propagation engine does.
 
 use crate::light::check_lights;
-use crate::{Light, Scheme, Stopping, TransportError};
+use crate::{Light, Scheme, Stopping, StoppingRule, TransportError};
 use std::ops::ControlFlow;
-use tigereye_core::{LightDistribution, StopReason, TransmissionField, Work};
+use tigereye_core::{Field, LightDistribution, StopReason, TransmissionField, Work};
 
 /// Everything that determines a propagation.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +31,30 @@ impl Problem<'_> {
         }
         self.stopping.check()?;
         check_lights(self.lights, self.transmission.grid(), directions)
+    }
+}
+
+impl Problem<'_> {
+    /// The lights alone, before the first step.
+    #[must_use]
+    pub fn before_first_step(&self) -> LightDistribution {
+        let (grid, directions) = (self.transmission.grid(), self.scheme.directions());
+        let s = directions.count();
+        let mut samples = vec![0.0; grid.cells() * s];
+        for light in self.lights {
+            let i = grid.index(light.cell) * s;
+            samples[i..i + s].copy_from_slice(light.initial_profile(directions).samples());
+        }
+        LightDistribution::new(directions, samples, Field::from_fn(grid, |_| [0.0; 8]))
+    }
+
+    /// The outcome where no step is asked for.
+    pub(crate) fn without_steps(&self) -> Option<Outcome> {
+        (self.stopping.rule == StoppingRule::Steps(0)).then(|| Outcome {
+            distribution: self.before_first_step(),
+            stop: StopReason::StepLimit,
+            work: Work::default(),
+        })
     }
 }
 

@@ -17,7 +17,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<u8, CliError> {
                     counted(e.figures.len(), "figure"),
                     counted(e.checks.len(), "check"),
                 ];
-                print_text(&format!("{}: ok, {}\n", path.display(), parts.join(", ")));
+                print_text(&format!("{}: ok, {}\n", path.display(), parts.join(", ")))?;
             }
             Err(CliError::Inputs(found)) => faults.extend(found),
             Err(e) => faults.push(e.to_string()),

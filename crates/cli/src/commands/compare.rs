@@ -5,6 +5,7 @@ use crate::commands::print_text;
 use crate::error::CliError;
 use crate::files;
 use crate::input::Input;
+use crate::interrupt;
 use std::path::Path;
 use tigereye_core::{Field, Tensor2};
 use tigereye_io::{npy, vti};
@@ -22,8 +23,13 @@ struct Numbers {
 }
 
 pub(crate) fn compare(args: &CompareArgs) -> Result<u8, CliError> {
-    let a = numbers(&args.a)?.without_slices(&args.except_slices);
-    let b = numbers(&args.b)?.without_slices(&args.except_slices);
+    let (a, b) = (numbers(&args.a)?, numbers(&args.b)?);
+    interrupt::check()?;
+    let has = |n: &Numbers, slice| n.slices.as_ref().is_some_and(|s| s.contains(slice));
+    if let Some(slice) = args.except_slices.iter().find(|s| !has(&a, s) && !has(&b, s)) {
+        return Err(CliError::input("--except-slices", format!("neither result has a slice {slice}")));
+    }
+    let (a, b) = (a.without_slices(&args.except_slices), b.without_slices(&args.except_slices));
     if a.shape != b.shape {
         return Err(CliError::Input(format!(
             "{} is {} of shape {:?}, {} is {} of shape {:?}: expected the same shape",
@@ -33,10 +39,11 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<u8, CliError> {
     if let (Some(x), Some(y)) = (&a.slices, &b.slices)
         && x != y
     {
-        return Err(CliError::Input(format!("slices {x:?} and {y:?}: expected the same")));
+        let problem = format!("{} has the slices {x:?}, {} has {y:?}: expected the same", args.a, args.b);
+        return Err(CliError::Input(problem));
     }
     let difference = Difference::between(&a, &b);
-    print_text(&difference.text(&a));
+    print_text(&difference.text(&a))?;
     Ok(u8::from(!difference.is_within(args.tolerance)))
 }
 

@@ -9,9 +9,9 @@ use tigereye_fields::{Generator, Parameter, ParameterKind, generators};
 
 pub(crate) fn list(args: &FieldListArgs) -> Result<u8, CliError> {
     if args.json {
-        print_json(&Value::Array(generators().iter().map(|g| generator_json(g)).collect()));
+        print_json(&Value::Array(generators().iter().map(|g| generator_json(g)).collect()))?;
     } else {
-        print_text(&generators_text());
+        print_text(&generators_text())?;
     }
     Ok(0)
 }

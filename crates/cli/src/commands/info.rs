@@ -5,6 +5,7 @@ use crate::commands::{print_json, print_text};
 use crate::error::CliError;
 use crate::files;
 use crate::input::Input;
+use crate::interrupt;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -19,18 +20,19 @@ const ASYMMETRIC_ABOVE: f64 = 1e-9;
 pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
     if let Some(facts) = facts_of_result(args)? {
         if args.json {
-            print_json(&facts);
+            print_json(&facts)?;
         } else {
-            print_text(&result_as_text(&facts));
+            print_text(&result_as_text(&facts))?;
         }
         return Ok(0);
     }
     let input = Input::open(&args.input, args.array.as_deref())?;
     let facts = facts(&input);
+    interrupt::check()?;
     if args.json {
-        print_json(&facts);
+        print_json(&facts)?;
     } else {
-        print_text(&as_text(&facts));
+        print_text(&as_text(&facts))?;
     }
     Ok(0)
 }

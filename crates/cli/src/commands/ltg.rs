@@ -1,7 +1,7 @@
 //! `tigereye ltg`: the light transport gradient volume.
 
 use crate::args::{LtgArgs, Precision};
-use crate::commands::propagate::{PNG_SCALE, check_output, stop_name, stopping_of};
+use crate::commands::propagate::{PNG_SCALE, check_outputs, stop_name, stopping_of};
 use crate::commands::{command_line, print_json, print_text};
 use crate::error::CliError;
 use crate::input::Input;
@@ -16,14 +16,14 @@ use tigereye_core::{Field, LtgVolume, Normalization, TransmissionField};
 use tigereye_experiments::normalization_name;
 use tigereye_experiments::provenance::provenance;
 use tigereye_io::{npy, vti};
-use tigereye_ltg::{LtgError, LtgOutcome, LtgSettings, Phase, SweepObserver, omega_step_of_volumes, sweep};
+use tigereye_ltg::{
+    LtgError, LtgOutcome, LtgSettings, Phase, SweepObserver, check_fit, omega_step_of_volumes, sweep,
+};
 use tigereye_render::{HeatOptions, Scene, heat_map};
 use tigereye_transport::{Level, Scattering, Scheme, SharedWeights};
 
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
-    for output in &args.outputs {
-        check_output(output)?;
-    }
+    check_outputs(&args.outputs)?;
     let start = Instant::now();
     let input = Input::open(&args.input, args.scheme.array.as_deref())?;
     let normalization = input.normalization(args.scheme.normalization);
@@ -31,26 +31,29 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     let watch = Watch::new(&args.input);
     let outcome = system::on_threads(args.resources.threads, || {
         let directions = args.scheme.directions;
+        // Before anything large is made.
+        check_fit(input.field.grid(), directions, &settings).map_err(fault)?;
         let transmission = TransmissionField::from_tensors(&input.field, directions, normalization)
             .map_err(|e| CliError::input(&input.name, e))?;
         let scheme = Scheme::new(directions, SharedWeights::Thesis);
         let scattering = Scattering::new(&scheme, &transmission);
-        sweep(&scattering, &settings, &watch).map_err(|e| match e {
-            LtgError::Interrupted { .. } => CliError::Interrupted,
-            e => CliError::Input(e.to_string()),
-        })
+        sweep(&scattering, &settings, &watch).map_err(fault)
     })?;
     let seconds = watch.finish();
     interrupt::check()?;
-    let story = provenance(&command_line(), &parameters(args, &settings, normalization), &input.blake3);
+    let story = provenance(
+        &command_line(),
+        &parameters(args, &settings, normalization, outcome.volume.slices()),
+        &input.blake3,
+    );
     for output in &args.outputs {
         files::write(output, &encoded(output, args, &outcome.volume, &story)?)?;
     }
     let summary = summary(args, &settings, &outcome, seconds, start.elapsed().as_secs_f64());
     if args.json {
-        print_json(&summary);
+        print_json(&summary)?;
     } else {
-        print_text(&sentence(&outcome, &summary));
+        print_text(&sentence(&outcome, &summary))?;
     }
     Ok(0)
 }
@@ -82,6 +85,17 @@ fn picture(args: &LtgArgs, volume: &LtgVolume) -> Scene {
     heat_map(&inner, &HeatOptions { title: args.input.clone(), quantity, missing, ..HeatOptions::default() })
 }
 
+/// Names the option behind a refusal.
+fn fault(error: LtgError) -> CliError {
+    match error {
+        LtgError::Interrupted { .. } => CliError::Interrupted,
+        LtgError::OmegaStep { .. } => CliError::input("--omega-step", error),
+        LtgError::Slice { .. } | LtgError::NoSlices => CliError::input("--slices", error),
+        LtgError::Memory { .. } => CliError::input("--memory", error),
+        LtgError::Stopping(_) => CliError::input("--threshold", error),
+    }
+}
+
 fn settings_of(args: &LtgArgs) -> LtgSettings {
     LtgSettings {
         stopping: stopping_of(&args.scheme),
@@ -93,7 +107,12 @@ fn settings_of(args: &LtgArgs) -> LtgSettings {
 }
 
 /// All parameters, resolved, under the names of the options.
-fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: Normalization) -> Value {
+fn parameters(
+    args: &LtgArgs,
+    settings: &LtgSettings,
+    normalization: Normalization,
+    slices: &[usize],
+) -> Value {
     json!({
         "input": args.input,
         "directions": args.scheme.directions.count(),
@@ -102,11 +121,15 @@ fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: Normalizati
         "stop": stop_name(args.scheme.stop),
         "omega_step": settings.omega_step,
         "normalization": normalization_name(normalization),
-        "slices": settings.slices,
+        "slices": slices,
         "precision": precision_name(args.precision),
-        "threads": args.resources.threads,
+        "threads": threads_of(args),
         "memory": settings.memory_bytes,
     })
+}
+
+fn threads_of(args: &LtgArgs) -> usize {
+    args.resources.threads.unwrap_or_else(rayon::current_num_threads)
 }
 
 const fn precision_name(precision: Precision) -> &'static str {
@@ -134,7 +157,7 @@ fn summary(
         "cell_updates": work.cell_updates,
         "seconds": { "total": total, "propagation": seconds.propagation, "difference": seconds.difference },
         "peak_memory_bytes": system::peak_memory(),
-        "threads": args.resources.threads.unwrap_or_else(rayon::current_num_threads),
+        "threads": threads_of(args),
         "precision": precision_name(args.precision),
         "backend": settings.level.name(),
         "max": values.iter().fold(0.0, |m: f64, &v| m.max(v)),

@@ -8,17 +8,24 @@ pub(crate) mod ltg;
 pub(crate) mod propagate;
 pub(crate) mod reproduce;
 
+use crate::error::CliError;
 use serde_json::Value;
+use std::io::{ErrorKind, Write};
 
-/// Prints JSON to standard output. A reader that has gone away is no fault of ours.
-pub(crate) fn print_json(value: &Value) {
-    print_text(&format!("{value:#}\n"));
+/// Prints JSON to standard output.
+pub(crate) fn print_json(value: &Value) -> Result<(), CliError> {
+    print_text(&format!("{value:#}\n"))
 }
 
-/// Prints text to standard output.
-pub(crate) fn print_text(text: &str) {
-    use std::io::Write;
-    let _ = std::io::stdout().write_all(text.as_bytes());
+/// Prints text to standard output. A reader that has gone away is no fault of ours; a full disk is one.
+pub(crate) fn print_text(text: &str) -> Result<(), CliError> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(source) if source.kind() != ErrorKind::BrokenPipe => {
+            Err(CliError::File { path: "standard output".to_owned(), action: "writing", source })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// A number with its noun.
@@ -28,17 +35,16 @@ pub(crate) fn counted(n: usize, noun: &str) -> String {
 
 /// The command line as the user gave it, for provenance.
 pub(crate) fn command_line() -> String {
-    let mut words = std::env::args();
-    // The path of the program is of no interest to others.
-    words.next();
-    std::iter::once("tigereye".to_owned()).chain(words.map(quoted)).collect::<Vec<_>>().join(" ")
+    // The path of the program is of no interest to others. File names need not be text.
+    let words = std::env::args_os().skip(1).map(|w| quoted(&w.to_string_lossy()));
+    std::iter::once("tigereye".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 
 /// A word as a POSIX shell reads it back.
-fn quoted(word: String) -> String {
+pub(crate) fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_=+,.:/@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
-        word
+        word.to_owned()
     } else {
         format!("'{}'", word.replace('\'', "'\\''"))
     }
@@ -50,8 +56,8 @@ mod tests {
 
     #[test]
     fn words_survive_the_shell() {
-        assert_eq!(quoted("inverse:size=51".into()), "inverse:size=51");
-        assert_eq!(quoted("5,5,cos(theta)".into()), "'5,5,cos(theta)'");
-        assert_eq!(quoted("it's".into()), "'it'\\''s'");
+        assert_eq!(quoted("inverse:size=51"), "inverse:size=51");
+        assert_eq!(quoted("5,5,cos(theta)"), "'5,5,cos(theta)'");
+        assert_eq!(quoted("it's"), "'it'\\''s'");
     }
 }

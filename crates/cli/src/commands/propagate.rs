@@ -7,7 +7,7 @@ use crate::input::Input;
 use crate::{files, interrupt, system};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tigereye_core::{Cell, Normalization, PolarProfile, StopReason, TransmissionField};
 use tigereye_experiments::normalization_name;
@@ -25,9 +25,7 @@ use tigereye_transport::{
 pub(super) const PNG_SCALE: f64 = 2.0;
 
 pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
-    for output in &args.outputs {
-        check_output(output)?;
-    }
+    check_outputs(&args.outputs)?;
     let start = Instant::now();
     let input = Input::open(&args.input, args.scheme.array.as_deref())?;
     let normalization = input.normalization(args.scheme.normalization);
@@ -41,18 +39,31 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
         .propagate_observed(&problem, &mut |_| {
             if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })
-        .map_err(|e| CliError::Input(e.to_string()))?;
+        .map_err(|e| CliError::input("--light", e))?;
     interrupt::check()?;
     let parameters = parameters(args, normalization);
     for output in &args.outputs {
         files::write(output, &encoded(output, args, &input, &problem, &outcome, &parameters)?)?;
     }
-    report(args, &input, &outcome, start.elapsed().as_secs_f64());
+    report(args, &input, &outcome, start.elapsed().as_secs_f64())?;
     Ok(0)
 }
 
-/// Refuses an output before anything is computed.
-pub(super) fn check_output(output: &Path) -> Result<(), CliError> {
+/// Refuses outputs before anything is computed.
+pub(super) fn check_outputs(outputs: &[PathBuf]) -> Result<(), CliError> {
+    let mut seen = Vec::new();
+    for output in outputs {
+        check_output(output)?;
+        let place = files::place_of(output);
+        if seen.contains(&place) {
+            return Err(CliError::input(&output.display().to_string(), "this output is named twice"));
+        }
+        seen.push(place);
+    }
+    Ok(())
+}
+
+fn check_output(output: &Path) -> Result<(), CliError> {
     match files::extension(output).as_str() {
         "vti" | "npy" | "png" | "svg" => files::check_writable(output),
         _ => Err(CliError::input(
@@ -163,7 +174,7 @@ fn picture(args: &PropagateArgs, problem: &Problem<'_>, outcome: &Outcome) -> Sc
     }
 }
 
-fn report(args: &PropagateArgs, input: &Input, outcome: &Outcome, seconds: f64) {
+fn report(args: &PropagateArgs, input: &Input, outcome: &Outcome, seconds: f64) -> Result<(), CliError> {
     let grid = input.field.grid();
     let energy = outcome.distribution.energy();
     let largest = energy.values().iter().fold(0.0, |m: f64, &e| m.max(e));
@@ -186,12 +197,12 @@ fn report(args: &PropagateArgs, input: &Input, outcome: &Outcome, seconds: f64) 
             "energy": outcome.distribution.total_energy(),
             "max": largest,
             "mean": outcome.distribution.total_energy() / grid.cells() as f64,
-        }));
+        }))
     } else {
         let energy = outcome.distribution.total_energy();
         let steps = counted(outcome.work.steps, "step");
         print_text(&format!(
             "{steps} {stop_words}; energy in the grid {energy:.6} W, brightest cell {largest:.6} W\n"
-        ));
+        ))
     }
 }

@@ -1,7 +1,7 @@
 //! `tigereye reproduce` and `tigereye run`: experiments to a report.
 
 use crate::args::{ReproduceArgs, Resources, RunArgs};
-use crate::commands::{counted, print_text};
+use crate::commands::{counted, print_text, quoted};
 use crate::error::CliError;
 use crate::host::FileHost;
 use crate::{files, interrupt, system};
@@ -71,9 +71,11 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<u8, CliError> {
     sources.retain(|s| args.only.is_empty() || args.only.contains(&s.slug()));
     let again = |slug: &str| {
         let full = if args.full { " --full" } else { "" };
-        let folder =
-            args.experiments.as_ref().map_or_else(String::new, |f| format!(" --experiments {}", f.display()));
-        format!("tigereye reproduce --only {slug}{full}{folder}")
+        let folder = args
+            .experiments
+            .as_ref()
+            .map_or_else(String::new, |f| format!(" --experiments {}", quoted(&f.to_string_lossy())));
+        format!("tigereye reproduce --only {}{full}{folder}", quoted(slug))
     };
     run_sources(&sources, &args.out, args.full, &args.resources, &again)
 }
@@ -83,7 +85,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<u8, CliError> {
     check_slugs(&sources)?;
     let again = |slug: &str| {
         let file = sources.iter().find(|s| s.slug() == slug).map_or(slug, |s| s.name.as_str());
-        format!("tigereye run {file}{}", if args.full { " --full" } else { "" })
+        format!("tigereye run {}{}", quoted(file), if args.full { " --full" } else { "" })
     };
     run_sources(&sources, &args.out, args.full, &args.resources, &again)
 }
@@ -180,7 +182,7 @@ fn run_sources(
     };
     files::write(&out.join("summary.json"), report::summary_json(&outcomes, seconds).as_bytes())?;
     files::write(&out.join("index.html"), report::html(&outcomes, &about).as_bytes())?;
-    Ok(conclude(&outcomes, out, seconds))
+    conclude(&outcomes, out, seconds)
 }
 
 fn run_one(
@@ -224,7 +226,7 @@ fn write_outcome(out: &Path, outcome: &ExperimentOutcome) -> Result<(), CliError
 }
 
 /// Says how it went; the exit code.
-fn conclude(outcomes: &[ExperimentOutcome], out: &Path, seconds: f64) -> u8 {
+fn conclude(outcomes: &[ExperimentOutcome], out: &Path, seconds: f64) -> Result<u8, CliError> {
     let experiments = counted(outcomes.len(), "experiment");
     let checks = counted(outcomes.iter().map(|o| o.checks.len()).sum(), "check");
     let failed: Vec<String> = outcomes
@@ -239,17 +241,14 @@ fn conclude(outcomes: &[ExperimentOutcome], out: &Path, seconds: f64) -> u8 {
     let page = out.join("index.html");
     let report = page.display();
     if failed.is_empty() {
-        print_text(&format!(
-            "{} experiments, {checks} checks, all passed in {seconds:.0} s\nreport: {report}\n",
-            outcomes.len()
-        ));
-        0
+        print_text(&format!("{experiments}, {checks}, all passed in {seconds:.0} s\nreport: {report}\n"))?;
+        Ok(0)
     } else {
         print_text(&format!(
             "{experiments}, {checks}, {} failed in {seconds:.0} s\n{}\nreport: {report}\n",
             failed.len(),
             failed.join("\n")
-        ));
-        1
+        ))?;
+        Ok(1)
     }
 }

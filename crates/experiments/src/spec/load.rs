@@ -1,6 +1,7 @@
 //! Text to [`Experiment`], with the place of every fault.
 
 use super::{Experiment, FORMAT};
+use crate::shortened;
 use ron::extensions::Extensions;
 use thiserror::Error;
 
@@ -27,21 +28,61 @@ pub fn load(file: &str, text: &str) -> Result<Experiment, SpecError> {
     let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
     let experiment: Experiment = options.from_str(text).map_err(|e| {
         let place = e.span.start;
-        at(place.line.max(1), place.col.max(1), e.code.to_string())
+        let problem = match e.code {
+            ron::Error::IntegerOutOfBounds => {
+                "the number is out of range: expected a whole number from 0 that fits the machine".to_owned()
+            }
+            code => shortened(&code.to_string()),
+        };
+        at(place.line.max(1), place.col.max(1), problem)
     })?;
     if experiment.format != FORMAT {
-        let (line, column) = place_of(text, "format");
+        let (line, column) = place_after(text, &[], "format");
         let problem = format!("format {} is unknown: this version reads format {FORMAT}", experiment.format);
         return Err(at(line, column, problem));
     }
     Ok(experiment)
 }
 
-/// Line and column of the first occurrence of `word` outside of comment lines, or the start of the file.
-pub(crate) fn place_of(text: &str, word: &str) -> (usize, usize) {
-    text.lines()
-        .enumerate()
-        .filter(|(_, line)| !line.trim_start().starts_with("//"))
-        .find_map(|(i, line)| Some((i + 1, line[..line.find(word)?].chars().count() + 1)))
-        .unwrap_or((1, 1))
+/// Line and column of the first `word` outside of comments behind all `anchors`, each looked for behind the one before.
+/// An anchor or word that is missing is passed over.
+pub(crate) fn place_after(text: &str, anchors: &[&str], word: &str) -> (usize, usize) {
+    let code = without_comments(text);
+    let mut from = 0;
+    let mut place = 0;
+    for part in anchors.iter().chain(std::iter::once(&word)) {
+        if let Some(found) = code[from..].find(part) {
+            place = from + found;
+            from = place + part.len();
+        }
+    }
+    let line = code[..place].matches('\n').count() + 1;
+    let start = code[..place].rfind('\n').map_or(0, |n| n + 1);
+    (line, code[start..place].chars().count() + 1)
+}
+
+/// The text with comment tails blanked out, every other byte at its place.
+fn without_comments(text: &str) -> String {
+    let mut code = String::with_capacity(text.len());
+    for line in text.split_inclusive('\n') {
+        let end = comment_start(line).unwrap_or(line.len());
+        code.push_str(&line[..end]);
+        code.extend(line[end..].chars().map(|c| if c == '\n' { '\n' } else { ' ' }));
+    }
+    code
+}
+
+/// Where a `//` stands outside of a string.
+fn comment_start(line: &str) -> Option<usize> {
+    let mut in_string = false;
+    let mut previous = ' ';
+    for (i, c) in line.char_indices() {
+        match c {
+            '"' if previous != '\\' => in_string = !in_string,
+            '/' if previous == '/' && !in_string => return Some(i - 1),
+            _ => {}
+        }
+        previous = if c == '\\' && previous == '\\' { ' ' } else { c };
+    }
+    None
 }

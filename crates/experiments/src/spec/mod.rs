@@ -11,7 +11,7 @@ mod numbers;
 
 pub use checks::{Check, Expectation, Mirror, Quantity, SchemeConstant};
 pub use figures::{Axis, Curve, Figure, FlatView, GlyphColour, Panel, ProfileSource, Scale, SeriesSource};
-pub(crate) use load::place_of;
+pub(crate) use load::place_after;
 pub use load::{SpecError, load};
 pub use named::Named;
 pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive};

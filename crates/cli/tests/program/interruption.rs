@@ -1,0 +1,135 @@
+//! Ctrl-C ends with 130 and leaves what was there before, no more and no less.
+
+use crate::support::Place;
+use std::process::{Child, Command};
+use std::time::{Duration, Instant};
+
+/// How long the program may take to notice.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+fn interrupt(child: &Child, signal: &str) {
+    assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+}
+
+/// Waits until the program watches for interrupts: before, a signal would kill it.
+fn wait_until_watching(child: &mut Child) {
+    let start = Instant::now();
+    let status = format!("/proc/{}/status", child.id());
+    while start.elapsed() < PATIENCE {
+        let Ok(text) = std::fs::read_to_string(&status) else {
+            // No such file system here: half a second is plenty.
+            std::thread::sleep(Duration::from_millis(500));
+            return;
+        };
+        let caught = text.lines().find_map(|l| l.strip_prefix("SigCgt:")).map(str::trim);
+        // SIGINT is signal 2, bit 1.
+        if caught.and_then(|h| u64::from_str_radix(h, 16).ok()).is_some_and(|bits| bits & 2 != 0) {
+            std::thread::sleep(Duration::from_millis(200));
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    panic!("the program never watched for interrupts");
+}
+
+/// The exit code and standard error, or a failure where the program goes on.
+#[track_caller]
+fn ending(mut child: Child) -> (Option<i32>, String) {
+    let start = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if start.elapsed() > PATIENCE {
+            child.kill().unwrap();
+            child.wait().unwrap();
+            panic!("the program goes on after an interrupt");
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "", "standard output");
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+/// Starts a command that would run for long, interrupts it, and looks at what remains.
+#[track_caller]
+fn leaves_everything(args: &[&str], signal: &str) {
+    let place = Place::new();
+    place.write("kept.vti", "an earlier result");
+    place.write("r/summary.json", "an earlier summary");
+    place.write("long.ron", LONG);
+    let before = place.files();
+    let mut child = place.command(args).spawn().unwrap();
+    wait_until_watching(&mut child);
+    assert!(child.try_wait().unwrap().is_none(), "{args:?} ended before it could be interrupted");
+    interrupt(&child, signal);
+    let (code, stderr) = ending(child);
+    assert_eq!(code, Some(130), "{args:?}: {stderr}");
+    assert_eq!(stderr.lines().filter(|l| l.starts_with("tigereye: interrupted")).count(), 1, "{stderr}");
+    place.same_files(&before);
+}
+
+const LONG: &str = r#"(
+    format: 1, title: "t", source: "s", section: "1", claim: "c", look_for: "l",
+    fields: { "f": Generator(name: "inverse", parameters: {"size": 151}) },
+    runs: { "g": Gradient(field: "f") },
+    figures: [(name: "a", caption: "b", panels: [Flat(run: "g", view: Mean, title: "m")])],
+    checks: [(name: "n", quantity: GradientMax(run: "g"), expect: AtLeast(0), basis: "b")],
+)"#;
+
+#[test]
+fn an_interrupted_sweep_leaves_no_output() {
+    leaves_everything(&["ltg", "inverse:size=201", "-o", "new.vti"], "-INT");
+}
+
+#[test]
+fn an_interrupted_sweep_keeps_the_output_that_was_there() {
+    leaves_everything(&["ltg", "inverse:size=201", "--json", "--threads", "1", "-o", "kept.vti"], "-INT");
+}
+
+#[test]
+fn a_terminated_sweep_ends_in_the_same_way() {
+    leaves_everything(&["ltg", "inverse:size=201", "-o", "kept.vti"], "-TERM");
+}
+
+#[test]
+fn an_interrupted_propagation_leaves_no_output() {
+    let args = ["propagate", "inverse:size=301", "--light", "9,9", "--steps", "100000000", "--json"];
+    leaves_everything(&[&args[..], &["-o", "new.npy", "kept.vti", "new.png"]].concat(), "-INT");
+}
+
+#[test]
+fn an_interrupted_experiment_leaves_no_report() {
+    leaves_everything(&["run", "long.ron", "--out", "r"], "-INT");
+}
+
+#[test]
+fn an_interrupted_reading_command_ends_with_130_too() {
+    // Making this field takes seconds; `info` then has no further work that could notice.
+    leaves_everything(&["info", "random:size=3000"], "-INT");
+}
+
+/// A command that waits for ever: nobody writes into its input.
+fn waiting(place: &Place) -> Child {
+    assert!(Command::new("mkfifo").arg(place.path("pipe.txt")).status().unwrap().success());
+    let mut child = place.command(&["ltg", "pipe.txt", "-o", "kept.vti"]).spawn().unwrap();
+    wait_until_watching(&mut child);
+    child
+}
+
+#[test]
+fn the_second_interrupt_ends_at_once() {
+    let place = Place::new();
+    place.write("kept.vti", "an earlier result");
+    let mut child = waiting(&place);
+    let before = place.files();
+    interrupt(&child, "-INT");
+    std::thread::sleep(Duration::from_millis(300));
+    // Either the first one was enough, or the second one is.
+    if child.try_wait().unwrap().is_none() {
+        interrupt(&child, "-INT");
+        let start = Instant::now();
+        let (code, _) = ending(child);
+        assert_eq!(code, Some(130));
+        assert!(start.elapsed() < Duration::from_secs(2));
+    }
+    place.same_files(&before);
+}

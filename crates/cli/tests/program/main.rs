@@ -1,0 +1,11 @@
+//! The program as people and scripts call it: outputs, exit codes, messages, interruptions.
+#![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
+
+mod experiments;
+mod faults;
+#[cfg(unix)]
+mod interruption;
+mod odd_fields;
+mod results;
+mod streams;
+mod support;

@@ -137,9 +137,14 @@ fn data_files(
             run: name.clone(),
             source: Box::new(source),
         })?;
-        files.push(DataFile { name: format!("{name}.vti"), bytes });
+        files.push(DataFile { name: format!("{}.vti", file_name(name)), bytes });
     }
     Ok(files)
+}
+
+/// A run's name as part of a file name: what shells and links treat specially becomes `-`.
+pub(crate) fn file_name(run: &str) -> String {
+    run.chars().map(|c| if c.is_alphanumeric() || c == '_' || c == '-' { c } else { '-' }).collect()
 }
 
 fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {

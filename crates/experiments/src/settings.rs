@@ -1,5 +1,6 @@
 //! Experiment files to settings: names looked up, fields made, nothing optional left. All problems are reported at once.
 
+use crate::evaluate::file_name;
 use crate::host::Host;
 use crate::places::{Known, Misplaced};
 use crate::shortened;
@@ -348,6 +349,14 @@ impl Resolver<'_> {
     }
 
     fn figure_names(&mut self, experiment: &Experiment) {
+        let mut files: Vec<(String, &str)> = experiment.runs.iter().map(|(n, _)| (file_name(n), n)).collect();
+        files.sort_unstable();
+        if let Some(w) = files.windows(2).find(|w| w[0].0 == w[1].0) {
+            self.fault(
+                w[1].1,
+                format!("runs \"{}\" and \"{}\" would share the file {}.vti", w[0].1, w[1].1, w[0].0),
+            );
+        }
         let mut names: Vec<&str> = experiment.figures.iter().map(|f| f.name.as_str()).collect();
         names.sort_unstable();
         if let Some(twice) = names.windows(2).find(|w| w[0] == w[1]) {

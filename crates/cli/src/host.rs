@@ -4,6 +4,7 @@ use crate::interrupt;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::time::Instant;
 use tigereye_experiments::{Host, library};
 
 /// How many parents of an experiment's folder are searched for its data.
@@ -14,6 +15,7 @@ pub(crate) struct FileHost {
     folder: Option<PathBuf>,
     bar: ProgressBar,
     prefix: String,
+    start: Instant,
 }
 
 impl FileHost {
@@ -23,7 +25,7 @@ impl FileHost {
         let bar = ProgressBar::new(0);
         bar.set_style(sweep_style());
         bar.set_message(prefix.clone());
-        Self { folder, bar, prefix }
+        Self { folder, bar, prefix, start: Instant::now() }
     }
 
     /// Removes the progress line.
@@ -56,6 +58,10 @@ impl Host for FileHost {
         library::data(path)
             .map(<[u8]>::to_vec)
             .ok_or_else(|| format!("no file {path} in {}", tried.join(", ")))
+    }
+
+    fn seconds(&self) -> f64 {
+        self.start.elapsed().as_secs_f64()
     }
 
     fn progress(&self, what: &str, done: u64, total: u64) -> ControlFlow<()> {

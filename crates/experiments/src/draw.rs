@@ -333,6 +333,11 @@ impl Draw<'_> {
                 label.clone(),
                 counted(self.light(run).map_or(Vec::new(), |r| r.radii.iter().map(|r| r.1).collect())),
             ),
+            S::Seconds { label, runs } => {
+                let taken =
+                    |(i, run): (usize, &String)| Some(((i + 1) as f64, *self.results.seconds.get(run)?));
+                (label.clone(), runs.iter().enumerate().filter_map(taken).collect())
+            }
             S::SliceRow { label, run, deg, row } => {
                 (label.clone(), self.slice_row(run, deg.get(), *row).unwrap_or_default())
             }

@@ -10,6 +10,11 @@ pub trait Host: Sync {
     /// A sentence saying where it was looked for.
     fn read(&self, path: &str) -> Result<Vec<u8>, String>;
 
+    /// Seconds on a clock that only goes forward, for runtimes in figures; they enter no check and no snapshot.
+    fn seconds(&self) -> f64 {
+        0.0
+    }
+
     /// Something happens: `done` of `total` parts of `what`. `Break` ends the experiment.
     fn progress(&self, _what: &str, _done: u64, _total: u64) -> ControlFlow<()> {
         ControlFlow::Continue(())

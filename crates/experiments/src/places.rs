@@ -61,6 +61,9 @@ impl Known<'_> {
             SeriesSource::Deviation { of, from, .. } => {
                 fault_of_expression(from, &["x"]).or_else(|| self.fault_of_series(of))
             }
+            SeriesSource::Seconds { runs, .. } => runs.iter().find(|r| (self.run)(r).is_none()).map(|run| {
+                Misplaced { word: format!("\"{run}\""), problem: format!("there is no run \"{run}\"") }
+            }),
             SeriesSource::Formula { expression, .. } => fault_of_expression(expression, &["x"]),
             _ => None,
         }

@@ -76,6 +76,8 @@ pub enum RunError {
 pub(crate) struct Results {
     pub(crate) lights: BTreeMap<String, LightResult>,
     pub(crate) gradients: BTreeMap<String, LtgOutcome>,
+    /// Seconds each run took.
+    pub(crate) seconds: BTreeMap<String, f64>,
 }
 
 /// What a propagation leaves for figures and checks.
@@ -102,6 +104,7 @@ pub(crate) fn run_all(settings: &Settings, memory_bytes: u64, host: &dyn Host) -
             RunSettings::Gradient(g) => &g.scene,
         };
         let Some(field) = settings.fields.get(&scene.field) else { continue };
+        let start = host.seconds();
         match run {
             RunSettings::Light(light) => {
                 let result = run_light(name, light, field, host)?;
@@ -112,6 +115,7 @@ pub(crate) fn run_all(settings: &Settings, memory_bytes: u64, host: &dyn Host) -
                 results.gradients.insert(name.clone(), result);
             }
         }
+        results.seconds.insert(name.clone(), host.seconds() - start);
     }
     Ok(results)
 }

@@ -40,7 +40,8 @@ pub(crate) fn of_panel(panel: &Panel) -> Vec<(&str, RunKind)> {
 fn of_series(series: &SeriesSource) -> Option<(&str, RunKind)> {
     use SeriesSource as S;
     match series {
-        S::Points { .. } | S::Formula { .. } => None,
+        // Runs of another scope only leave points out.
+        S::Points { .. } | S::Formula { .. } | S::Seconds { .. } => None,
         S::Deviation { of, .. } => of_series(of),
         S::NetFlux { run, .. }
         | S::OutwardLobe { run, .. }

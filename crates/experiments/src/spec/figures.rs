@@ -300,6 +300,13 @@ pub enum SeriesSource {
         /// Row.
         row: usize,
     },
+    /// Seconds that runs took, over their number in this list (from 1); runs of another scope are left out.
+    Seconds {
+        /// Name in the legend.
+        label: String,
+        /// Names of gradient runs.
+        runs: Vec<String>,
+    },
     /// Mean of a gradient over all inner cells, over the direction in degrees.
     MeanOverCells {
         /// Name in the legend.

@@ -154,12 +154,6 @@ fn a_result_is_described_but_is_no_tensor_field() {
     place.refuses(&["info", "l.vti", "--array", "nothing"], &["l.vti", "nothing", "energy"]);
 }
 
-#[track_caller]
-fn refuses_input_of_tensors(place: &Place, input: &str, words: &[&str]) {
-    place.refuses(&["ltg", input, "-o", "kept.vti"], words);
-    place.refuses(&["info", input], words);
-}
-
 #[test]
 fn generators_name_what_they_do_not_have() {
     let place = place();

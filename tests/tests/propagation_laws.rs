@@ -635,3 +635,36 @@ proptest! {
         }
     }
 }
+
+/// Light that all but misses a pulse-shaped transmission must not blow up: what passes is smaller than what a double can
+/// make up for.
+#[test]
+fn almost_nothing_passing_stays_finite() {
+    use tigereye_core::{
+        Cell, Directions, Field, Grid, Normalization, PolarProfile, Tensor2, TransmissionField,
+    };
+    use tigereye_transport::{
+        EightLobe, Engine, Light, Problem, SampleSpace, Scheme, SharedWeights, Stopping,
+    };
+    let directions = Directions::new(32).expect("directions");
+    let field = Field::from_fn(Grid::new(5, 5).expect("a grid"), |c| match (c.x, c.y) {
+        (2, 2) => Tensor2::symmetric(1.0, 0.0, 0.0),
+        (2, 3) => Tensor2::symmetric(0.0, 0.0, 1.0),
+        _ => Tensor2::IDENTITY,
+    });
+    let transmission =
+        TransmissionField::from_tensors(&field, directions, Normalization::Global).expect("a field");
+    let scheme = Scheme::new(directions, SharedWeights::Thesis);
+    for faint in [1e-320, 5e-324, 1e-300, 1e-200] {
+        let lights = [
+            Light::continuous(Cell::new(1, 2), PolarProfile::constant(directions, faint)),
+            Light::continuous(Cell::new(2, 3), PolarProfile::constant(directions, 1.0)),
+        ];
+        let stopping = Stopping::steps(30);
+        let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
+        for engine in [&EightLobe as &dyn Engine, &SampleSpace] {
+            let light = engine.propagate(&problem).expect("a propagation").distribution;
+            assert!(light.samples().iter().all(|v| v.is_finite()), "{} with {faint:e}", engine.name());
+        }
+    }
+}

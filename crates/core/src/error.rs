@@ -73,4 +73,16 @@ pub enum CoreError {
         /// Mean of the profile.
         mean: f64,
     },
+    /// A transmission profile that is not the same in opposite directions.
+    #[error(
+        "the transmission profile of cell ({x}, {y}) differs between sample {sample} and the opposite one: expected equal"
+    )]
+    TransmissionAsymmetric {
+        /// Column of the cell.
+        x: usize,
+        /// Row of the cell.
+        y: usize,
+        /// First sample that differs.
+        sample: usize,
+    },
 }

@@ -155,7 +155,8 @@ impl TransmissionField {
     ///
     /// # Errors
     /// [`CoreError::ValueCount`], [`CoreError::ProfileLength`], [`CoreError::TransmissionRange`] for a profile with a
-    /// negative sample or a mean above 1: it would create light.
+    /// negative sample or a mean above 1 (it would create light), [`CoreError::TransmissionAsymmetric`] for one that
+    /// differs between opposite directions: a fibre transmits both ways, and the reduced engine relies on it.
     pub fn from_profiles(
         grid: Grid,
         directions: Directions,
@@ -173,6 +174,12 @@ impl TransmissionField {
             }
             // A mean of 1 computed from S samples may exceed it by rounding.
             let mean = p.mean();
+            let opposite = |t: usize| p.samples()[(t + expected / 2) % expected];
+            if let Some(sample) =
+                (0..expected).find(|&t| (p.samples()[t] - opposite(t)).abs() > f64::EPSILON * mean)
+            {
+                return Err(CoreError::TransmissionAsymmetric { x: cell.x, y: cell.y, sample });
+            }
             if p.samples().iter().any(|&v| v < 0.0) || mean > 1.0 + f64::EPSILON * expected as f64 {
                 return Err(CoreError::TransmissionRange { x: cell.x, y: cell.y, mean });
             }

@@ -1,7 +1,7 @@
 //! The numbers of an experiment that snapshot tests remember.
 
 use crate::measure::{inner_cells, mean_anisotropy};
-use crate::outcome::{Expected, ExperimentOutcome};
+use crate::outcome::ExperimentOutcome;
 use crate::runs::{LightResult, Results};
 use crate::settings::Settings;
 use serde::Serialize;
@@ -90,11 +90,7 @@ pub(crate) fn digest(settings: &Settings, results: &Results, outcome: &Experimen
             .map(|c| CheckDigest {
                 name: c.name.clone(),
                 value: rounded(c.value),
-                expected: match c.expected {
-                    Expected::Near { value, tolerance } => format!("{value} +- {tolerance}"),
-                    Expected::AtMost(bound) => format!("at most {bound}"),
-                    Expected::AtLeast(bound) => format!("at least {bound}"),
-                },
+                expected: c.expected.to_string(),
                 passed: c.passed,
             })
             .collect(),

@@ -23,6 +23,9 @@ const PANEL_PX: usize = 330;
 /// Resolution of the PNG files, pixels per unit.
 const PNG_SCALE: f64 = 1.5;
 
+/// Columns between neighbouring rows beyond which a ridge line is broken.
+const LARGEST_JUMP: f64 = 2.0;
+
 /// A figure with the tables behind its charts.
 pub(crate) struct Drawn {
     pub(crate) figure: Figure,
@@ -408,7 +411,14 @@ fn extrema(field: &Field<f64>) -> Option<(f64, f64)> {
 
 fn ridge_line(slice: &Field<f64>) -> Overlay {
     let ridge = ridge_columns(slice);
-    let points = ridge.iter().enumerate().map(|(y, x)| [x.unwrap_or(f64::NAN), y as f64]).collect();
+    // Where the largest value jumps from row to row there is no ridge to follow.
+    let near = |y: usize, other: Option<&Option<f64>>| match (ridge[y], other) {
+        (Some(a), Some(Some(b))) => (a - b).abs() <= LARGEST_JUMP,
+        _ => false,
+    };
+    let follows = |y: usize| near(y, ridge.get(y + 1)) || (y > 0 && near(y, ridge.get(y - 1)));
+    let point = |(y, x): (usize, &Option<f64>)| [x.filter(|_| follows(y)).unwrap_or(f64::NAN), y as f64];
+    let points = ridge.iter().enumerate().map(point).collect();
     Overlay { label: "largest value of each row".to_owned(), points, ..Overlay::default() }
 }
 

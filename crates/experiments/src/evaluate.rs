@@ -9,7 +9,7 @@ use crate::provenance::{hash_of_field, provenance};
 use crate::runs::{Results, RunError, run_all};
 use crate::settings::{RunSettings, Settings};
 use rayon::prelude::*;
-use serde_json::json;
+use serde_json::{Value, json};
 use thiserror::Error;
 use tigereye_core::Normalization;
 use tigereye_io::IoError;
@@ -148,9 +148,12 @@ pub(crate) fn file_name(run: &str) -> String {
 }
 
 fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
-    let (scene, omega_step) = match run {
-        RunSettings::Light(l) => (&l.scene, None),
-        RunSettings::Gradient(g) => (&g.scene, Some(g.omega_step)),
+    let (scene, own) = match run {
+        RunSettings::Light(l) => {
+            let lights: Vec<_> = l.lights.iter().map(|l| (l.cell.x, l.cell.y)).collect();
+            (&l.scene, json!({ "lights": lights, "engine": format!("{:?}", l.engine) }))
+        }
+        RunSettings::Gradient(g) => (&g.scene, json!({ "omega_step": g.omega_step, "slices": g.slices })),
     };
     let (stop, threshold) = match scene.stopping.rule {
         StoppingRule::FluxChange { threshold } => ("flux", threshold),
@@ -158,15 +161,18 @@ fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
         StoppingRule::Converged { tolerance } => ("stationary", tolerance),
         StoppingRule::Steps(_) => ("steps", 0.0),
     };
-    let parameters = json!({
+    let mut parameters = json!({
         "field": scene.field,
         "directions": scene.directions.count(),
         "normalization": normalization_name(scene.normalization),
         "stop": stop,
         "threshold": threshold,
         "max_iterations": scene.stopping.max_iterations,
-        "omega_step": omega_step,
+        "weights": format!("{:?}", scene.weights),
     });
+    if let (Some(all), Value::Object(own)) = (parameters.as_object_mut(), own) {
+        all.extend(own);
+    }
     let hash = settings.fields.get(&scene.field).map(hash_of_field).unwrap_or_default();
     provenance(command, &parameters, &hash)
 }

@@ -108,6 +108,16 @@ impl Expected {
     }
 }
 
+impl std::fmt::Display for Expected {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match *self {
+            Self::Near { value, tolerance } => write!(f, "{value} +- {tolerance}"),
+            Self::AtMost(bound) => write!(f, "at most {bound}"),
+            Self::AtLeast(bound) => write!(f, "at least {bound}"),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -20,6 +20,11 @@ pub(crate) struct Misplaced {
     pub(crate) problem: String,
 }
 
+fn reversed((from, to): (usize, usize)) -> Option<Misplaced> {
+    let problem = || format!("the range from {from} to {to} is empty");
+    (from > to).then(|| Misplaced { word: format!("({from}, {to})"), problem: problem() })
+}
+
 fn fault_of_expression(text: &str, variables: &[&str]) -> Option<Misplaced> {
     let fault = Expression::parse(text, variables).err()?;
     Some(Misplaced { word: format!("\"{text}\""), problem: format!("`{text}`: {fault}") })
@@ -78,16 +83,24 @@ impl Known<'_> {
             Q::EnergyRatio { run, cell, over } => {
                 self.cell_of(run, *cell).or_else(|| self.cell_of(run, *over))
             }
-            Q::BoxShare { run, columns, rows } => self.cell_of(run, (columns.1, rows.1)),
+            Q::BoxShare { run, columns, rows } => reversed(*columns)
+                .or_else(|| reversed(*rows))
+                .or_else(|| self.cell_of(run, (columns.1, rows.1))),
+            Q::RingShare { range, .. } => (range.0 > range.1).then(|| Misplaced {
+                word: "range:".to_owned(),
+                problem: format!("the range from {} to {} is empty", range.0.get(), range.1.get()),
+            }),
             Q::FrontRoundness { run, step } => self.step(run, Some(*step)),
             Q::GradientAt { run, cell, sample } => {
                 self.cell_of(run, *cell).or_else(|| self.sample(run, *sample, || format!("sample {sample}")))
             }
             Q::RidgeColumnError { run, deg, rows, .. } => {
-                self.slice(run, deg.get()).or_else(|| self.cell_of(run, (0, rows.1)))
+                let place = || self.slice(run, deg.get()).or_else(|| self.cell_of(run, (0, rows.1)));
+                reversed(*rows).or_else(place)
             }
             Q::RidgeContrast { run, deg, column, rows } => {
-                self.slice(run, deg.get()).or_else(|| self.cell_of(run, (*column, rows.1)))
+                let place = || self.slice(run, deg.get()).or_else(|| self.cell_of(run, (*column, rows.1)));
+                reversed(*rows).or_else(place)
             }
             _ => None,
         }

@@ -78,6 +78,7 @@ pub(crate) fn of_quantity(quantity: &Quantity) -> Vec<(&str, RunKind)> {
         | Q::MajorAxisError { .. }
         | Q::IsotropicShare { .. }
         | Q::ZeroShare { .. }
+        | Q::TotalAnisotropyShare { .. }
         | Q::LargestAxis { .. } => Vec::new(),
         Q::Steps { run }
         | Q::Stopped { run }
@@ -113,6 +114,7 @@ pub(crate) fn field_of_quantity(quantity: &Quantity) -> Option<&str> {
         | Q::MajorAxisError { field, .. }
         | Q::IsotropicShare { field }
         | Q::ZeroShare { field }
+        | Q::TotalAnisotropyShare { field }
         | Q::LargestAxis { field } => Some(field),
         _ => None,
     }

@@ -155,6 +155,10 @@ pub(crate) fn sum_of_eight<V: Copy + Add<Output = V>>(a: &[V; 8]) -> V {
     ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]))
 }
 
+/// A cell that lets through less than this part of what arrives lets nothing through: the quotient that makes up for it
+/// would overflow, and no light is left of it at this scale.
+pub(crate) const NOTHING_PASSES: f64 = 1e-290;
+
 /// `Phi = Tbar energy (M a) / sum(M a)`; nothing where nothing passes.
 #[inline(always)]
 pub(crate) fn normalized_to<const W: usize, V: Vector<W>>(
@@ -165,7 +169,8 @@ pub(crate) fn normalized_to<const W: usize, V: Vector<W>>(
     sum_ma: V,
 ) -> [V; 8] {
     let quotient = V::splat(proof, rate) * energy / sum_ma;
-    let factor = V::if_positive(sum_ma, quotient, V::splat(proof, 0.0));
+    let passes = sum_ma - energy * V::splat(proof, NOTHING_PASSES);
+    let factor = V::if_positive(passes, quotient, V::splat(proof, 0.0));
     let mut phi = *ma;
     for k in 0..8 {
         phi[k] = factor * ma[k];

@@ -1,5 +1,6 @@
 //! The scheme as the thesis writes it, sample by sample: slow, readable, and the judge of every faster engine.
 
+use crate::kernel::NOTHING_PASSES;
 use crate::stopping::{StepMeasures, Verdict};
 use crate::{Emission, Engine, Observer, Outcome, Problem, StepView, TransportError};
 use std::ops::ControlFlow;
@@ -110,7 +111,7 @@ pub(crate) fn outgoing_flux(problem: &Problem<'_>, cell: Cell, intensity: &[f64]
         intensity.iter().zip(problem.transmission.shape(cell)).map(|(i, shape)| rate * shape * i).collect();
     let mean_i = intensity.iter().sum::<f64>() / s as f64;
     let mean_ti = transmitted.iter().sum::<f64>() / s as f64;
-    let n_f = if mean_ti > 0.0 { rate * mean_i / mean_ti } else { 1.0 };
+    let n_f = if mean_ti > rate * mean_i * NOTHING_PASSES { rate * mean_i / mean_ti } else { 0.0 };
     std::array::from_fn(|k| h * n_f * (0..s).map(|t| scheme.weights(t)[k] * transmitted[t]).sum::<f64>())
 }
 

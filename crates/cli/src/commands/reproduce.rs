@@ -159,6 +159,9 @@ fn run_sources(
     if !full {
         prepared.retain(|(_, s)| s.experiment.scope == spec::Scope::Always);
     }
+    if prepared.is_empty() {
+        return Err(CliError::Input("every experiment named runs only with --full".to_owned()));
+    }
     files::make_folder(out)?;
     let memory = resources.memory.unwrap_or_else(system::half_of_memory);
     let outcomes = system::on_threads(resources.threads, || {
@@ -235,7 +238,7 @@ fn conclude(outcomes: &[ExperimentOutcome], out: &Path, seconds: f64) -> Result<
             o.checks
                 .iter()
                 .filter(|c| !c.passed)
-                .map(move |c| format!("  {}: {} = {:?}", o.slug, c.name, c.value))
+                .map(move |c| format!("  {}: {} = {:.6e}, expected {}", o.slug, c.name, c.value, c.expected))
         })
         .collect();
     let page = out.join("index.html");

@@ -1,7 +1,8 @@
 //! Numbers of tensor fields.
 
+use super::worst;
 use crate::runs::RunError;
-use tigereye_core::{Anisotropy, Cell, Field, Svd, Tensor2, math};
+use tigereye_core::{Anisotropy, Cell, Field, Svd, Tensor2, is_totally_anisotropic, math};
 use tigereye_fields::{Expression, ExpressionField, variables};
 
 /// Half-axes that differ by less count as equal: their direction is arbitrary.
@@ -12,7 +13,7 @@ fn is_isotropic(t: &Tensor2) -> bool {
 }
 
 pub(super) fn determinant_error(field: &Field<Tensor2>) -> f64 {
-    field.values().iter().map(|t| (t.determinant() - 1.0).abs()).fold(0.0, f64::max)
+    worst(field.values().iter().map(|t| (t.determinant() - 1.0).abs()))
 }
 
 pub(super) fn major_axis_deg(field: &Field<Tensor2>, (x, y): (usize, usize)) -> Option<f64> {
@@ -30,11 +31,15 @@ pub(super) fn major_axis_error_deg(field: &Field<Tensor2>, phi_deg: &str) -> Res
         let off = (math::degrees(Svd::of(t).phi_rad()) - expected).rem_euclid(180.0);
         off.min(180.0 - off)
     };
-    Ok(field.iter().filter(|(_, t)| !is_isotropic(t)).map(error).fold(0.0, f64::max))
+    Ok(worst(field.iter().filter(|(_, t)| !is_isotropic(t)).map(error)))
 }
 
 pub(super) fn isotropic_share(field: &Field<Tensor2>) -> f64 {
     share(field, is_isotropic)
+}
+
+pub(super) fn total_anisotropy_share(field: &Field<Tensor2>) -> f64 {
+    share(field, |t| !t.is_zero() && is_totally_anisotropic(t))
 }
 
 pub(super) fn zero_share(field: &Field<Tensor2>) -> f64 {
@@ -42,7 +47,7 @@ pub(super) fn zero_share(field: &Field<Tensor2>) -> f64 {
 }
 
 pub(super) fn largest_axis(field: &Field<Tensor2>) -> f64 {
-    field.values().iter().map(|t| Svd::of(t).s[0]).fold(0.0, f64::max)
+    worst(field.values().iter().map(|t| Svd::of(t).s[0]))
 }
 
 fn share(field: &Field<Tensor2>, test: impl Fn(&Tensor2) -> bool) -> f64 {

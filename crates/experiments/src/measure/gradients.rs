@@ -1,6 +1,7 @@
 //! Numbers of light transport gradients.
 
 use super::lights::image_of;
+use super::worst;
 use crate::settings::sample_of;
 use crate::spec::Mirror;
 use std::ops::RangeInclusive;
@@ -41,11 +42,8 @@ pub(super) fn ridge_column_error(
     rows: RangeInclusive<usize>,
 ) -> Option<f64> {
     let ridge = ridge_columns(&slice_at(volume, deg)?);
-    let mut error: f64 = 0.0;
-    for y in rows {
-        error = error.max(((*ridge.get(y)?)? - column).abs());
-    }
-    Some(error)
+    let errors = rows.map(|y| Some(((*ridge.get(y)?)? - column).abs())).collect::<Option<Vec<f64>>>()?;
+    Some(worst(errors))
 }
 
 pub(super) fn ridge_contrast(
@@ -80,15 +78,15 @@ pub(super) fn symmetry_error(volume: &LtgVolume, under: Mirror) -> Option<f64> {
         Mirror::QuarterTurn => (t + s / 4) % s,
     };
     let largest = volume.values().iter().fold(0.0, |m: f64, &v| m.max(v));
-    let mut error: f64 = 0.0;
+    let mut errors = Vec::new();
     for &t in volume.slices() {
         for cell in volume.grid().iter() {
             let here = volume.value(cell, t)?;
             let there = volume.value(image_of(volume.grid(), cell, under)?, turned(t))?;
-            error = error.max((here - there).abs());
+            errors.push((here - there).abs());
         }
     }
-    (largest > 0.0).then_some(error / largest)
+    (largest > 0.0).then_some(worst(errors) / largest)
 }
 
 /// Pearson correlation of the means over directions at the inner cells of the coarser grid; the finer mean is

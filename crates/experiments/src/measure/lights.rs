@@ -1,5 +1,6 @@
 //! Numbers of light distributions.
 
+use super::worst;
 use crate::runs::{LightResult, energy_radius};
 use crate::spec::Mirror;
 use std::ops::RangeInclusive;
@@ -15,7 +16,7 @@ pub(crate) fn at_step(result: &LightResult, step: Option<usize>) -> Option<&Ligh
 
 pub(super) fn energy_drift(result: &LightResult) -> Option<f64> {
     let start = *result.energies.first().filter(|e| **e > 0.0)?;
-    Some(result.energies.iter().map(|e| (e / start - 1.0).abs()).fold(0.0, f64::max))
+    Some(worst(result.energies.iter().map(|e| (e / start - 1.0).abs())))
 }
 
 /// The cell `distance` columns right of the first light.
@@ -86,11 +87,9 @@ pub(super) fn image_of(grid: Grid, c: Cell, under: Mirror) -> Option<Cell> {
 pub(super) fn symmetry_error(result: &LightResult, under: Mirror) -> Option<f64> {
     let energy = result.last.energy();
     let largest = energy.values().iter().fold(0.0, |m: f64, &e| m.max(e));
-    let mut error: f64 = 0.0;
-    for (cell, e) in energy.iter() {
-        error = error.max((e - energy.at(image_of(energy.grid(), cell, under)?)).abs());
-    }
-    (largest > 0.0).then_some(error / largest)
+    let error = |(cell, e): (Cell, &f64)| Some((e - energy.at(image_of(energy.grid(), cell, under)?)).abs());
+    let errors = energy.iter().map(error).collect::<Option<Vec<f64>>>()?;
+    (largest > 0.0).then_some(worst(errors) / largest)
 }
 
 /// Mean radius of the energy within 22.5 degrees of the axes over that within 22.5 degrees of the diagonals.

@@ -36,6 +36,12 @@ pub(crate) fn check(check: &Check, settings: &Settings, results: &Results) -> Re
     })
 }
 
+/// The largest value; not a number where any of them is not, or where there are none: such a check must fail.
+fn worst(values: impl IntoIterator<Item = f64>) -> f64 {
+    let larger = |m: f64, v: f64| if m >= v || m.is_nan() { m } else { v };
+    values.into_iter().reduce(larger).unwrap_or(f64::NAN)
+}
+
 struct Measure<'a> {
     settings: &'a Settings,
     results: &'a Results,
@@ -67,6 +73,7 @@ impl Measure<'_> {
             },
             Q::IsotropicShare { field } => self.field(field).map(fields::isotropic_share),
             Q::ZeroShare { field } => self.field(field).map(fields::zero_share),
+            Q::TotalAnisotropyShare { field } => self.field(field).map(fields::total_anisotropy_share),
             Q::LargestAxis { field } => self.field(field).map(fields::largest_axis),
             _ => self.light_quantity(quantity).or_else(|| self.gradient_quantity(quantity)),
         })
@@ -107,9 +114,7 @@ impl Measure<'_> {
             Q::GradientAt { run, cell, sample } => {
                 self.gradient(run)?.volume.value(tigereye_core::Cell::new(cell.0, cell.1), *sample)
             }
-            Q::GradientMax { run } => {
-                Some(self.gradient(run)?.volume.values().iter().fold(0.0, |m: f64, &v| m.max(v)))
-            }
+            Q::GradientMax { run } => Some(worst(self.gradient(run)?.volume.values().iter().copied())),
             Q::GradientMean { run } => {
                 let values = self.gradient(run)?.volume.values();
                 Some(values.iter().sum::<f64>() / values.len() as f64)

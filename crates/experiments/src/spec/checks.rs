@@ -94,6 +94,11 @@ pub enum Quantity {
         /// Name of the field.
         field: String,
     },
+    /// Share of cells that are totally anisotropic, zero tensors not counted.
+    TotalAnisotropyShare {
+        /// Name of the field.
+        field: String,
+    },
     /// Largest singular value of a field.
     LargestAxis {
         /// Name of the field.

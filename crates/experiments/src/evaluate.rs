@@ -155,18 +155,18 @@ fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
         }
         RunSettings::Gradient(g) => (&g.scene, json!({ "omega_step": g.omega_step, "slices": g.slices })),
     };
-    let (stop, threshold) = match scene.stopping.rule {
-        StoppingRule::FluxChange { threshold } => ("flux", threshold),
-        StoppingRule::DistributionChange { threshold } => ("distribution", threshold),
-        StoppingRule::Converged { tolerance } => ("stationary", tolerance),
-        StoppingRule::Steps(_) => ("steps", 0.0),
+    let stop = match scene.stopping.rule {
+        StoppingRule::FluxChange { .. } => "flux",
+        StoppingRule::DistributionChange { .. } => "distribution",
+        StoppingRule::Converged { .. } => "stationary",
+        StoppingRule::Steps(_) => "steps",
     };
     let mut parameters = json!({
         "field": scene.field,
         "directions": scene.directions.count(),
         "normalization": normalization_name(scene.normalization),
         "stop": stop,
-        "threshold": threshold,
+        "threshold": scene.stopping.rule.threshold(),
         "max_iterations": scene.stopping.max_iterations,
         "weights": format!("{:?}", scene.weights),
     });

@@ -34,6 +34,18 @@ pub enum StoppingRule {
     Steps(usize),
 }
 
+impl StoppingRule {
+    /// Threshold in W, or the relative tolerance; 0 for a number of steps.
+    #[must_use]
+    pub const fn threshold(&self) -> f64 {
+        match *self {
+            Self::FluxChange { threshold } | Self::DistributionChange { threshold } => threshold,
+            Self::Converged { tolerance } => tolerance,
+            Self::Steps(_) => 0.0,
+        }
+    }
+}
+
 impl Stopping {
     /// The published programme's rule: threshold 0.5 on the flux change, at most 1001 steps.
     pub const REFERENCE: Self =
@@ -53,13 +65,7 @@ impl Stopping {
     /// # Errors
     /// [`TransportError::Threshold`] where it is negative or not finite.
     pub fn check(&self) -> Result<(), TransportError> {
-        let threshold = match self.rule {
-            StoppingRule::FluxChange { threshold } | StoppingRule::DistributionChange { threshold } => {
-                threshold
-            }
-            StoppingRule::Converged { tolerance } => tolerance,
-            StoppingRule::Steps(_) => 0.0,
-        };
+        let threshold = self.rule.threshold();
         if threshold >= 0.0 && threshold.is_finite() {
             Ok(())
         } else {

@@ -1,7 +1,7 @@
 //! `tigereye ltg`: the light transport gradient volume.
 
 use crate::args::{LtgArgs, Precision};
-use crate::commands::propagate::{PNG_SCALE, check_outputs, stop_name, stopping_of, threshold_and_limit};
+use crate::commands::propagate::{PNG_SCALE, check_outputs, stop_name, stopping_of};
 use crate::commands::{command_line, print_json, print_text};
 use crate::error::CliError;
 use crate::input::Input;
@@ -113,12 +113,11 @@ fn parameters(
     normalization: Normalization,
     slices: &[usize],
 ) -> Value {
-    let (threshold, max_iterations) = threshold_and_limit(&settings.stopping);
     json!({
         "input": args.input,
         "directions": args.scheme.directions.count(),
-        "threshold": threshold,
-        "max_iterations": max_iterations,
+        "threshold": settings.stopping.rule.threshold(),
+        "max_iterations": settings.stopping.max_iterations,
         "stop": stop_name(args.scheme.stop),
         "omega_step": settings.omega_step,
         "normalization": normalization_name(normalization),

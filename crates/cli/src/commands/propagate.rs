@@ -101,16 +101,6 @@ pub(crate) fn stopping_of(args: &SchemeArgs) -> Stopping {
     Stopping { rule, max_iterations: args.max_iterations }
 }
 
-/// The threshold and the limit that are really used, for provenance.
-pub(crate) const fn threshold_and_limit(stopping: &Stopping) -> (f64, usize) {
-    let threshold = match stopping.rule {
-        StoppingRule::FluxChange { threshold } | StoppingRule::DistributionChange { threshold } => threshold,
-        StoppingRule::Converged { tolerance } => tolerance,
-        StoppingRule::Steps(_) => 0.0,
-    };
-    (threshold, stopping.max_iterations)
-}
-
 /// The name of a stopping rule as the option spells it.
 pub(crate) const fn stop_name(rule: StopRule) -> &'static str {
     match rule {
@@ -121,15 +111,14 @@ pub(crate) const fn stop_name(rule: StopRule) -> &'static str {
 }
 
 fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: Normalization) -> Value {
-    let (threshold, max_iterations) = threshold_and_limit(stopping);
     json!({
         "input": args.input,
         "light": args.lights,
         "impulse": args.impulse,
         "steps": args.steps,
         "directions": args.scheme.directions.count(),
-        "threshold": threshold,
-        "max_iterations": max_iterations,
+        "threshold": stopping.rule.threshold(),
+        "max_iterations": stopping.max_iterations,
         "stop": stop_name(args.scheme.stop),
         "normalization": normalization_name(normalization),
     })

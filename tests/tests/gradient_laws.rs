@@ -4,11 +4,12 @@ mod common;
 
 use common::{field, scheme, transmission};
 use std::ops::ControlFlow;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tigereye_core::{Cell, Field, Grid, LtgVolume, Normalization, Tensor2, TransmissionField};
 use tigereye_ltg::{
-    LtgError, LtgOutcome, LtgSettings, Phase, SweepObserver, omega_step_of_slices, omega_step_of_volumes,
-    sweep,
+    Finished, LtgError, LtgOutcome, LtgSettings, PartialVolume, Phase, Precision, Shard, SweepObserver,
+    omega_step_of_slices, omega_step_of_volumes, sweep, sweep_part,
 };
 use tigereye_tests::{Symmetry, difference_over_largest};
 use tigereye_transport::{
@@ -23,6 +24,9 @@ const BRUTE_FORCE: f64 = 1e-12;
 const SYMMETRY: f64 = 1e-12;
 /// Spread of equal values relative to themselves (1): rounding of sums that start elsewhere.
 const UNIFORMITY: f64 = 1e-13;
+/// Relative L2 difference of a gradient in single precision (1): rounding of 1e-7, and a source that stops a step early or
+/// late now and then.
+const SINGLE: f64 = 1e-4;
 /// Mean number of steps (steps): published with two decimals.
 const PRINTED_STEPS: f64 = 5e-3;
 
@@ -51,6 +55,20 @@ impl Scene {
         observer: &dyn SweepObserver,
     ) -> Result<LtgOutcome, LtgError> {
         sweep(&Scattering::new(&self.scheme, &self.transmission), settings, observer)
+    }
+
+    fn try_part(
+        &self,
+        settings: &LtgSettings,
+        shard: Shard,
+        start: Option<PartialVolume>,
+        observer: &dyn SweepObserver,
+    ) -> Result<PartialVolume, LtgError> {
+        sweep_part(&Scattering::new(&self.scheme, &self.transmission), settings, shard, start, observer)
+    }
+
+    fn part(&self, settings: &LtgSettings, shard: Shard) -> PartialVolume {
+        self.try_part(settings, shard, None, &()).unwrap_or_else(|e| panic!("{shard}: {e}"))
     }
 
     fn steps_of(&self, light: Light) -> usize {
@@ -178,7 +196,8 @@ fn sweep_is_the_definition() {
     for (name, scene) in &scenes {
         for stopping in rules {
             let pulses = AllPulses::solve(scene, stopping);
-            for omega_step in [1, 2, 5] {
+            // Half a turn compares every pulse with itself.
+            for omega_step in [1, 2, 5, 8] {
                 let settings = LtgSettings { stopping, ..scene.settings(omega_step) };
                 let outcome = scene.sweep(&settings);
                 let expected = pulses.gradient(omega_step);
@@ -238,7 +257,7 @@ fn gradient_does_not_depend_on_threads_or_instruction_set() {
 }
 
 #[test]
-fn gradient_does_not_depend_on_the_memory_bound() {
+fn gradient_and_its_work_do_not_depend_on_the_memory_bound() {
     let scene = Scene::of("random:width=11,height=9", 16);
     for threads in [1, 2] {
         with_threads(threads, || {
@@ -250,11 +269,15 @@ fn gradient_does_not_depend_on_the_memory_bound() {
             let mut solved_again = Vec::new();
             for percent in [100, 120, 150, 200, 300, 400, 600, 1000, 2000] {
                 let memory_bytes = least / 100 * percent + least % 100;
-                let found = scene.sweep(&LtgSettings { memory_bytes, ..settings.clone() });
+                let observer = impatient(u64::MAX);
+                let settings = LtgSettings { memory_bytes, ..settings.clone() };
+                let found = scene.try_sweep(&settings, &observer).expect("a sweep");
                 let what = format!("{percent} % of the least memory");
                 assert_eq!(bits(&found.volume), bits(&expected.volume), "{what}");
-                assert!(found.work.sources >= expected.work.sources, "{what}");
-                solved_again.push(found.work.sources - expected.work.sources);
+                assert_eq!((found.work, found.limited), (expected.work, expected.limited), "{what}");
+                let solved = observer.done.into_inner();
+                assert!(solved >= expected.work.sources, "{what}");
+                solved_again.push(solved - expected.work.sources);
             }
             // Strips solve the columns beside them again; with enough memory nothing is solved twice.
             assert!(solved_again[0] > 0, "the least memory means strips: {solved_again:?}");
@@ -358,26 +381,34 @@ fn every_pulse_but_the_corners_is_solved_once() {
     }
 }
 
-/// Breaks after some sources.
+/// Breaks after some sources, and keeps what was finished last.
 struct Impatient {
     after: u64,
     calls: AtomicU64,
     phases: AtomicU64,
+    done: AtomicU64,
+    finished: Mutex<Option<PartialVolume>>,
 }
 
 impl SweepObserver for Impatient {
-    fn phase(&self, _phase: Phase) {
+    fn busy(&self, _with: Option<Phase>) {
         self.phases.fetch_add(1, Ordering::Relaxed);
     }
     fn progress(&self, done: u64, total: u64) -> ControlFlow<()> {
         assert!(done <= total, "{done} of {total}");
         self.calls.fetch_add(1, Ordering::Relaxed);
+        self.done.fetch_max(done, Ordering::Relaxed);
         if done >= self.after { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+    fn finished(&self, volume: &PartialVolume) -> ControlFlow<()> {
+        *self.finished.lock().expect("no panic") = Some(volume.clone());
+        ControlFlow::Continue(())
     }
 }
 
 fn impatient(after: u64) -> Impatient {
-    Impatient { after, calls: AtomicU64::new(0), phases: AtomicU64::new(0) }
+    let zero = || AtomicU64::new(0);
+    Impatient { after, calls: zero(), phases: zero(), done: zero(), finished: Mutex::new(None) }
 }
 
 #[test]
@@ -396,6 +427,218 @@ fn an_observer_interrupts_the_sweep() {
     let watched = scene.try_sweep(&settings, &observer).expect("a sweep");
     assert_eq!(bits(&watched.volume), bits(&scene.sweep(&settings).volume), "watching changes nothing");
     assert!(observer.calls.into_inner() > 0 && observer.phases.into_inner() > 0);
+}
+
+/// Scenes with several sets of directions, slices whose partners lie in other sets, and a single set, with their K and
+/// slices.
+fn scenes_to_cut() -> Vec<(&'static str, Scene, LtgSettings)> {
+    let several = Scene::of("random:width=8,height=7", 64);
+    let some = Scene::of("bow:width=7,height=8,anisotropy=4", 64);
+    let one = Scene::of("rings:width=9,height=6", 16);
+    let (a, b, c) = (several.settings(6), some.settings(6), one.settings(2));
+    let slices: Vec<usize> = (0..64).filter(|t| t % 5 < 2).collect();
+    vec![
+        ("several sets", several, LtgSettings { stopping: Stopping::steps(5), ..a }),
+        ("some slices", some, LtgSettings { slices: Some(slices), stopping: Stopping::steps(4), ..b }),
+        ("one set", one, c),
+    ]
+}
+
+fn assert_same(found: &LtgOutcome, expected: &LtgOutcome, what: &str) {
+    assert_eq!(bits(&found.volume), bits(&expected.volume), "{what}");
+    assert_eq!((found.work, found.limited), (expected.work, expected.limited), "{what}");
+}
+
+#[test]
+fn shards_merge_to_the_bits_and_the_work_of_the_whole() {
+    for (name, scene, settings) in scenes_to_cut() {
+        let expected = scene.sweep(&settings);
+        for count in [1, 2, 3, 7, 40] {
+            let shards: Vec<Shard> = (0..count).map(|i| Shard::new(i, count).expect("a shard")).collect();
+            let mut parts: Vec<PartialVolume> = shards.iter().map(|&s| scene.part(&settings, s)).collect();
+            for (part, &shard) in parts.iter().zip(&shards) {
+                assert_eq!(part.missing(shard), 0, "{name}, {shard}");
+            }
+            // The order of merging does not matter.
+            if count % 2 == 1 {
+                parts.reverse();
+            }
+            let merged = parts.iter().skip(1).try_fold(parts[0].clone(), |sum, part| sum.merged(part));
+            let merged = merged.expect("no cell twice").into_outcome().expect("no cell missing");
+            assert_same(&merged, &expected, &format!("{name}, {count} shards"));
+        }
+    }
+}
+
+#[test]
+fn any_interruption_resumes_to_the_bits_and_the_work_of_the_whole() {
+    for (name, scene, settings) in scenes_to_cut() {
+        let expected = scene.sweep(&settings);
+        let sources = expected.work.sources;
+        for after in (0..12).map(|i| 1 + i * sources / 12) {
+            let observer = impatient(after);
+            let outcome = with_threads(2, || scene.try_part(&settings, Shard::WHOLE, None, &observer));
+            assert!(matches!(outcome, Err(LtgError::Interrupted { .. })), "{name}, after {after}");
+            let finished = observer.finished.into_inner().expect("no panic").expect("told what is finished");
+            assert!(finished.finished().work.sources <= observer.done.into_inner());
+            let resumed = scene.try_part(&settings, Shard::WHOLE, Some(finished), &()).expect("a sweep");
+            assert_same(&resumed.into_outcome().expect("all"), &expected, &format!("{name}, after {after}"));
+        }
+    }
+}
+
+#[test]
+fn a_sweep_interrupted_again_and_again_with_other_resources_ends_with_the_same_bits() {
+    for (name, scene, settings) in scenes_to_cut() {
+        let expected = scene.sweep(&settings);
+        let least = match scene.try_sweep(&LtgSettings { memory_bytes: 1, ..settings.clone() }, &()) {
+            Err(LtgError::Memory { needed, .. }) => u64::try_from(needed).expect("a small field"),
+            other => panic!("{other:?}"),
+        };
+        let (mut start, mut runs) = (None, 0);
+        let last = loop {
+            let done = start.as_ref().map_or(0, |v: &PartialVolume| v.finished().work.sources);
+            // Enough for some rows: less would never finish one.
+            let observer = impatient(done + 400 + 100 * (runs % 3));
+            let threads = 1 + runs as usize % 3;
+            let settings = LtgSettings {
+                memory_bytes: if runs % 2 == 0 { u64::MAX } else { 2 * least },
+                level: Level::available()[runs as usize % Level::available().len()],
+                ..settings.clone()
+            };
+            match with_threads(threads, || scene.try_part(&settings, Shard::WHOLE, start.take(), &observer)) {
+                Ok(volume) => break volume,
+                Err(LtgError::Interrupted { .. }) => {
+                    start = observer.finished.into_inner().expect("no panic")
+                }
+                Err(e) => panic!("{name}: {e}"),
+            }
+            runs += 1;
+            assert!(runs < 100, "{name}: no progress");
+        };
+        assert!(runs > 0, "{name}");
+        assert_same(&last.into_outcome().expect("all"), &expected, name);
+    }
+}
+
+#[test]
+fn what_is_finished_is_right_at_every_moment() {
+    struct Judge(Vec<f64>, AtomicU64);
+    impl SweepObserver for Judge {
+        fn finished(&self, volume: &PartialVolume) -> ControlFlow<()> {
+            let (slices, grid) = (volume.slices().len(), volume.grid());
+            let inner = (grid.width() - 2) * (grid.height() - 2);
+            let sets = volume.finished().done.len() / inner;
+            for (i, &square) in volume.finished().squares.iter().enumerate() {
+                let cell = grid.cell(i % grid.cells());
+                let whole = !grid.is_border(cell) && {
+                    let at = (cell.y - 1) * (grid.width() - 2) + cell.x - 1;
+                    (0..sets).all(|set| volume.finished().done[set * inner + at])
+                };
+                if whole {
+                    assert_eq!(square.sqrt(), self.0[i]);
+                } else {
+                    assert!(square >= 0.0 && square.sqrt() <= self.0[i]);
+                }
+            }
+            assert_eq!(volume.finished().squares.len(), slices * grid.cells());
+            self.1.fetch_add(1, Ordering::Relaxed);
+            ControlFlow::Continue(())
+        }
+    }
+    for (name, scene, settings) in scenes_to_cut() {
+        let judge = Judge(scene.sweep(&settings).volume.values().to_vec(), AtomicU64::new(0));
+        scene.try_sweep(&settings, &judge).expect("a sweep");
+        assert!(judge.1.into_inner() >= 4, "{name}: told after every row");
+    }
+}
+
+#[test]
+fn an_observer_that_cannot_keep_what_is_finished_ends_the_sweep() {
+    struct Full;
+    impl SweepObserver for Full {
+        fn finished(&self, _volume: &PartialVolume) -> ControlFlow<()> {
+            ControlFlow::Break(())
+        }
+    }
+    let scene = Scene::of("random:width=9,height=8", 16);
+    let outcome = scene.try_sweep(&scene.settings(2), &Full);
+    assert!(matches!(outcome, Err(LtgError::Interrupted { .. })), "{outcome:?}");
+}
+
+#[test]
+fn finished_sweeps_have_nothing_left_to_do() {
+    let scene = Scene::of("random:width=9,height=8", 16);
+    let settings = scene.settings(2);
+    let whole = scene.part(&settings, Shard::WHOLE);
+    let observer = impatient(0);
+    let again = scene.try_part(&settings, Shard::WHOLE, Some(whole.clone()), &observer).expect("a sweep");
+    assert_eq!(again, whole);
+    assert_eq!(observer.calls.into_inner(), 0);
+}
+
+#[test]
+fn parts_that_do_not_belong_together_are_refused() {
+    let scene = Scene::of("random:width=9,height=8", 16);
+    let settings = scene.settings(2);
+    let shards = [0, 1, 2].map(|i| Shard::new(i, 3).expect("a shard"));
+    let [a, b, c] = shards.map(|shard| scene.part(&settings, shard));
+    let twice = a.clone().merged(&b).and_then(|ab| ab.merged(&b)).expect_err("twice");
+    assert!(matches!(twice, LtgError::DoneTwice { x: 1, y: 3, direction: 0, count: 14 }), "{twice}");
+    let missing = a.clone().merged(&c).expect("two parts");
+    assert_eq!(missing.missing_shards(3), [1]);
+    let missing = missing.into_outcome().expect_err("missing");
+    assert_eq!(missing, LtgError::Missing { x: 1, y: 3, direction: 0, count: 14, total: 42 });
+    let other = [
+        (Scene::of("random:width=8,height=9", 16), settings.clone(), "grids"),
+        (Scene::of("random:width=9,height=8", 24), settings.clone(), "numbers of directions"),
+        (Scene::of("random:width=9,height=8", 16), scene.settings(1), "angular steps"),
+        (
+            Scene::of("random:width=9,height=8", 16),
+            LtgSettings { slices: Some(vec![1]), ..settings.clone() },
+            "slices",
+        ),
+    ];
+    for (scene, other, what) in other {
+        let part = scene.part(&other, shards[1]);
+        assert_eq!(a.clone().merged(&part), Err(LtgError::Unlike { what }));
+        let resumed = scene.try_part(&other, shards[0], Some(a.clone()), &());
+        assert_eq!(resumed, Err(LtgError::Unlike { what }));
+    }
+    let restored =
+        |finished| PartialVolume::restored(a.grid(), a.directions(), a.slices().to_vec(), 2, finished);
+    assert_eq!(restored(a.finished().clone()), Ok(a.clone()));
+    let mut short = a.finished().clone();
+    short.done.pop();
+    let error = restored(short);
+    assert_eq!(error, Err(LtgError::Length { what: "marks", found: 41, expected: 42 }));
+    let error = restored(Finished { squares: vec![0.0; 5], ..a.finished().clone() });
+    assert_eq!(error, Err(LtgError::Length { what: "values", found: 5, expected: 9 * 8 * 16 }));
+}
+
+#[test]
+fn single_precision_is_close_to_double_precision() {
+    for spec in ["random:width=11,height=9", "inverse:size=11,anisotropy=4", "rings:size=10,total=true"] {
+        let scene = Scene::of(spec, 32);
+        let settings = scene.settings(3);
+        let double = scene.sweep(&settings).volume;
+        let single = scene.sweep(&LtgSettings { precision: Precision::F32, ..settings.clone() });
+        let (mut square, mut norm) = (0.0, 0.0);
+        for (a, b) in single.volume.values().iter().zip(double.values()) {
+            square += (a - b) * (a - b);
+            norm += b * b;
+        }
+        let l2 = (square / norm).sqrt();
+        assert!(l2 <= SINGLE, "{spec}: off by {l2:e}");
+        // And as independent of shards and threads as the other.
+        let settings = LtgSettings { precision: Precision::F32, ..settings };
+        let [a, b] = [0, 1].map(|i| {
+            let shard = Shard::new(i, 2).expect("a shard");
+            with_threads(1 + i, || scene.part(&settings, shard))
+        });
+        let merged = a.merged(&b).and_then(PartialVolume::into_outcome).expect("both halves");
+        assert_same(&merged, &single, spec);
+    }
 }
 
 #[test]

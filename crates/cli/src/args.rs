@@ -3,6 +3,7 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use tigereye_core::{Below, Directions, Normalization};
+use tigereye_ltg::Shard;
 
 /// Shows 2D tensor fields by letting light run through them.
 #[derive(Debug, Parser)]
@@ -27,6 +28,8 @@ pub(crate) enum Command {
     Propagate(PropagateArgs),
     /// The light transport gradient volume.
     Ltg(LtgArgs),
+    /// The light transport gradient volume of shards computed apart.
+    Merge(MergeArgs),
     /// What a tensor field holds and how it was read.
     Info(InfoArgs),
     /// Difference of two results.
@@ -170,7 +173,8 @@ pub(crate) enum Picture {
 pub(crate) struct LtgArgs {
     /// A file (.txt, .npy, .vti) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
-    /// Outputs by their endings: .vti, .npy; .png, .svg show the only slice, or the mean over the slices.
+    /// Outputs by their endings: .vti, .npy; .png, .svg show the only slice, or the mean over the slices. With --shard
+    /// one .part.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     #[command(flatten)]
@@ -186,6 +190,25 @@ pub(crate) struct LtgArgs {
     pub(crate) precision: Precision,
     #[command(flatten)]
     pub(crate) resources: Resources,
+    /// Keep what is finished in DIR/checkpoint.part; the same command again continues.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) checkpoint: Option<PathBuf>,
+    /// Only piece K, from 0, of N nearly equal ones, for `merge`.
+    #[arg(long, value_name = "K/N", value_parser = parse_shard)]
+    pub(crate) shard: Option<Shard>,
+    /// Summary as JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MergeArgs {
+    /// What `ltg --shard` wrote, every shard once, in any order.
+    #[arg(required = true, value_name = "PART")]
+    pub(crate) parts: Vec<PathBuf>,
+    /// Outputs by their endings, as those of `ltg`: .vti, .npy, .png, .svg.
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
+    pub(crate) outputs: Vec<PathBuf>,
     /// Summary as JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,
@@ -196,6 +219,8 @@ pub(crate) struct LtgArgs {
 pub(crate) enum Precision {
     /// Double precision.
     F64,
+    /// Single precision: faster, and less than 1e-4 off in the fields that the tests compare.
+    F32,
 }
 
 #[derive(Debug, Args)]
@@ -249,6 +274,12 @@ fn parse_threads(text: &str) -> Result<usize, String> {
     }
 }
 
+pub(crate) fn parse_shard(text: &str) -> Result<Shard, String> {
+    let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    let (index, count) = numbers.ok_or("expected K/N, for example 0/4")?;
+    Shard::new(index, count).map_err(|e| e.to_string())
+}
+
 fn parse_bytes(text: &str) -> Result<u64, String> {
     let expected = || "expected a number of bytes, for example 2000000000, 800M or 2G".to_owned();
     let (digits, factor) = match text.char_indices().last() {
@@ -293,6 +324,14 @@ mod tests {
             parse_bytes("0").is_err() && parse_bytes("x").is_err() && parse_bytes("99999999999G").is_err()
         );
         assert!(parse_bytes("").is_err() && parse_bytes("ü").is_err());
+    }
+
+    #[test]
+    fn shards_count_from_zero() {
+        assert_eq!(parse_shard("2/3").map(|s| (s.index(), s.count())), Ok((2, 3)));
+        for wrong in ["3/3", "0/0", "1", "-1/3", "a/b", "0/3/4", "", "0/99999999999999999999"] {
+            assert!(parse_shard(wrong).is_err_and(|e| e.contains("K/N")), "{wrong}");
+        }
     }
 
     #[test]

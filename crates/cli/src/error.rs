@@ -25,13 +25,19 @@ pub(crate) enum CliError {
     /// Ctrl-C.
     #[error("interrupted; nothing half-written remains")]
     Interrupted,
+    /// Ctrl-C, with a checkpoint to go on from.
+    #[error("interrupted; {checkpoint} is complete: the same command goes on from there")]
+    Resumable {
+        /// The checkpoint's file.
+        checkpoint: String,
+    },
 }
 
 impl CliError {
     /// 130 for an interruption, 2 otherwise.
     pub(crate) const fn exit_code(&self) -> u8 {
         match self {
-            Self::Interrupted => 130,
+            Self::Interrupted | Self::Resumable { .. } => 130,
             _ => 2,
         }
     }

@@ -3,6 +3,8 @@
 use crate::error::CliError;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use tempfile::NamedTempFile;
 
 /// Largest input file, bytes. Text needs about twenty bytes a number; this holds every field a grid may have.
 const MAX_INPUT: u64 = 16 << 30;
@@ -30,23 +32,87 @@ pub(crate) fn read_text(path: &Path) -> Result<String, CliError> {
     })
 }
 
+/// How the names of temporary files begin.
+const TEMPORARY: &str = ".tigereye-";
+
+/// Temporary files of this process. Dropped, they are gone; where the process ends at once, [`abandon`] removes them.
+static PENDING: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn pending() -> MutexGuard<'static, Vec<PathBuf>> {
+    PENDING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A file that becomes another one, or goes away.
+struct Temporary {
+    file: Option<NamedTempFile>,
+    path: PathBuf,
+}
+
+impl Temporary {
+    fn new(folder: &Path, prefix: &str) -> std::io::Result<Self> {
+        // Known before anybody can ask for its removal.
+        let mut pending = pending();
+        let file = tempfile::Builder::new().prefix(prefix).tempfile_in(folder)?;
+        let path = file.path().to_path_buf();
+        pending.push(path.clone());
+        Ok(Self { file: Some(file), path })
+    }
+
+    fn fill(&mut self, bytes: &[u8]) -> std::io::Result<()> {
+        let Some(file) = &mut self.file else { return Ok(()) };
+        file.write_all(bytes)?;
+        set_ordinary_permissions(file.as_file())?;
+        file.as_file().sync_all()
+    }
+
+    fn become_file(mut self, path: &Path) -> std::io::Result<()> {
+        let Some(file) = self.file.take() else { return Ok(()) };
+        file.persist(path).map(drop).map_err(|e| e.error)
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        drop(self.file.take());
+        pending().retain(|p| *p != self.path);
+    }
+}
+
+/// Removes what is being written; no further temporary file can be made. For a process that ends right now.
+pub(crate) fn abandon() {
+    let pending = pending();
+    for path in pending.iter() {
+        // There is nobody left to tell.
+        let _ = std::fs::remove_file(path);
+    }
+    std::mem::forget(pending);
+}
+
 /// Replaces a file as a whole: readers see the old bytes or the new ones, never a part.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
+    write_through(path, bytes, TEMPORARY)
+}
+
+/// As [`write()`], through a temporary file whose name begins with `prefix`.
+pub(crate) fn write_through(path: &Path, bytes: &[u8], prefix: &str) -> Result<(), CliError> {
     let fault = |source| CliError::File { path: path.display().to_string(), action: "writing", source };
-    let folder = match path.parent() {
-        Some(p) if !p.as_os_str().is_empty() => p,
-        _ => Path::new("."),
-    };
-    let mut temporary = tempfile::Builder::new().prefix(".tigereye-").tempfile_in(folder).map_err(fault)?;
-    temporary.write_all(bytes).map_err(fault)?;
-    set_ordinary_permissions(temporary.as_file()).map_err(fault)?;
-    temporary.as_file().sync_all().map_err(fault)?;
-    temporary.persist(path).map_err(|e| fault(e.error))?;
+    let folder = folder_of(path);
+    let mut temporary = Temporary::new(folder, prefix).map_err(fault)?;
+    temporary.fill(bytes).map_err(fault)?;
+    temporary.become_file(path).map_err(fault)?;
     // The rename itself must survive a crash too. Not every system lets a folder be opened.
     if let Ok(folder) = std::fs::File::open(folder) {
         let _ = folder.sync_all();
     }
     Ok(())
+}
+
+/// The folder a file is in.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(p) if !p.as_os_str().is_empty() => p,
+        _ => Path::new("."),
+    }
 }
 
 /// Temporary files are private to their owner; results are not.
@@ -72,26 +138,19 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), CliError> {
 
 /// Whether a file can be written at `path`, before hours are spent on what should go there.
 pub(crate) fn check_writable(path: &Path) -> Result<(), CliError> {
-    let folder = match path.parent() {
-        Some(p) if !p.as_os_str().is_empty() => p,
-        _ => Path::new("."),
-    };
     if path.is_dir() {
         return Err(CliError::input(&path.display().to_string(), "is a folder: expected a file name"));
     }
-    tempfile::Builder::new()
-        .prefix(".tigereye-")
-        .tempfile_in(folder)
-        .map(drop)
-        .map_err(|source| CliError::File { path: path.display().to_string(), action: "writing", source })
+    Temporary::new(folder_of(path), TEMPORARY).map(drop).map_err(|source| CliError::File {
+        path: path.display().to_string(),
+        action: "writing",
+        source,
+    })
 }
 
 /// The same for every way of writing one path: the folder without links and dots, and the name.
 pub(crate) fn place_of(path: &Path) -> PathBuf {
-    let folder = match path.parent() {
-        Some(p) if !p.as_os_str().is_empty() => p,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(path);
     let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
     path.file_name().map_or_else(|| folder.clone(), |name| folder.join(name))
 }

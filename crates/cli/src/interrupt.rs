@@ -9,6 +9,7 @@ static ASKED: AtomicBool = AtomicBool::new(false);
 pub(crate) fn install() -> Result<(), CliError> {
     ctrlc::set_handler(|| {
         if ASKED.swap(true, Ordering::SeqCst) {
+            crate::files::abandon();
             std::process::exit(130);
         }
     })

@@ -3,13 +3,16 @@
 //! The only place that opens files, reads clocks, owns threads and talks to people. Numbers come from the crates below.
 
 mod args;
+mod checkpoint;
 mod commands;
 mod error;
 mod files;
 mod host;
 mod input;
 mod interrupt;
+mod part_file;
 mod system;
+mod watch;
 
 use args::{Cli, Command, FieldCommand};
 use clap::Parser;
@@ -37,6 +40,7 @@ fn dispatch(cli: Cli) -> Result<u8, CliError> {
         Command::Field(FieldCommand::List(a)) => commands::field::list(&a),
         Command::Propagate(a) => commands::propagate::propagate(&a),
         Command::Ltg(a) => commands::ltg::ltg(&a),
+        Command::Merge(a) => commands::merge::merge(&a),
         Command::Info(a) => commands::info::info(&a),
         Command::Compare(a) => commands::compare::compare(&a),
     }

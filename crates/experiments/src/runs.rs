@@ -9,7 +9,7 @@ use thiserror::Error;
 use tigereye_core::{
     Cell, CoreError, Field, LightDistribution, StopReason, Tensor2, TransmissionField, Work, math,
 };
-use tigereye_ltg::{LtgError, LtgOutcome, LtgSettings, SweepObserver, check_fit, sweep};
+use tigereye_ltg::{LtgError, LtgOutcome, LtgSettings, Precision, SweepObserver, check_fit, sweep};
 use tigereye_render::RenderError;
 use tigereye_transport::{
     EightLobe, Engine, Level, Problem, SampleSpace, Scattering, Scheme, StepView, TransportError,
@@ -221,6 +221,7 @@ fn run_gradient(
         slices: settings.slices.clone(),
         memory_bytes,
         level: Level::detect(),
+        precision: Precision::F64,
     };
     // Before anything large is made.
     check_fit(field.grid(), scene.directions, &ltg).map_err(failed)?;

@@ -18,6 +18,7 @@ mod image;
 mod limits;
 pub mod matrices;
 pub mod npy;
+pub mod part;
 mod scalar;
 pub mod vti;
 mod xml;

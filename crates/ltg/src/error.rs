@@ -3,7 +3,7 @@
 use thiserror::Error;
 use tigereye_transport::TransportError;
 
-/// An argument a sweep cannot work with, or its interruption.
+/// An argument a sweep cannot work with, parts that do not belong together, or an interruption.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum LtgError {
     /// The half-width of the angular difference is not in 1..=S/2.
@@ -38,6 +38,58 @@ pub enum LtgError {
     /// A stopping rule out of range.
     #[error(transparent)]
     Stopping(#[from] TransportError),
+    /// A shard that does not exist.
+    #[error("shard {index}/{count} does not exist: expected K/N with K from 0 to N-1")]
+    Shard {
+        /// Shard asked for, from 0.
+        index: usize,
+        /// Number of shards.
+        count: usize,
+    },
+    /// Partial volumes of different sweeps.
+    #[error("the partial volumes differ in their {what}")]
+    Unlike {
+        /// In what.
+        what: &'static str,
+    },
+    /// A partial volume whose lists do not have the lengths that its shape needs.
+    #[error("a partial volume has {found} {what}: expected {expected}")]
+    Length {
+        /// What is listed.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: u128,
+    },
+    /// Something finished in both of two partial volumes.
+    #[error("cell ({x}, {y}) is finished twice in the set of direction {direction} ({count} times in all)")]
+    DoneTwice {
+        /// Column of the first such cell.
+        x: usize,
+        /// Row of the first such cell.
+        y: usize,
+        /// First direction of its set.
+        direction: usize,
+        /// Number of cells and sets that are finished twice.
+        count: usize,
+    },
+    /// A volume that is not finished.
+    #[error(
+        "cell ({x}, {y}) is missing in the set of direction {direction} ({count} of {total} cells and sets are)"
+    )]
+    Missing {
+        /// Column of the first missing cell.
+        x: usize,
+        /// Row of the first missing cell.
+        y: usize,
+        /// First direction of its set.
+        direction: usize,
+        /// Number of cells and sets that are missing.
+        count: usize,
+        /// Number of cells and sets in all.
+        total: usize,
+    },
     /// The observer asked to end.
     #[error("interrupted after {done} of {total} sources")]
     Interrupted {

@@ -5,14 +5,25 @@
 //! y and in the direction (eqs. 3.17 to 3.20). It is an L1 distance of light distributions, not an exponent as the FTLE is;
 //! divide by the source spacing to compare resolutions.
 //!
-//! Every pulse is solved once and compared with all its partners while it is in memory. This crate neither draws nor
+//! Every pulse is compared with all its partners while it is in memory. What is finished is a [`PartialVolume`]: a sweep can
+//! stop anywhere and go on from there, and shards of it can be computed apart and merged. This crate neither draws nor
 //! parses nor reads clocks.
 
 mod error;
+mod observer;
+mod partial;
+mod pass;
 mod plan;
+mod ring;
+mod row;
+mod sets;
 mod settings;
+mod shard;
 mod sweep;
 
 pub use error::LtgError;
-pub use settings::{LtgSettings, omega_step_of_slices, omega_step_of_volumes};
-pub use sweep::{LtgOutcome, Phase, SweepObserver, check_fit, sweep};
+pub use observer::{Phase, SweepObserver};
+pub use partial::{Finished, LtgOutcome, PartialVolume};
+pub use settings::{LtgSettings, Precision, omega_step_of_slices, omega_step_of_volumes};
+pub use shard::Shard;
+pub use sweep::{check_fit, sweep, sweep_part};

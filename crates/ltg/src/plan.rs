@@ -1,152 +1,126 @@
-//! How a sweep is cut so that it fits into memory and every pulse is solved once.
+//! How a sweep is cut so that it fits into memory.
 //!
-//! The angular difference at t compares t-K with t+K, so directions that differ by 2K belong together; the differences in
-//! x and y stay within one direction. Directions are therefore swept in **groups** closed under steps of 2K, row by row
-//! with three rows in memory. Where even one such group is too large, the columns are cut into **strips**; the columns
-//! beside a strip are then solved again for the next one.
+//! Two rows of the pulses of one set of directions are in memory. Where they are too large, the columns are cut into
+//! strips; the columns beside a strip are then solved again for the next one.
 
 use crate::LtgError;
-use std::collections::BTreeMap;
+use crate::sets::{DirectionSet, direction_sets};
 use std::ops::Range;
 use tigereye_core::{Directions, Grid};
-use tigereye_transport::{PulseBlock, PulseSolver};
+use tigereye_transport::{PulseDistribution, PulseSolver, Real};
 
-/// Rows of pulses in memory: the one being solved and its two predecessors.
-pub(crate) const ROWS: usize = 3;
+/// Rows of pulses in memory. A pulse takes the place of the one two rows above as soon as it is compared with it.
+pub(crate) const ROWS: usize = 2;
 
-/// One pass over the grid.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Group {
-    /// Directions of the group, N per batch, the last one repeated to fill a batch.
-    pub(crate) directions: Vec<usize>,
-    /// Interior columns for which differences are taken; one more on each side is solved.
-    pub(crate) columns: Range<usize>,
+/// What a sweep may use.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    pub(crate) memory_bytes: u64,
+    pub(crate) threads: usize,
 }
 
-/// Directions that must be compared with each other: the connected sets of {(t-K, t+K)}, ascending.
-fn components(directions: Directions, slices: &[usize], k: usize) -> Vec<Vec<usize>> {
-    let s = directions.count();
-    let mut parent: BTreeMap<usize, usize> = BTreeMap::new();
-    fn root(parent: &BTreeMap<usize, usize>, mut t: usize) -> usize {
-        while parent[&t] != t {
-            t = parent[&t];
-        }
-        t
-    }
-    for &t in slices {
-        let (a, b) = ((t + s - k) % s, (t + k) % s);
-        for t in [t, a, b] {
-            parent.entry(t).or_insert(t);
-        }
-        let (a, b) = (root(&parent, a), root(&parent, b));
-        parent.insert(a.max(b), a.min(b));
-    }
-    let mut sets: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for &t in parent.keys() {
-        sets.entry(root(&parent, t)).or_default().push(t);
-    }
-    sets.into_values().collect()
+/// Bytes of two rows of `columns` cells with a pulse in each direction of a set.
+fn ring_bytes<T: Real>(grid: Grid, columns: usize, set: &DirectionSet) -> u128 {
+    PulseDistribution::<T>::bytes(grid.cells()) * (ROWS * columns * set.directions.len()) as u128
 }
 
-/// Bytes of three rows of `columns` solved cells with `batches` blocks each.
-fn ring_bytes<const N: usize>(grid: Grid, columns: usize, batches: usize) -> u128 {
-    PulseBlock::<N>::bytes(grid.cells()) * (ROWS * columns * batches) as u128
+/// Bytes that a sweep takes whatever its strips.
+fn fixed_bytes<T: Real>(grid: Grid, directions: Directions, slices: usize, threads: usize) -> u128 {
+    let (cells, samples) = (grid.cells() as u128, directions.count() as u128);
+    // Transmission profiles (twice while they are made) and matrices.
+    let prepared = cells * (2 * samples * 8 + 168);
+    // The gradient itself, and twice its bytes while a checkpoint is read or written.
+    let values = cells * slices as u128 * 3 * 8;
+    let solver =
+        PulseSolver::<T>::bytes(grid) + PulseDistribution::<T>::bytes(grid.cells()) * T::LANES as u128;
+    prepared + values + solver * threads as u128
 }
 
-/// Groups and strips that fit into `memory_bytes` together with one solver per thread and the result.
-pub(crate) fn plan<const N: usize>(
+/// The strips of inner columns for each set of directions, so that everything fits together.
+pub(crate) fn strips<T: Real>(
+    grid: Grid,
+    directions: Directions,
+    sets: &[DirectionSet],
+    slices: usize,
+    bounds: Bounds,
+) -> Result<Vec<Vec<Range<usize>>>, LtgError> {
+    if grid.width() < 3 || grid.height() < 3 {
+        return Ok(vec![Vec::new(); sets.len()]);
+    }
+    let fixed = fixed_bytes::<T>(grid, directions, slices, bounds.threads);
+    let needed = |columns: usize, set: &DirectionSet| fixed + ring_bytes::<T>(grid, columns, set);
+    let bound = bounds.memory_bytes;
+    let least = sets.iter().map(|set| needed(3, set)).max().unwrap_or(fixed);
+    if least > u128::from(bound) {
+        return Err(LtgError::Memory { needed: least, bound });
+    }
+    let interior = grid.width() - 2;
+    let of_set = |set: &DirectionSet| {
+        let fits = |&columns: &usize| needed(columns + 2, set) <= u128::from(bound);
+        let widest = (1..=interior).rev().find(fits).unwrap_or(1);
+        // Strips of equal width rather than one thin rest.
+        let width = interior.div_ceil(interior.div_ceil(widest));
+        (0..interior).step_by(width).map(|start| 1 + start..1 + (start + width).min(interior)).collect()
+    };
+    Ok(sets.iter().map(of_set).collect())
+}
+
+/// Whether a sweep with these slices fits.
+pub(crate) fn check<T: Real>(
     grid: Grid,
     directions: Directions,
     slices: &[usize],
     omega_step: usize,
-    memory_bytes: u64,
-    threads: usize,
-) -> Result<Vec<Group>, LtgError> {
-    if grid.width() < 3 || grid.height() < 3 {
-        return Ok(Vec::new());
-    }
-    // Transmission profiles (twice while they are made) and matrices per cell; three gradient components and the result
-    // per value.
-    let prepared = grid.cells() as u128 * (2 * directions.count() * 8 + 168) as u128;
-    let fixed = prepared
-        + PulseSolver::<N>::bytes(grid) * threads as u128
-        + (grid.cells() * slices.len() * 4 * 8) as u128;
-    let bound = u128::from(memory_bytes);
-    let fits = |columns: usize, directions: usize| {
-        fixed + ring_bytes::<N>(grid, columns, directions.div_ceil(N)) <= bound
-    };
-    let mut sets: Vec<Vec<usize>> = Vec::new();
-    for set in components(directions, slices, omega_step) {
-        match sets.last_mut() {
-            Some(last) if fits(grid.width(), last.len() + set.len()) => last.extend(set),
-            _ => sets.push(set),
-        }
-    }
-    let mut groups = Vec::new();
-    for mut set in sets {
-        set.sort_unstable();
-        let interior = grid.width() - 2;
-        let widest = (1..=interior).rev().find(|&w| fits(w + 2, set.len()));
-        let Some(widest) = widest else {
-            let needed = fixed + ring_bytes::<N>(grid, 3, set.len().div_ceil(N));
-            return Err(LtgError::Memory { needed, bound: memory_bytes });
-        };
-        // Strips of equal width rather than one thin rest.
-        let strips = interior.div_ceil(widest);
-        let width = interior.div_ceil(strips);
-        for start in (0..interior).step_by(width) {
-            let columns = 1 + start..1 + (start + width).min(interior);
-            groups.push(Group { directions: set.clone(), columns });
-        }
-    }
-    Ok(groups)
+    bounds: Bounds,
+) -> Result<(), LtgError> {
+    let sets = direction_sets(directions, slices, omega_step);
+    strips::<T>(grid, directions, &sets, slices.len(), bounds).map(drop)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn directions(s: usize) -> Directions {
-        Directions::new(s).expect("directions")
+    fn sets(s: usize, k: usize) -> (Directions, Vec<DirectionSet>) {
+        let directions = Directions::new(s).expect("directions");
+        let slices: Vec<usize> = (0..s).collect();
+        (directions, direction_sets(directions, &slices, k))
     }
 
     #[test]
-    fn directions_two_k_apart_stay_together() {
-        let all: Vec<usize> = (0..16).collect();
-        let sets = components(directions(16), &all, 2);
-        assert_eq!(sets, [vec![0, 4, 8, 12], vec![1, 5, 9, 13], vec![2, 6, 10, 14], vec![3, 7, 11, 15]]);
-    }
-
-    #[test]
-    fn one_slice_needs_three_directions() {
-        assert_eq!(components(directions(32), &[8], 3), [vec![5, 11], vec![8]]);
-        // Wrapped.
-        assert_eq!(components(directions(32), &[0], 3), [vec![0], vec![3, 29]]);
-    }
-
-    #[test]
-    fn small_memory_means_groups_then_strips_then_refusal() {
+    fn small_memory_means_strips_then_refusal() {
         let grid = Grid::new(21, 21).expect("a grid");
-        let all: Vec<usize> = (0..32).collect();
-        let groups = |bytes| plan::<8>(grid, directions(32), &all, 3, bytes, 2);
-        let row = ring_bytes::<8>(grid, 21, 1) as u64;
-        assert_eq!(groups(40 * row).expect("one group").len(), 1);
-        // Two components of 16 directions, two batches each.
-        let two = groups(3 * row).expect("two groups");
-        assert_eq!(
-            two.iter().map(|g| (g.directions.len(), g.columns.clone())).collect::<Vec<_>>(),
-            [(16, 1..20), (16, 1..20)]
+        let (directions, sets) = sets(64, 6);
+        let strips =
+            |memory_bytes| strips::<f64>(grid, directions, &sets, 64, Bounds { memory_bytes, threads: 2 });
+        let row = ring_bytes::<f64>(grid, 21, &sets[0]) as u64;
+        assert_eq!(strips(4 * row).expect("whole rows"), vec![Vec::from([1..20; 1]); 2]);
+        let narrow = strips(row).expect("strips");
+        assert!(
+            narrow.iter().all(|s| s.len() > 1 && s.iter().map(Range::len).sum::<usize>() == 19),
+            "{narrow:?}"
         );
-        let strips = groups(row + row / 2).expect("strips");
-        assert!(strips.len() > 2 && strips.iter().all(|g| g.directions.len() == 16));
-        let covered: usize = strips.iter().map(|g| g.columns.len()).sum();
-        assert_eq!(covered, 2 * 19);
-        assert!(matches!(groups(1000), Err(LtgError::Memory { bound: 1000, .. })));
+        assert!(narrow.iter().all(|s| s.windows(2).all(|w| w[0].end == w[1].start)), "{narrow:?}");
+        let Err(LtgError::Memory { needed, bound: 1000 }) = strips(1000) else { panic!("no refusal") };
+        assert!(strips(needed as u64).is_ok() && strips(needed as u64 - 1).is_err());
+    }
+
+    #[test]
+    fn the_largest_published_field_fits_into_two_gigabytes() {
+        let grid = Grid::new(101, 101).expect("a grid");
+        let (directions, sets) = sets(64, 6);
+        for threads in [2, 64] {
+            let bounds = Bounds { memory_bytes: 2_000_000_000, threads };
+            let strips = strips::<f64>(grid, directions, &sets, 64, bounds).expect("strips");
+            assert!(strips.iter().all(|s| s.len() <= 5), "{threads} threads: {strips:?}");
+        }
     }
 
     #[test]
     fn grids_without_interior_need_nothing() {
         let grid = Grid::new(2, 9).expect("a grid");
-        assert_eq!(plan::<8>(grid, directions(8), &[0], 1, 1 << 30, 2), Ok(Vec::new()));
+        let (directions, sets) = sets(8, 1);
+        let none = strips::<f64>(grid, directions, &sets, 8, Bounds { memory_bytes: 1, threads: 2 });
+        assert_eq!(none, Ok(vec![Vec::new(); sets.len()]));
     }
 }

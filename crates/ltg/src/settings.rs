@@ -2,7 +2,28 @@
 
 use crate::LtgError;
 use tigereye_core::Directions;
-use tigereye_transport::{Level, Stopping};
+use tigereye_transport::{Level, Real, Stopping};
+
+/// The numbers that pulses are computed in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// Double precision: agrees with the published volumes to rounding.
+    #[default]
+    F64,
+    /// Single precision: twice as many pulses side by side, half of the memory.
+    F32,
+}
+
+impl Precision {
+    /// `f64` or `f32`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::F64 => f64::NAME,
+            Self::F32 => f32::NAME,
+        }
+    }
+}
 
 /// Settings of a sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,10 +38,12 @@ pub struct LtgSettings {
     pub memory_bytes: u64,
     /// Instruction set of the hot loops; results do not depend on it.
     pub level: Level,
+    /// Numbers of the computation.
+    pub precision: Precision,
 }
 
 impl LtgSettings {
-    /// The settings of most published volumes: threshold 0.5, K = ceil(S/12), all slices, 4 GiB.
+    /// The settings of most published volumes: threshold 0.5, K = ceil(S/12), all slices, 4 GiB, double precision.
     #[must_use]
     pub fn reference(directions: Directions) -> Self {
         Self {
@@ -29,24 +52,38 @@ impl LtgSettings {
             slices: None,
             memory_bytes: 4 << 30,
             level: Level::detect(),
+            precision: Precision::F64,
         }
     }
 
-    /// The slices in ascending order, after checking everything.
-    pub(crate) fn checked_slices(&self, directions: Directions) -> Result<Vec<usize>, LtgError> {
-        let s = directions.count();
+    /// The slices in ascending order, each once, after everything was checked that does not depend on the grid.
+    ///
+    /// # Errors
+    /// [`LtgError::Stopping`], [`LtgError::OmegaStep`], [`LtgError::NoSlices`], [`LtgError::Slice`].
+    pub fn checked_slices(&self, directions: Directions) -> Result<Vec<usize>, LtgError> {
         self.stopping.check()?;
-        if !(1..=s / 2).contains(&self.omega_step) {
-            return Err(LtgError::OmegaStep { omega_step: self.omega_step, directions: s });
-        }
-        let mut slices = self.slices.clone().unwrap_or_else(|| (0..s).collect());
+        let mut slices = self.slices.clone().unwrap_or_else(|| (0..directions.count()).collect());
         slices.sort_unstable();
         slices.dedup();
-        match slices.last() {
-            None => Err(LtgError::NoSlices),
-            Some(&slice) if slice >= s => Err(LtgError::Slice { slice, directions: s }),
-            Some(_) => Ok(slices),
-        }
+        check_slices(directions, &slices, self.omega_step)?;
+        Ok(slices)
+    }
+}
+
+/// Whether there are such slices (ascending) and such an angular step.
+pub(crate) fn check_slices(
+    directions: Directions,
+    slices: &[usize],
+    omega_step: usize,
+) -> Result<(), LtgError> {
+    let s = directions.count();
+    if !(1..=s / 2).contains(&omega_step) {
+        return Err(LtgError::OmegaStep { omega_step, directions: s });
+    }
+    match slices.last() {
+        None => Err(LtgError::NoSlices),
+        Some(&slice) if slice >= s => Err(LtgError::Slice { slice, directions: s }),
+        Some(_) => Ok(()),
     }
 }
 

@@ -1,48 +1,26 @@
 //! The sweep itself.
+//!
+//! For each set of directions and each strip of columns it goes down the grid. A pulse of row y is compared with that of
+//! row y-2, whose place it then takes; of the two pulses of a difference in x or in direction, whichever is ready last is
+//! compared with the other. So every pulse is compared while it is still at hand, and each difference has one place:
+//! neither the number of threads nor the tiles show in the result.
+//!
+//! Pulses that are propagated side by side keep each other waiting until the last one stops. So a cell's directions are
+//! ordered by the steps they took one row above, and cut into batches in that order.
 
-use crate::plan::{Group, ROWS, plan};
-use crate::{LtgError, LtgSettings};
+use crate::observer::{Phase, SweepObserver};
+use crate::partial::{LtgOutcome, PartialVolume};
+use crate::pass::Pass;
+use crate::plan::{self, Bounds};
+use crate::ring::Ring;
+use crate::row::RowResults;
+use crate::{LtgError, LtgSettings, Precision, Shard};
 use rayon::prelude::*;
-use std::ops::ControlFlow;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use tigereye_core::{Cell, Directions, Grid, LtgVolume, StopReason, SweepWork};
-use tigereye_transport::{
-    LaneOf, LaneOutcome, PulseBlock, PulseSolver, Scattering, l1_difference, l1_difference_of_lanes,
-};
-
-/// What the sweep is busy with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Phase {
-    /// Pulses are being solved.
-    Propagation,
-    /// Distributions are being compared.
-    Difference,
-}
-
-/// Somebody who watches a sweep. Called from its threads.
-pub trait SweepObserver: Sync {
-    /// A phase begins; the one before has ended. Always called from the thread that called [`sweep`].
-    fn phase(&self, _phase: Phase) {}
-    /// `done` of `total` sources are solved. `Break` ends the sweep at the next source.
-    fn progress(&self, _done: u64, _total: u64) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-}
-
-/// Watches nothing.
-impl SweepObserver for () {}
-
-/// What a sweep leaves.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LtgOutcome {
-    /// The gradient.
-    pub volume: LtgVolume,
-    /// What it cost.
-    pub work: SweepWork,
-    /// How many propagations met the step limit instead of the stopping rule.
-    pub limited: u64,
-}
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use tigereye_core::{Cell, Directions, Grid};
+use tigereye_transport::{PulseDistribution, PulseSolver, Real, Scattering, l1_difference};
 
 /// Computes the gradient for every cell and the slices of `settings`. Border cells are 0. Runs on rayon's current thread
 /// pool; the result does not depend on the number of threads, on the memory bound or on the instruction set.
@@ -54,11 +32,35 @@ pub fn sweep(
     settings: &LtgSettings,
     observer: &dyn SweepObserver,
 ) -> Result<LtgOutcome, LtgError> {
-    let slices = settings.checked_slices(field.scheme().directions())?;
-    // Fewer lanes where a narrow selection would leave most of them empty.
-    match slices.len() {
-        1 => sweep_lanes::<4>(field, settings, slices, observer),
-        _ => sweep_lanes::<8>(field, settings, slices, observer),
+    sweep_part(field, settings, Shard::WHOLE, None, observer)?.into_outcome()
+}
+
+/// Computes what `shard` has of the gradient and `start`, left by an earlier run, lacks. The values and counters are those of
+/// a sweep in one piece, however often it was interrupted and however it was cut.
+///
+/// # Errors
+/// [`LtgError`], before any work except for [`LtgError::Interrupted`]; the observer has seen what was finished until then.
+pub fn sweep_part(
+    field: &Scattering<'_>,
+    settings: &LtgSettings,
+    shard: Shard,
+    start: Option<PartialVolume>,
+    observer: &dyn SweepObserver,
+) -> Result<PartialVolume, LtgError> {
+    let (grid, directions) = (field.grid(), field.scheme().directions());
+    let slices = settings.checked_slices(directions)?;
+    check_fit(grid, directions, settings)?;
+    let empty = || PartialVolume::empty(grid, directions, slices, settings.omega_step);
+    let volume = match start {
+        None => empty()?,
+        Some(start) => {
+            empty()?.check_like(&start)?;
+            start
+        }
+    };
+    match settings.precision {
+        Precision::F64 => run::<f64>(field, settings, shard, volume, observer),
+        Precision::F32 => run::<f32>(field, settings, shard, volume, observer),
     }
 }
 
@@ -68,294 +70,255 @@ pub fn sweep(
 /// What [`sweep`] would refuse.
 pub fn check_fit(grid: Grid, directions: Directions, settings: &LtgSettings) -> Result<(), LtgError> {
     let slices = settings.checked_slices(directions)?;
-    let (k, memory, threads) = (settings.omega_step, settings.memory_bytes, rayon::current_num_threads());
-    match slices.len() {
-        1 => plan::<4>(grid, directions, &slices, k, memory, threads),
-        _ => plan::<8>(grid, directions, &slices, k, memory, threads),
+    let bounds = bounds(settings);
+    match settings.precision {
+        Precision::F64 => plan::check::<f64>(grid, directions, &slices, settings.omega_step, bounds),
+        Precision::F32 => plan::check::<f32>(grid, directions, &slices, settings.omega_step, bounds),
     }
-    .map(drop)
 }
 
-struct Sweep<'a, const N: usize> {
-    field: &'a Scattering<'a>,
-    settings: &'a LtgSettings,
-    slices: &'a [usize],
-    observer: &'a dyn SweepObserver,
-    solvers: Mutex<Vec<PulseSolver<'a, N>>>,
-    done: AtomicU64,
-    total: u64,
-    interrupted: AtomicBool,
+fn bounds(settings: &LtgSettings) -> Bounds {
+    Bounds { memory_bytes: settings.memory_bytes, threads: rayon::current_num_threads() }
 }
 
-/// The three components of the gradient: per slice and cell `[g_x, g_y, g_w]`.
-type Components = Vec<[f64; 3]>;
-
-fn sweep_lanes<const N: usize>(
+fn run<T: Real>(
     field: &Scattering<'_>,
     settings: &LtgSettings,
-    slices: Vec<usize>,
+    shard: Shard,
+    mut volume: PartialVolume,
     observer: &dyn SweepObserver,
-) -> Result<LtgOutcome, LtgError> {
-    let (grid, directions) = (field.grid(), field.scheme().directions());
-    let threads = rayon::current_num_threads();
-    let groups = plan::<N>(grid, directions, &slices, settings.omega_step, settings.memory_bytes, threads)?;
-    let mut sweep = Sweep::<N> {
+) -> Result<PartialVolume, LtgError> {
+    let grid = field.grid();
+    let sets = volume.sets().to_vec();
+    let strips =
+        plan::strips::<T>(grid, volume.directions(), &sets, volume.slices().len(), bounds(settings))?;
+    let passes: Vec<(usize, &Range<usize>)> =
+        strips.iter().enumerate().flat_map(|(set, strips)| strips.iter().map(move |s| (set, s))).collect();
+    let pass = |(set, strip): (usize, &Range<usize>), volume: &PartialVolume| {
+        Pass::new(grid, (set, &sets[set]), strip, volume.targets(set, shard))
+    };
+    let before = volume.finished().work.sources;
+    let sweep = Sweep::<T> {
         field,
         settings,
-        slices: &slices,
         observer,
-        solvers: Mutex::new(Vec::new()),
-        done: AtomicU64::new(0),
-        total: 0,
+        workers: Mutex::new(Vec::new()),
+        done: AtomicU64::new(before),
+        total: before + passes.iter().map(|&p| pass(p, &volume).sources()).sum::<u64>(),
         interrupted: AtomicBool::new(false),
+        skipped: AtomicBool::new(false),
     };
-    sweep.total = groups.iter().map(|g| sweep.sources_of(g)).sum();
-    let mut components = vec![[0.0; 3]; grid.cells() * slices.len()];
-    let (mut work, mut limited) = (SweepWork::default(), 0);
-    for group in &groups {
-        let (w, l) = sweep.run_group(group, &mut components)?;
-        work.add(w);
-        limited += l;
+    let mut spare = Vec::new();
+    for p in passes {
+        let pass = pass(p, &volume);
+        let ring = Ring::new(&pass, &mut spare);
+        sweep.run_pass(&pass, &ring, &mut volume)?;
+        spare.extend(ring.into_spare());
     }
-    let values = components.iter().map(|[x, y, w]| (x * x + y * y + w * w).sqrt()).collect();
-    drop(sweep);
-    Ok(LtgOutcome { volume: LtgVolume::new(grid, directions, slices, values), work, limited })
+    Ok(volume)
 }
 
-impl<'a, const N: usize> Sweep<'a, N> {
-    /// Whether the distribution of a pulse at `cell` in direction `t` is compared with anything in `group`.
-    fn is_needed(&self, group: &Group, cell: Cell, t: usize) -> bool {
-        let grid = self.field.grid();
-        let inside = group.columns.contains(&cell.x);
-        let inner_row = cell.y > 0 && cell.y + 1 < grid.height();
-        let in_slices = self.slices.binary_search(&t).is_ok();
-        // Neighbours in x and y are compared within a slice, directions only at inner cells.
-        (in_slices && (inside || inner_row)) || (inside && inner_row)
-    }
+struct Sweep<'a, T> {
+    field: &'a Scattering<'a>,
+    settings: &'a LtgSettings,
+    observer: &'a dyn SweepObserver,
+    workers: Mutex<Vec<Worker<'a, T>>>,
+    done: AtomicU64,
+    total: u64,
+    /// The observer wants no more.
+    interrupted: AtomicBool,
+    /// Something was not solved therefore.
+    skipped: AtomicBool,
+}
 
-    fn sources_of(&self, group: &Group) -> u64 {
-        let rows = 0..self.field.grid().height();
-        let cells = rows.flat_map(|y| solved_columns(group).map(move |x| Cell::new(x, y)));
-        cells.map(|c| group.directions.iter().filter(|&&t| self.is_needed(group, c, t)).count() as u64).sum()
-    }
+/// What a thread needs to solve a batch.
+struct Worker<'a, T> {
+    solver: PulseSolver<'a, T>,
+    scratch: Vec<PulseDistribution<T>>,
+}
 
-    fn run_group(&self, group: &Group, components: &mut Components) -> Result<(SweepWork, u64), LtgError> {
-        let grid = self.field.grid();
-        let batches = group.directions.len().div_ceil(N);
-        let columns = solved_columns(group).len();
-        let mut rows: [Vec<PulseBlock<N>>; ROWS] = std::array::from_fn(|_| Vec::new());
-        let (mut work, mut limited) = (SweepWork::default(), 0);
-        for y in 0..grid.height() {
-            self.observer.phase(Phase::Propagation);
-            let row = &mut rows[y % ROWS];
-            if row.is_empty() {
-                row.resize_with(columns * batches, || PulseBlock::dark(grid.cells()));
+/// A row in the making.
+struct Row<'r, T> {
+    pass: &'r Pass<'r>,
+    ring: &'r Ring<T>,
+    y: usize,
+    here: &'r RowResults,
+    above: &'r RowResults,
+    /// Where the work is counted: border rows belong to the rows inside of them.
+    owner: &'r RowResults,
+    /// How many of the two pulses of each difference are ready, by column and place of the direction or turn.
+    ready_beside: Vec<AtomicUsize>,
+    ready_turned: Vec<AtomicUsize>,
+    /// Steps of each pulse, by column and place.
+    steps: Vec<AtomicUsize>,
+}
+
+/// Pulses that are propagated side by side: a column and places of directions.
+type Batch = (usize, Vec<usize>);
+
+impl<'a, T: Real> Sweep<'a, T> {
+    fn run_pass(&self, pass: &Pass<'_>, ring: &Ring<T>, volume: &mut PartialVolume) -> Result<(), LtgError> {
+        let mut results = [RowResults::new(pass), RowResults::new(pass)];
+        let places = pass.set.directions.len();
+        let mut orders: Vec<Vec<usize>> = vec![(0..places).collect(); pass.columns.len()];
+        for y in pass.solved_rows() {
+            self.run_row(pass, ring, y, &results, &mut orders);
+            if self.skipped.load(Ordering::Relaxed) {
+                // Nothing can be done about an observer that fails now.
+                let _ = self.observer.finished(volume);
+                let done = self.done.load(Ordering::Relaxed);
+                return Err(LtgError::Interrupted { done, total: self.total });
             }
-            let (row_work, row_limited) = self.solve_row(group, y, row)?;
-            work.add(row_work);
-            limited += row_limited;
-            self.observer.phase(Phase::Difference);
-            if y >= 1 && y + 1 < grid.height() {
-                self.difference_in_row(group, y, &rows[y % ROWS], components);
-            }
-            if y >= 2 {
-                self.difference_across_rows(group, y - 1, &rows[y % ROWS], &rows[(y + 1) % ROWS], components);
+            let Some(above) = y.checked_sub(1).filter(|&above| pass.has_targets(above)) else { continue };
+            volume.finish_row(pass, above, &results[above % 2]);
+            results[above % 2] = RowResults::new(pass);
+            if self.observer.finished(volume).is_break() {
+                self.interrupted.store(true, Ordering::Relaxed);
             }
         }
-        Ok((work, limited))
+        Ok(())
     }
 
-    /// Solves every pulse of row `y` that is needed.
-    fn solve_row(
+    /// Solves row `y` and takes all differences that become possible. `orders` holds each column's directions by the
+    /// steps they took, above before and here afterwards.
+    fn run_row(
         &self,
-        group: &Group,
+        pass: &Pass<'_>,
+        ring: &Ring<T>,
         y: usize,
-        row: &mut [PulseBlock<N>],
-    ) -> Result<(SweepWork, u64), LtgError> {
-        let batches = group.directions.len().div_ceil(N);
-        let first = group.columns.start - 1;
-        let outcomes: Vec<(SweepWork, u64)> = row
-            .par_iter_mut()
-            .enumerate()
-            .map(|(i, block)| {
-                let cell = Cell::new(first + i / batches, y);
-                self.solve_batch(group, cell, i % batches, block)
-            })
-            .collect();
-        if self.interrupted.load(Ordering::Relaxed) {
-            return Err(LtgError::Interrupted { done: self.done.load(Ordering::Relaxed), total: self.total });
+        results: &[RowResults; 2],
+        orders: &mut [Vec<usize>],
+    ) {
+        let (places, turns) = (pass.set.directions.len(), pass.set.turns.len());
+        let counters = |n: usize| (0..n * pass.columns.len()).map(|_| AtomicUsize::new(0)).collect();
+        let row = Row {
+            pass,
+            ring,
+            y,
+            here: &results[y % 2],
+            above: &results[(y + 1) % 2],
+            owner: &results[y.clamp(1, pass.grid.height() - 2) % 2],
+            ready_beside: counters(places),
+            ready_turned: counters(turns),
+            steps: counters(places),
+        };
+        let batches: Vec<Batch> =
+            pass.columns.clone().zip(&*orders).flat_map(|(x, order)| row.batches(x, order)).collect();
+        batches.par_iter().with_max_len(1).for_each(|(x, places)| {
+            self.run_batch(&row, *x, places);
+            self.observer.busy(None);
+        });
+        for (order, steps) in orders.iter_mut().zip(row.steps.chunks(places)) {
+            order.sort_by_key(|&place| steps[place].load(Ordering::Relaxed));
         }
-        let mut work = SweepWork::default();
-        let mut limited = 0;
-        for (w, l) in outcomes {
-            work.add(w);
-            limited += l;
-        }
-        Ok((work, limited))
     }
 
-    /// Solves one batch of directions at one cell.
-    fn solve_batch(
-        &self,
-        group: &Group,
-        cell: Cell,
-        batch: usize,
-        block: &mut PulseBlock<N>,
-    ) -> (SweepWork, u64) {
-        let samples = batch_samples::<N>(group, batch);
-        let lanes = (group.directions.len() - batch * N).min(N);
-        let needed: [bool; N] = std::array::from_fn(|l| l < lanes && self.is_needed(group, cell, samples[l]));
-        if needed.iter().all(|n| !n) || self.interrupted.load(Ordering::Relaxed) {
-            return (SweepWork::default(), 0);
+    /// Solves one batch at one cell, puts the pulses in the place of those two rows above, and takes every difference whose
+    /// other pulse is ready.
+    fn run_batch(&self, row: &Row<'_, T>, x: usize, places: &[usize]) {
+        if self.interrupted.load(Ordering::Relaxed) {
+            self.skipped.store(true, Ordering::Relaxed);
+            return;
         }
-        let mut solver = self.take_solver();
-        let outcomes = solver.solve(cell, samples, &self.settings.stopping, block);
-        self.put_solver(solver);
-        let (work, limited) = counted(&outcomes, &needed);
-        let done = self.done.fetch_add(work.sources, Ordering::Relaxed) + work.sources;
+        let (pass, set) = (row.pass, row.pass.set);
+        let samples: Vec<usize> = places.iter().map(|&place| set.directions[place]).collect();
+        let mut worker = self.take_worker();
+        self.observer.busy(Some(Phase::Propagation));
+        let cell = Cell::new(x, row.y);
+        let scratch = &mut worker.scratch[..places.len()];
+        let outcomes = worker.solver.solve(cell, &samples, &self.settings.stopping, scratch);
+        if pass.wanted(cell).counted {
+            row.owner.work.add(&outcomes);
+        }
+        self.observer.busy(Some(Phase::Difference));
+        let compared = row.y > 0 && pass.is_target(x, row.y - 1);
+        for ((solved, outcome), &place) in scratch.iter_mut().zip(outcomes).zip(places) {
+            row.steps[row.at(x, place)].store(outcome.work.steps, Ordering::Relaxed);
+            let mut two_above = row.ring.write(x, row.y, place);
+            if compared && set.slice[place].is_some() {
+                row.above.along_y.set(place, x, self.half_difference(&two_above, solved));
+            }
+            std::mem::swap(&mut *two_above, solved);
+            drop(two_above);
+            self.compare_beside(row, x, place);
+            self.compare_turned(row, x, place);
+        }
+        self.put_worker(worker);
+        let solved = places.len() as u64;
+        let done = self.done.fetch_add(solved, Ordering::Relaxed) + solved;
         if self.observer.progress(done, self.total).is_break() {
             self.interrupted.store(true, Ordering::Relaxed);
         }
-        (work, limited)
     }
 
-    fn take_solver(&self) -> PulseSolver<'a, N> {
-        let waiting = self.solvers.lock().ok().and_then(|mut s| s.pop());
-        waiting.unwrap_or_else(|| PulseSolver::new(self.field, self.settings.level))
-    }
-
-    fn put_solver(&self, solver: PulseSolver<'a, N>) {
-        if let Ok(mut solvers) = self.solvers.lock() {
-            solvers.push(solver);
-        }
-    }
-
-    /// `g_x` and `g_w` of the inner cells of row `y`.
-    fn difference_in_row(&self, group: &Group, y: usize, row: &[PulseBlock<N>], components: &mut Components) {
-        let batches = group.directions.len().div_ceil(N);
-        let found: Vec<Vec<(usize, usize, f64)>> = group
-            .columns
-            .clone()
-            .into_par_iter()
-            .map(|x| {
-                let i = (x + 1 - group.columns.start) * batches;
-                let mut found = Vec::new();
-                for batch in 0..batches {
-                    let (right, left) = (&row[i + batches + batch], &row[i - batches + batch]);
-                    self.along_axis(group, batch, 0, left, right, &mut found);
-                }
-                let here: Vec<&PulseBlock<N>> = row[i..i + batches].iter().collect();
-                self.along_direction(group, &here, &mut found);
-                found
-            })
-            .collect();
-        self.store(group, y, &found, components);
-    }
-
-    /// `g_y` of the inner cells of row `y` from the rows below and above it.
-    fn difference_across_rows(
-        &self,
-        group: &Group,
-        y: usize,
-        below: &[PulseBlock<N>],
-        above: &[PulseBlock<N>],
-        components: &mut Components,
-    ) {
-        let batches = group.directions.len().div_ceil(N);
-        let found: Vec<Vec<(usize, usize, f64)>> = group
-            .columns
-            .clone()
-            .into_par_iter()
-            .map(|x| {
-                let i = (x + 1 - group.columns.start) * batches;
-                let mut found = Vec::new();
-                for batch in 0..batches {
-                    self.along_axis(group, batch, 1, &above[i + batch], &below[i + batch], &mut found);
-                }
-                found
-            })
-            .collect();
-        self.store(group, y, &found, components);
-    }
-
-    /// Half the L1 difference of two cells' pulses for each direction of a batch that is a slice: (slice index,
-    /// component, value).
-    fn along_axis(
-        &self,
-        group: &Group,
-        batch: usize,
-        component: usize,
-        a: &PulseBlock<N>,
-        b: &PulseBlock<N>,
-        found: &mut Vec<(usize, usize, f64)>,
-    ) {
-        let directions = &group.directions[batch * N..((batch + 1) * N).min(group.directions.len())];
-        if !directions.iter().any(|t| self.slices.binary_search(t).is_ok()) {
+    /// `g_x` at the cells on both sides of a pulse that is ready, where the pulse beyond is ready too.
+    fn compare_beside(&self, row: &Row<'_, T>, x: usize, place: usize) {
+        if row.pass.set.slice[place].is_none() {
             return;
         }
-        let l1 = l1_difference(self.field, self.settings.level, a, b);
-        for (l, t) in directions.iter().enumerate() {
-            if let Ok(slice) = self.slices.binary_search(t) {
-                found.push((slice, component, 0.5 * l1[l]));
+        for centre in [x.wrapping_sub(1), x + 1] {
+            if row.pass.columns.contains(&centre)
+                && row.pass.is_target(centre, row.y)
+                && row.ready_beside[row.at(centre, place)].fetch_add(1, Ordering::AcqRel) == 1
+            {
+                let (left, right) =
+                    (row.ring.read(centre - 1, row.y, place), row.ring.read(centre + 1, row.y, place));
+                row.here.along_x.set(place, centre, self.half_difference(&left, &right));
             }
         }
     }
 
-    /// Half the L1 difference of the directions t+K and t-K at one cell for every slice t whose partners are in the group.
-    fn along_direction(&self, group: &Group, here: &[&PulseBlock<N>], found: &mut Vec<(usize, usize, f64)>) {
-        let s = self.field.scheme().directions().count();
-        let k = self.settings.omega_step;
-        let place = |t: usize| {
-            let i = group.directions.binary_search(&(t % s)).ok()?;
-            Some(LaneOf { block: i / N, lane: i % N })
-        };
-        let pairs: Vec<(usize, (LaneOf, LaneOf))> = (self.slices.iter().enumerate())
-            .filter_map(|(slice, &t)| Some((slice, (place(t + k)?, place(t + s - k)?))))
-            .collect();
-        for chunk in pairs.chunks(N) {
-            let lanes = std::array::from_fn(|l| chunk[l.min(chunk.len() - 1)].1);
-            let l1 = l1_difference_of_lanes(self.field, self.settings.level, here, &lanes);
-            for (l, (slice, _)) in chunk.iter().enumerate() {
-                found.push((*slice, 2, 0.5 * l1[l]));
+    /// `g_w` for the turns of a pulse that is ready, where the other pulse is ready too.
+    fn compare_turned(&self, row: &Row<'_, T>, x: usize, place: usize) {
+        if !row.pass.is_target(x, row.y) {
+            return;
+        }
+        let turns = &row.pass.set.turns;
+        for (i, turn) in turns.iter().enumerate().filter(|(_, turn)| turn.places.contains(&place)) {
+            let ready = &row.ready_turned[(x - row.pass.columns.start) * turns.len() + i];
+            // Half a turn is the same pulse twice where K is S/2.
+            let pulses = if turn.places[0] == turn.places[1] { 1 } else { 2 };
+            if ready.fetch_add(1, Ordering::AcqRel) + 1 == pulses {
+                let [before, after] = turn.places.map(|place| row.ring.read(x, row.y, place));
+                row.here.turned.set(i, x, self.half_difference(&before, &after));
             }
         }
     }
 
-    fn store(
-        &self,
-        group: &Group,
-        y: usize,
-        found: &[Vec<(usize, usize, f64)>],
-        components: &mut Components,
-    ) {
-        let grid: Grid = self.field.grid();
-        for (x, values) in group.columns.clone().zip(found) {
-            for &(slice, component, value) in values {
-                components[slice * grid.cells() + y * grid.width() + x][component] = value;
+    fn half_difference(&self, a: &PulseDistribution<T>, b: &PulseDistribution<T>) -> f64 {
+        0.5 * l1_difference(self.field, self.settings.level, a, b)
+    }
+
+    fn take_worker(&self) -> Worker<'a, T> {
+        let waiting = self.workers.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        waiting.unwrap_or_else(|| {
+            let dark = || PulseDistribution::dark(self.field.grid().cells());
+            Worker {
+                solver: PulseSolver::new(self.field, self.settings.level),
+                scratch: (0..T::LANES).map(|_| dark()).collect(),
             }
-        }
+        })
+    }
+
+    fn put_worker(&self, worker: Worker<'a, T>) {
+        self.workers.lock().unwrap_or_else(PoisonError::into_inner).push(worker);
     }
 }
 
-/// The columns whose pulses a group solves: its own and one on each side.
-fn solved_columns(group: &Group) -> std::ops::Range<usize> {
-    group.columns.start - 1..group.columns.end + 1
-}
-
-fn batch_samples<const N: usize>(group: &Group, batch: usize) -> [usize; N] {
-    let last = group.directions.len() - 1;
-    std::array::from_fn(|l| group.directions[(batch * N + l).min(last)])
-}
-
-/// Work of the lanes that were asked for.
-fn counted<const N: usize>(outcomes: &[LaneOutcome; N], needed: &[bool; N]) -> (SweepWork, u64) {
-    let (mut work, mut limited) = (SweepWork::default(), 0);
-    for (o, _) in outcomes.iter().zip(needed).filter(|(_, needed)| **needed) {
-        work.sources += 1;
-        work.iterations_total += o.work.steps as u64;
-        work.iterations_max = work.iterations_max.max(o.work.steps as u64);
-        work.cell_updates += o.work.cell_updates;
-        limited += u64::from(o.stop == StopReason::StepLimit);
+impl<T> Row<'_, T> {
+    /// Index by column and place.
+    const fn at(&self, x: usize, place: usize) -> usize {
+        (x - self.pass.columns.start) * self.pass.set.directions.len() + place
     }
-    (work, limited)
+
+    /// The pulses of column `x` that are wanted, in the given order of places, by batches.
+    fn batches(&self, x: usize, order: &[usize]) -> Vec<Batch>
+    where
+        T: Real,
+    {
+        let wanted = self.pass.wanted(Cell::new(x, self.y));
+        let places: Vec<usize> =
+            order.iter().copied().filter(|&place| self.pass.is_wanted(wanted, place)).collect();
+        places.chunks(T::LANES).map(|places| (x, places.to_vec())).collect()
+    }
 }

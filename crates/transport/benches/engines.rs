@@ -7,13 +7,12 @@ use tigereye_core::{
     Cell, Directions, Field, Grid, Normalization, PolarProfile, Tensor2, TransmissionField, math,
 };
 use tigereye_transport::{
-    EightLobe, Engine, Level, Light, Problem, PulseBlock, PulseSolver, SampleSpace, Scattering, Scheme,
-    SharedWeights, Stopping,
+    EightLobe, Engine, Level, Light, Problem, PulseDistribution, PulseSolver, Real, SampleSpace, Scattering,
+    Scheme, SharedWeights, Stopping, l1_difference,
 };
 
 const SIDE: usize = 51;
 const STEPS: usize = 20;
-const LANES: usize = 8;
 
 /// Ellipses of ratio 4 that point away from the centre.
 fn radial(samples: usize) -> TransmissionField {
@@ -48,24 +47,40 @@ fn engines(c: &mut Criterion) {
     group.finish();
 }
 
-/// Eight pulses of the centre, S = 16, until they have reached the whole grid and as long again.
-fn lanes(c: &mut Criterion) {
-    let transmission = radial(16);
+/// Full lanes of pulses of the centre until they have reached the whole grid and as long again, and the L1 difference of
+/// two of them.
+fn pulses<T: Real>(c: &mut Criterion) {
+    let transmission = radial(32);
     let scheme = Scheme::new(transmission.directions(), SharedWeights::Thesis);
     let field = Scattering::new(&scheme, &transmission);
     let (cell, stopping): (Cell, _) = (field.grid().centre(), Stopping::steps(SIDE));
-    let samples = std::array::from_fn(|l| 2 * l);
-    let mut block = PulseBlock::<LANES>::dark(field.grid().cells());
-    let mut group = c.benchmark_group("pulse lanes");
+    let samples: Vec<usize> = (0..T::LANES).collect();
+    let mut results = vec![PulseDistribution::<T>::dark(field.grid().cells()); T::LANES];
+    let name = |what: &str| format!("{what}, {}", T::NAME);
     for level in Level::available() {
-        let mut solver = PulseSolver::new(&field, level);
-        let outcomes = solver.solve(cell, samples, &stopping, &mut block);
+        let mut group = c.benchmark_group(name("pulse lanes"));
+        let mut solver = PulseSolver::<T>::new(&field, level);
+        let outcomes = solver.solve(cell, &samples, &stopping, &mut results);
         group.throughput(Throughput::Elements(outcomes.iter().map(|o| o.work.cell_updates).sum()));
         group.bench_function(BenchmarkId::from_parameter(level.name()), |b| {
-            b.iter(|| solver.solve(black_box(cell), samples, &stopping, &mut block));
+            b.iter(|| solver.solve(black_box(cell), &samples, &stopping, &mut results));
         });
+        group.finish();
+        let mut group = c.benchmark_group(name("L1 difference"));
+        group.throughput(Throughput::Elements(field.grid().cells() as u64));
+        group.bench_function(BenchmarkId::from_parameter(level.name()), |b| {
+            b.iter(|| l1_difference(&field, level, black_box(&results[0]), &results[1]));
+        });
+        group.finish();
     }
-    group.finish();
+}
+
+fn pulses_f64(c: &mut Criterion) {
+    pulses::<f64>(c);
+}
+
+fn pulses_f32(c: &mut Criterion) {
+    pulses::<f32>(c);
 }
 
 criterion_group! {
@@ -74,6 +89,6 @@ criterion_group! {
         .sample_size(10)
         .warm_up_time(Duration::from_millis(500))
         .measurement_time(Duration::from_secs(3));
-    targets = engines, lanes
+    targets = engines, pulses_f64, pulses_f32
 }
 criterion_main!(benches);

@@ -3,24 +3,30 @@
 //! [`SampleSpace`] computes it as the thesis writes it, on whole angular profiles; [`EightLobe`] computes the same numbers
 //! from eight fluxes a cell. Both are [`Engine`]s. This crate knows nothing of gradients, files or pictures.
 
+mod aligned;
 mod engine;
 mod error;
 mod kernel;
 mod light;
+mod limits;
 mod oracle;
 mod pulses;
+mod real;
 mod reduced;
 mod scattering;
 mod scheme;
 mod sectors;
 mod simd;
 mod stopping;
+mod window;
 
 pub use engine::{Engine, Observer, Outcome, Problem, StepView};
 pub use error::TransportError;
 pub use light::{Emission, Light, check_lights, emitter};
+pub use limits::{Traffic, arithmetic};
 pub use oracle::SampleSpace;
-pub use pulses::{LaneOf, LaneOutcome, PulseBlock, PulseSolver, l1_difference, l1_difference_of_lanes};
+pub use pulses::{LaneOutcome, PulseDistribution, PulseSolver, l1_difference};
+pub use real::Real;
 pub use reduced::EightLobe;
 pub use scattering::Scattering;
 pub use scheme::{Scheme, SharedWeights, half_angle_beta_rad, half_core_alpha_rad, sector_lobes};

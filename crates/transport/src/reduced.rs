@@ -1,10 +1,11 @@
 //! The reduced eight-lobe engine: the same numbers as [`crate::SampleSpace`] from eight fluxes a cell.
 
-use crate::kernel::{Buffers, Lobes, Window, normalized, scatter};
+use crate::kernel::{Buffers, Lobes, normalized, scattered, sum_of_eight};
 use crate::oracle::outgoing_flux;
 use crate::scattering::Scattering;
 use crate::sectors::Sectors;
 use crate::stopping::{StepMeasures, Verdict};
+use crate::window::Window;
 use crate::{Emission, Engine, Observer, Outcome, Problem, StepView, TransportError};
 use std::ops::ControlFlow;
 use tigereye_core::{Cell, Field, LightDistribution, StopReason, Work};
@@ -39,7 +40,7 @@ struct Run<'a> {
     field: Scattering<'a>,
     sectors: Sectors,
     lights: Vec<PreparedLight>,
-    buffers: Buffers<1>,
+    buffers: Buffers,
     window: Window,
     measures: StepMeasures,
     work: Work,
@@ -96,12 +97,9 @@ impl<'a> Run<'a> {
 
     fn advance(&mut self) {
         let first = self.work.steps == 0;
-        let specials: Vec<(Cell, Lobes<1>)> = self
-            .lights
-            .iter()
-            .filter_map(|l| Some((l.cell, self.special_flux(l, first)?.map(|v| [v]))))
-            .collect();
-        let [total_flux] = self.buffers.step(&self.field, self.window, &specials);
+        let specials: Vec<(Cell, Lobes)> =
+            self.lights.iter().filter_map(|l| Some((l.cell, self.special_flux(l, first)?))).collect();
+        let total_flux = self.buffers.step(&self.field, self.window, &specials);
         self.work.steps += 1;
         self.work.cell_updates += self.window.cells();
         self.window = self.window.grown(self.buffers_grid());
@@ -132,10 +130,10 @@ impl<'a> Run<'a> {
                 let a = self.lobes_at(&self.buffers.from, light.cell);
                 let delta = self.missing_intensity(&a, *sample);
                 let m = &self.field.cells[index];
-                let (ma, _, [energy]) = scatter(m, &a.map(|v| [v]));
-                let ma: Lobes<1> = std::array::from_fn(|k| [ma[k][0] + inject[k] * delta]);
-                let energy = energy + self.problem.scheme.directions().step_rad() * delta;
-                Some(normalized(m.rate, &[energy], &ma, &crate::kernel::sum8(&ma)).map(|[v]| v))
+                let ma = scattered(m, &a);
+                let ma = std::array::from_fn(|k| ma[k] + inject[k] * delta);
+                let energy = sum_of_eight(&a) + self.problem.scheme.directions().step_rad() * delta;
+                Some(normalized(m.rate, energy, &ma))
             }
         }
     }
@@ -145,8 +143,8 @@ impl<'a> Run<'a> {
         self.problem.scheme.directions().count() as f64 - self.problem.scheme.intensity(a, sample)
     }
 
-    fn lobes_at(&self, state: &[Lobes<1>], cell: Cell) -> [f64; 8] {
-        state[self.buffers.padding.index(cell.x, cell.y)].map(|[v]| v)
+    fn lobes_at(&self, state: &[Lobes], cell: Cell) -> [f64; 8] {
+        state[self.buffers.padding.index(cell.x, cell.y)]
     }
 
     /// `sum_cells h sum_t |I_n - I_(n-1)|`, W. The light's own samples do not change, except where an impulse ends.
@@ -163,7 +161,7 @@ impl<'a> Run<'a> {
                     Err(_) => {
                         let (a, b) =
                             (self.lobes_at(&self.buffers.from, cell), self.lobes_at(&self.buffers.to, cell));
-                        self.sectors.l1(&std::array::from_fn(|j| [a[j] - b[j]]))[0]
+                        self.sectors.l1(&std::array::from_fn(|j| a[j] - b[j]))
                     }
                 };
             }
@@ -212,8 +210,8 @@ impl StepView for Run<'_> {
         for y in self.window.y0..=self.window.y1 {
             let mut row = 0.0;
             for x in self.window.x0..=self.window.x1 {
-                let a = self.lobes_at(&self.buffers.from, Cell::new(x, y)).map(|v| [v]);
-                row += crate::kernel::sum8(&a)[0];
+                let a = self.lobes_at(&self.buffers.from, Cell::new(x, y));
+                row += sum_of_eight(&a);
             }
             total += row;
         }

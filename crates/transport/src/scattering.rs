@@ -8,6 +8,9 @@
 //! entries a row. And T is the same in opposite directions, so row k+4 repeats row k: twenty numbers a cell.
 
 use crate::Scheme;
+use crate::pulses::{Passage, SectorSums};
+use crate::real::Number;
+use std::sync::OnceLock;
 use tigereye_core::{Cell, Grid, TransmissionField};
 
 /// Scattering of one cell.
@@ -25,6 +28,12 @@ pub struct Scattering<'a> {
     scheme: &'a Scheme,
     transmission: &'a TransmissionField,
     pub(crate) cells: Vec<CellScattering>,
+    /// The same in the form of the pulse lanes, made when first needed.
+    pub(crate) passages_f64: OnceLock<Vec<Passage<f64>>>,
+    pub(crate) passages_f32: OnceLock<Vec<Passage<f32>>>,
+    /// What sums over the angular samples need.
+    pub(crate) sums_f64: OnceLock<SectorSums<f64>>,
+    pub(crate) sums_f32: OnceLock<SectorSums<f32>>,
 }
 
 impl<'a> Scattering<'a> {
@@ -37,7 +46,15 @@ impl<'a> Scattering<'a> {
             .iter()
             .map(|cell| cell_scattering(scheme, transmission.shape(cell), transmission.rate(cell)))
             .collect();
-        Self { scheme, transmission, cells }
+        Self {
+            scheme,
+            transmission,
+            cells,
+            passages_f64: OnceLock::new(),
+            passages_f32: OnceLock::new(),
+            sums_f64: OnceLock::new(),
+            sums_f32: OnceLock::new(),
+        }
     }
 
     /// The grid.
@@ -54,6 +71,11 @@ impl<'a> Scattering<'a> {
     #[must_use]
     pub const fn transmission(&self) -> &'a TransmissionField {
         self.transmission
+    }
+    pub(crate) fn make_passages<T: Number>(&self) -> Vec<Passage<T>> {
+        let passage =
+            |cell| Passage::new(self.scheme, self.transmission.shape(cell), self.transmission.rate(cell));
+        self.grid().iter().map(passage).collect()
     }
     /// The full matrix `M[k][j]` of a cell, for a transmission profile of mean 1.
     #[must_use]

@@ -3,7 +3,6 @@
 //! Between 45k and 45(k+1) degrees only four lobes differ from 0 and their sum is `P cos + Q sin` of the angle from 45k.
 
 use crate::Scheme;
-use crate::simd::{Plain, Vector};
 use core::f64::consts::FRAC_1_SQRT_2;
 
 /// Samples of one 45-degree sector, the same for all eight.
@@ -20,22 +19,15 @@ impl Sectors {
         Self { unit: (0..d.count() / 8).map(|i| d.unit(i).map(|v| v / l)).collect() }
     }
 
-    /// `sum_t |sum_j a_j c_j(t)|`, lane by lane.
-    pub(crate) fn l1<const N: usize>(&self, a: &[[f64; N]; 8]) -> [f64; N] {
-        self.l1_with((), &a.map(Plain)).0
-    }
-
     /// `sum_t |sum_j a_j c_j(t)|`.
-    #[inline(always)]
-    pub(crate) fn l1_with<const W: usize, V: Vector<W>>(&self, proof: V::Proof, a: &[V; 8]) -> V {
-        let diagonal = V::splat(proof, FRAC_1_SQRT_2);
-        let mut sum = V::splat(proof, 0.0);
+    pub(crate) fn l1(&self, a: &[f64; 8]) -> f64 {
+        let mut sum = 0.0;
         for k in 0..8 {
             let (before, here, next, after) = (a[(k + 7) % 8], a[k], a[(k + 1) % 8], a[(k + 2) % 8]);
-            let p = here + diagonal * (before + next);
-            let q = after + diagonal * (next - before);
+            let p = here + FRAC_1_SQRT_2 * (before + next);
+            let q = after + FRAC_1_SQRT_2 * (next - before);
             for &[c, s] in &self.unit {
-                sum = sum + (p * V::splat(proof, c) + q * V::splat(proof, s)).abs();
+                sum += (p * c + q * s).abs();
             }
         }
         sum
@@ -56,9 +48,8 @@ mod tests {
             let a = [0.3, -1.0, 0.0, 2.0, -0.7, 0.1, 5.0, -0.2];
             let b = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0];
             let by_sample = |a: &[f64; 8]| (0..s).map(|t| scheme.intensity(a, t).abs()).sum::<f64>();
-            let lanes: [[f64; 2]; 8] = std::array::from_fn(|j| [a[j], b[j]]);
-            let got = sectors.l1(&lanes);
-            for (got, expected) in got.iter().zip([by_sample(&a), by_sample(&b)]) {
+            for lobes in [a, b] {
+                let (got, expected) = (sectors.l1(&lobes), by_sample(&lobes));
                 assert!((got - expected).abs() < 1e-14 * s as f64, "S = {s}: {got} and {expected}");
             }
         }

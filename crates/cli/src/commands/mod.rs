@@ -5,8 +5,10 @@ pub(crate) mod compare;
 pub(crate) mod field;
 pub(crate) mod info;
 pub(crate) mod ltg;
+pub(crate) mod merge;
 pub(crate) mod propagate;
 pub(crate) mod reproduce;
+pub(crate) mod volume;
 
 use crate::error::CliError;
 use serde_json::Value;

@@ -6,6 +6,8 @@ mod faults;
 #[cfg(unix)]
 mod interruption;
 mod odd_fields;
+#[cfg(unix)]
+mod parts;
 mod results;
 mod streams;
 mod support;

@@ -1,0 +1,132 @@
+//! `tigereye merge`: the gradient volume of shards computed apart.
+
+use crate::args::MergeArgs;
+use crate::commands::propagate::check_outputs;
+use crate::commands::{command_line, print_json, print_text, volume};
+use crate::error::CliError;
+use crate::interrupt;
+use crate::part_file::{self, Costs, Identity, PartFile};
+use std::path::Path;
+use tigereye_experiments::provenance::provenance;
+use tigereye_ltg::{PartialVolume, Shard};
+
+/// Names listed in a message.
+const LISTED: usize = 8;
+
+/// What of a part is kept once its numbers are in the sum.
+struct Taken {
+    name: String,
+    identity: Identity,
+    shard: Shard,
+    costs: Costs,
+    done: Vec<bool>,
+}
+
+pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
+    check_outputs(&args.outputs)?;
+    let mut taken: Vec<Taken> = Vec::new();
+    let mut sum = None;
+    for path in &args.parts {
+        let (part, volume) = read(path)?;
+        sum = Some(match sum {
+            None => volume,
+            Some(sum) => added(sum, &taken, &part, &volume)?,
+        });
+        taken.push(part);
+        interrupt::check()?;
+    }
+    let Some(sum) = sum else { return Err(CliError::input("PART", "expected at least one part")) };
+    check_complete(&sum, &taken)?;
+    // The same provenance whatever the order on the command line.
+    taken.sort_by_key(|part| part.shard.index());
+    let identity = taken[0].identity.clone();
+    let summary = part_file::summary(&sum, &identity, &costs(&taken));
+    let outcome = sum.into_outcome().map_err(|e| CliError::input(&names(&taken), e))?;
+    let story = provenance(&command_line(), &identity.parameters, &identity.input_blake3);
+    let title = identity.parameters["input"].as_str().unwrap_or_default();
+    volume::write(&args.outputs, &outcome.volume, title, &story)?;
+    if args.json {
+        print_json(&summary)?
+    } else {
+        print_text(&volume::sentence(&summary))?
+    }
+    Ok(0)
+}
+
+fn read(path: &Path) -> Result<(Taken, PartialVolume), CliError> {
+    let PartFile { identity, shard, costs, volume } = part_file::read(path)?;
+    let done = volume.finished().done.clone();
+    Ok((Taken { name: path.display().to_string(), identity, shard, costs, done }, volume))
+}
+
+/// The sum with a further part, which must belong to it.
+fn added(
+    sum: PartialVolume,
+    taken: &[Taken],
+    part: &Taken,
+    volume: &PartialVolume,
+) -> Result<PartialVolume, CliError> {
+    let first = &taken[0];
+    if let Some((what, one, other)) = first.identity.difference(&part.identity) {
+        let problem =
+            format!("do not belong together: {what} is {one} and {other}; expected parts of one sweep");
+        return Err(CliError::input(&format!("{} and {}", first.name, part.name), problem));
+    }
+    sum.merged(volume).map_err(|error| {
+        let overlaps = |other: &&Taken| other.done.iter().zip(&part.done).any(|(a, b)| *a && *b);
+        let other = taken.iter().find(overlaps).unwrap_or(first);
+        let problem =
+            format!("{error}: expected every shard once, these are {} and {}", other.shard, part.shard);
+        CliError::input(&format!("{} and {}", other.name, part.name), problem)
+    })
+}
+
+/// Names what is missing.
+fn check_complete(sum: &PartialVolume, taken: &[Taken]) -> Result<(), CliError> {
+    let total = sum.missing(Shard::WHOLE);
+    if total == 0 {
+        return Ok(());
+    }
+    for part in taken {
+        let range = part.shard.range(part.done.len());
+        let missing = sum.missing(part.shard);
+        if missing > 0 {
+            let problem = format!(
+                "shard {} is not finished: {missing} of {} cells and sets are missing; expected a part that `ltg --shard` wrote",
+                part.shard,
+                range.len()
+            );
+            return Err(CliError::input(&part.name, problem));
+        }
+    }
+    let count = taken[0].shard.count();
+    let shards = sum.missing_shards(count);
+    let listed: Vec<String> = shards.iter().take(LISTED).map(|i| format!("{i}/{count}")).collect();
+    let more =
+        if shards.len() > LISTED { format!(" and {} more", shards.len() - LISTED) } else { String::new() };
+    let problem = format!("shard {}{more} is missing: expected all {count}", listed.join(", "));
+    Err(CliError::input(&names(taken), problem))
+}
+
+fn names(taken: &[Taken]) -> String {
+    let listed: Vec<&str> = taken.iter().take(LISTED).map(|part| part.name.as_str()).collect();
+    let more =
+        if taken.len() > LISTED { format!(" and {} more", taken.len() - LISTED) } else { String::new() };
+    listed.join(", ") + &more
+}
+
+/// Seconds add up; memory and threads are those of the largest part.
+fn costs(taken: &[Taken]) -> Costs {
+    let sum = |of: fn(&Costs) -> f64| taken.iter().map(|part| of(&part.costs)).sum();
+    let mut backends: Vec<&str> = taken.iter().map(|part| part.costs.backend.as_str()).collect();
+    backends.sort_unstable();
+    backends.dedup();
+    Costs {
+        total: sum(|c| c.total),
+        propagation: sum(|c| c.propagation),
+        difference: sum(|c| c.difference),
+        peak_memory: taken.iter().filter_map(|part| part.costs.peak_memory).max(),
+        threads: taken.iter().map(|part| part.costs.threads).max().unwrap_or(0),
+        backend: backends.join(", "),
+    }
+}

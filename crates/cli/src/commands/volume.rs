@@ -1,0 +1,67 @@
+//! Finished gradient volumes: files, pictures, and what is said about them.
+
+use crate::commands::propagate::PNG_SCALE;
+use crate::error::CliError;
+use crate::files;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use tigereye_core::{Field, LtgVolume};
+use tigereye_io::{npy, vti};
+use tigereye_render::{HeatOptions, Scene, heat_map};
+
+/// Writes a volume to every output. `title` heads pictures, `story` is the provenance.
+pub(super) fn write(
+    outputs: &[PathBuf],
+    volume: &LtgVolume,
+    title: &str,
+    story: &str,
+) -> Result<(), CliError> {
+    outputs.iter().try_for_each(|output| files::write(output, &encoded(output, volume, title, story)?))
+}
+
+/// A volume in the format of the output's ending.
+fn encoded(output: &Path, volume: &LtgVolume, title: &str, story: &str) -> Result<Vec<u8>, CliError> {
+    let name = output.display().to_string();
+    match files::extension(output).as_str() {
+        "npy" => Ok(npy::write_ltg(volume)),
+        "vti" => {
+            vti::write(&tigereye_io::image_from_ltg(volume, story)).map_err(|e| CliError::input(&name, e))
+        }
+        "png" => picture(title, volume).to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
+        _ => picture(title, volume).to_svg().map(String::into_bytes).map_err(|e| CliError::input(&name, e)),
+    }
+}
+
+/// The only slice, or the mean over the slices.
+fn picture(title: &str, volume: &LtgVolume) -> Scene {
+    let (field, quantity) = match volume.slices() {
+        [t] => (volume.slice(*t), format!("LTG at {} degrees / (W/rad)", volume.directions().angle_deg(*t))),
+        _ => (None, "mean LTG over direction / (W/rad)".to_owned()),
+    };
+    let field = field.unwrap_or_else(|| volume.mean_over_directions());
+    let grid = field.grid();
+    // The border is 0 by definition and would stretch the scale.
+    let inner = Field::from_fn(grid, |c| if grid.is_border(c) { f64::NAN } else { *field.at(c) });
+    let missing = Some("border, 0 by definition".to_owned());
+    heat_map(&inner, &HeatOptions { title: title.to_owned(), quantity, missing, ..HeatOptions::default() })
+}
+
+/// A summary in one sentence.
+pub(super) fn sentence(summary: &Value) -> String {
+    let number = |v: &Value| v.as_f64().unwrap_or(f64::NAN);
+    if summary["sources"] == 0 {
+        return "the field has no inner cells, or the shard none of them: every value is 0\n".to_owned();
+    }
+    let limited = match summary["limited"].as_u64() {
+        None | Some(0) => String::new(),
+        Some(n) => format!("; {n} sources met --max-iterations before the threshold"),
+    };
+    format!(
+        "{} sources, {} steps at most, {:.2} s; LTG at most {:.6}, {:.6} on average{limited}\n",
+        summary["sources"],
+        summary["iterations_max"],
+        number(&summary["seconds"]["total"]),
+        number(&summary["max"]),
+        number(&summary["mean"]),
+    )
+}

@@ -1,0 +1,209 @@
+//! `.part` files: what a shard leaves, and checkpoints.
+
+use crate::error::CliError;
+use crate::files;
+use serde_json::{Value, json};
+use std::path::Path;
+use tigereye_core::{Directions, Grid, SweepWork};
+use tigereye_experiments::provenance::VERSION;
+use tigereye_io::part;
+use tigereye_ltg::{Finished, LtgError, PartialVolume, Shard};
+
+/// Parameters that do not show in the result. The input is known by its hash; what it is called may change.
+const FREE: [&str; 3] = ["threads", "memory", "input"];
+
+/// What determines the numbers of a part.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Identity {
+    pub(crate) version: String,
+    /// All parameters, resolved, under the names of the options.
+    pub(crate) parameters: Value,
+    pub(crate) input_blake3: String,
+}
+
+/// What a computation cost beside its counters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Costs {
+    /// Seconds in all, and those that threads spent with propagations and differences, divided by their number.
+    pub(crate) total: f64,
+    pub(crate) propagation: f64,
+    pub(crate) difference: f64,
+    pub(crate) peak_memory: Option<u64>,
+    pub(crate) threads: usize,
+    pub(crate) backend: String,
+}
+
+/// A part as read.
+#[derive(Clone, Debug)]
+pub(crate) struct PartFile {
+    pub(crate) identity: Identity,
+    pub(crate) shard: Shard,
+    pub(crate) costs: Costs,
+    pub(crate) volume: PartialVolume,
+}
+
+impl Identity {
+    /// The identity of this program's work.
+    pub(crate) fn new(parameters: &Value, input_blake3: &str) -> Self {
+        // Numbers as a reader gets them, so that equal ones compare equal.
+        let parameters = serde_json::from_str(&parameters.to_string()).unwrap_or_default();
+        Self { version: VERSION.to_owned(), parameters, input_blake3: input_blake3.to_owned() }
+    }
+
+    /// The first difference that shows in the result, as its name and its values here and there.
+    pub(crate) fn difference(&self, other: &Self) -> Option<(String, String, String)> {
+        if self.version != other.version {
+            return Some(("the version of tigereye".to_owned(), self.version.clone(), other.version.clone()));
+        }
+        if self.input_blake3 != other.input_blake3 {
+            return Some(("the input".to_owned(), self.input(), other.input()));
+        }
+        let names =
+            |p: &Value| p.as_object().map(|o| o.keys().cloned().collect::<Vec<_>>()).unwrap_or_default();
+        let mut all = [names(&self.parameters), names(&other.parameters)].concat();
+        all.sort();
+        all.dedup();
+        let name = all
+            .into_iter()
+            .find(|n| !FREE.contains(&n.as_str()) && self.parameters.get(n) != other.parameters.get(n))?;
+        let value = |p: &Value| p.get(&name).map_or_else(|| "none".to_owned(), plain);
+        let option = format!("--{}", name.replace('_', "-"));
+        Some((option, value(&self.parameters), value(&other.parameters)))
+    }
+
+    fn input(&self) -> String {
+        format!("{} (BLAKE3 {})", plain(&self.parameters["input"]), self.input_blake3)
+    }
+}
+
+/// A value as on the command line, nearly.
+fn plain(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Array(list) => list.iter().map(plain).collect::<Vec<_>>().join(","),
+        other => other.to_string(),
+    }
+}
+
+/// The summary of what is finished, as `--json` prints it.
+pub(crate) fn summary(volume: &PartialVolume, identity: &Identity, costs: &Costs) -> Value {
+    let (finished, grid) = (volume.finished(), volume.grid());
+    let values = || finished.squares.iter().map(|square| square.sqrt());
+    let work = &finished.work;
+    json!({
+        "width": grid.width(),
+        "height": grid.height(),
+        "directions": volume.directions().count(),
+        "sources": work.sources,
+        "iterations_total": work.iterations_total,
+        "iterations_max": work.iterations_max,
+        "cell_updates": work.cell_updates,
+        "limited": finished.limited,
+        "seconds": {
+            "total": costs.total,
+            "propagation": costs.propagation,
+            "difference": costs.difference,
+        },
+        "peak_memory_bytes": costs.peak_memory,
+        "threads": costs.threads,
+        "precision": identity.parameters["precision"],
+        "backend": costs.backend,
+        "max": values().fold(0.0, f64::max),
+        "mean": values().sum::<f64>() / finished.squares.len() as f64,
+    })
+}
+
+/// The bytes of a part.
+pub(crate) fn encoded(
+    command: &str,
+    identity: &Identity,
+    shard: Shard,
+    volume: &PartialVolume,
+    costs: &Costs,
+) -> Vec<u8> {
+    let header = json!({
+        "version": identity.version,
+        "command": command,
+        "parameters": identity.parameters,
+        "input_blake3": identity.input_blake3,
+        "shard": shard.to_string(),
+        "summary": summary(volume, identity, costs),
+    });
+    let finished = volume.finished();
+    part::write(&header.to_string(), &finished.squares, &finished.done)
+}
+
+/// Reads a part.
+pub(crate) fn read(path: &Path) -> Result<PartFile, CliError> {
+    let name = path.display().to_string();
+    let bytes = files::read(path)?;
+    let part = part::read(&bytes).map_err(|e| CliError::input(&name, e))?;
+    drop(bytes);
+    decoded(part).map_err(|(byte, problem)| CliError::input(&name, format!("byte {byte}: {problem}")))
+}
+
+/// A part's meaning, or the byte of the header or values that has none, and why.
+fn decoded(part: part::Part) -> Result<PartFile, (usize, String)> {
+    let start = part::HEADER_START;
+    let header: Value = serde_json::from_str(&part.header).map_err(|e| {
+        // The header is one line.
+        (start + e.column().saturating_sub(1), format!("expected a JSON object as header: {e}"))
+    })?;
+    let lacks = |what: &str| (start, format!("expected {what} in the header"));
+    let text = |pointer: &str| {
+        let text = header.pointer(pointer).and_then(Value::as_str);
+        text.map(str::to_owned).ok_or_else(|| lacks(&format!("a text at {pointer}")))
+    };
+    let integer = |pointer: &str| {
+        let number = header.pointer(pointer).and_then(Value::as_u64);
+        number.ok_or_else(|| lacks(&format!("a whole number at {pointer}")))
+    };
+    let size = |pointer: &str| {
+        usize::try_from(integer(pointer)?).map_err(|_| lacks(&format!("a smaller number at {pointer}")))
+    };
+    let number = |pointer: &str| {
+        let number = header.pointer(pointer).and_then(Value::as_f64);
+        number.ok_or_else(|| lacks(&format!("a number at {pointer}")))
+    };
+    let meaning = |e: &dyn std::fmt::Display| (start, format!("the header has no meaning: {e}"));
+    let slices = header.pointer("/parameters/slices").and_then(Value::as_array);
+    let slices: Option<Vec<usize>> =
+        slices.and_then(|s| s.iter().map(|t| t.as_u64().and_then(|t| usize::try_from(t).ok())).collect());
+    let slices = slices.ok_or_else(|| lacks("whole numbers at /parameters/slices"))?;
+    let grid = Grid::new(size("/summary/width")?, size("/summary/height")?).map_err(|e| meaning(&e))?;
+    let directions = Directions::new(size("/parameters/directions")?).map_err(|e| meaning(&e))?;
+    let work = SweepWork {
+        sources: integer("/summary/sources")?,
+        iterations_total: integer("/summary/iterations_total")?,
+        iterations_max: integer("/summary/iterations_max")?,
+        cell_updates: integer("/summary/cell_updates")?,
+    };
+    let limited = integer("/summary/limited")?;
+    let finished = Finished { squares: part.values, done: part.marks, work, limited };
+    let omega_step = size("/parameters/omega_step")?;
+    let volume =
+        PartialVolume::restored(grid, directions, slices, omega_step, finished).map_err(|e| match e {
+            // Where the numbers are counted.
+            LtgError::Length { what, .. } => (if what == "marks" { 32 } else { 24 }, e.to_string()),
+            e => meaning(&e),
+        })?;
+    let shard = text("/shard")?;
+    let shard = crate::args::parse_shard(&shard).map_err(|e| lacks(&format!("a shard at /shard: {e}")))?;
+    Ok(PartFile {
+        identity: Identity {
+            version: text("/version")?,
+            parameters: header["parameters"].clone(),
+            input_blake3: text("/input_blake3")?,
+        },
+        shard,
+        costs: Costs {
+            total: number("/summary/seconds/total")?,
+            propagation: number("/summary/seconds/propagation")?,
+            difference: number("/summary/seconds/difference")?,
+            peak_memory: header.pointer("/summary/peak_memory_bytes").and_then(Value::as_u64),
+            threads: size("/summary/threads")?,
+            backend: text("/summary/backend")?,
+        },
+        volume,
+    })
+}

@@ -1,0 +1,87 @@
+//! What bounds the speed of the pulse lanes on a machine: work without memory, and memory without work.
+//!
+//! This crate reads no clocks: whoever wants a rate times these functions.
+
+use crate::Real;
+use crate::aligned::Aligned;
+use crate::pulses::state_numbers;
+use crate::simd::{Level, Vector};
+use core::hint::black_box;
+use tigereye_core::Grid;
+
+/// Multiplications, fused or not, of one update of one cell in one lane ([`PulseSolver`](crate::PulseSolver)).
+const PRODUCTS: usize = 46;
+/// Additions of the same.
+const SUMS: usize = 16;
+/// Chains of operations that do not wait for each other: enough to hide latencies, few enough for sixteen registers.
+const PRODUCT_CHAINS: usize = 10;
+const SUM_CHAINS: usize = 3;
+
+/// Does the arithmetic of at least `updates` updates of a cell, and nothing else: as many fused multiply-adds, additions
+/// and divisions, all in registers. Returns how many updates it was.
+///
+/// Their rate is the arithmetic limit.
+#[must_use]
+pub fn arithmetic<T: Real>(level: Level, updates: u64) -> u64 {
+    crate::simd::arithmetic::<T>(level, updates)
+}
+
+#[inline(always)]
+pub(crate) fn arithmetic_with<V: Vector>(proof: V::Proof, updates: u64) -> u64 {
+    let number = |x: f64| V::splat(proof, crate::real::Number::narrowed(black_box(x)));
+    let (factor, term) = (number(0.999), number(1e-3));
+    let mut products = [term; PRODUCT_CHAINS];
+    let mut sums = [term; SUM_CHAINS];
+    let mut quotient = term;
+    let rounds = updates.div_ceil(V::WIDTH as u64);
+    for _ in 0..rounds {
+        for i in 0..PRODUCTS {
+            products[i % PRODUCT_CHAINS] = products[i % PRODUCT_CHAINS].mul_add(factor, term);
+        }
+        for i in 0..SUMS {
+            sums[i % SUM_CHAINS] = sums[i % SUM_CHAINS] + term;
+        }
+        quotient = term / quotient;
+    }
+    let all = products.into_iter().chain(sums).fold(quotient, |a, b| a + b);
+    let mut sink = [0.0; 16];
+    if V::WIDTH <= 16 {
+        all.add_to(&mut sink, 0);
+    }
+    black_box(sink);
+    rounds * V::WIDTH as u64
+}
+
+/// The memory that the light of full lanes takes on a grid.
+pub struct Traffic<T> {
+    numbers: Aligned<T>,
+    cells: u64,
+}
+
+impl<T: Real> Traffic<T> {
+    /// Memory for `grid`.
+    #[must_use]
+    pub fn new(grid: Grid) -> Self {
+        Self { numbers: Aligned::zeros(state_numbers::<T>(grid)), cells: grid.cells() as u64 }
+    }
+
+    /// Reads and writes every number once, as a step does, and nothing else. Returns how many updates of a cell in a lane
+    /// would have moved as much.
+    ///
+    /// Their rate is the limit of moving the state once a step; fused steps may pass it.
+    pub fn pass(&mut self, level: Level) -> u64 {
+        crate::simd::touch(level, self.numbers.as_mut_slice());
+        black_box(self.numbers.as_slice());
+        self.cells * T::LANES as u64
+    }
+}
+
+#[inline(always)]
+pub(crate) fn touch_with<V: Vector>(proof: V::Proof, numbers: &mut [V::Number]) {
+    let one = V::splat(proof, crate::real::Number::narrowed(black_box(1.0)));
+    for line in numbers.as_chunks_mut::<16>().0 {
+        for c in 0..16 / V::WIDTH {
+            (V::load(proof, line, c) + one).store(line, c);
+        }
+    }
+}

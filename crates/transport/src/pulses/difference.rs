@@ -1,0 +1,125 @@
+//! L1 differences of distributions over all cells and angular samples.
+//!
+//! In the sector from direction k to k + 1 the eight lobes add up to a function of the form `P cos u + Q sin u`, so it is
+//! known from its values `p_k` and `p_{k+1}` at both ends:
+//! `v(u) = (p_k sin(45 deg - u) + p_{k+1} sin u) / sin 45 deg`.
+//! Two samples i and n - i that lie symmetrically in the sector (n = S/8 samples a sector) need not be visited one by
+//! one: `|v_i| + |v_{n-i}| = max(|v_i + v_{n-i}|, |v_i - v_{n-i}|)`, where the sum is a multiple of `p_k + p_{k+1}` and the
+//! difference one of `p_k - p_{k+1}`.
+
+use crate::Scheme;
+use crate::real::{Number, Real};
+use crate::scattering::Scattering;
+use crate::simd::{Level, Octet};
+use core::f64::consts::FRAC_1_SQRT_2;
+use tigereye_core::Cell;
+
+use super::PulseDistribution;
+
+/// How many cells ahead numbers are announced: they come from far away, and the processor's own foresight ends at the end of
+/// a page.
+const AHEAD: usize = 32;
+
+/// Two symmetric samples of a sector: `|v_i| + |v_{n-i}| = weight * max(|p_k + p_{k+1}|, ratio * |p_k - p_{k+1}|)`.
+#[derive(Clone, Copy, Debug)]
+struct Pair<T> {
+    weight: T,
+    ratio: T,
+}
+
+/// Samples of a sector, the same for all eight.
+#[derive(Clone, Debug)]
+pub(crate) struct SectorSums<T> {
+    pairs: Vec<Pair<T>>,
+    /// Of `|p_k + p_{k+1}|`: the sample in the middle, where there is one.
+    middle: T,
+    /// `1/L`.
+    scale: f64,
+}
+
+impl<T: Number> SectorSums<T> {
+    pub(crate) fn new(scheme: &Scheme) -> Self {
+        let directions = scheme.directions();
+        let n = directions.count() / 8;
+        let sine = |i: usize| directions.sin(i) / FRAC_1_SQRT_2;
+        let pair = |i: usize| {
+            let weight = sine(n - i) + sine(i);
+            Pair { weight: T::narrowed(weight), ratio: T::narrowed((sine(n - i) - sine(i)) / weight) }
+        };
+        Self {
+            pairs: (1..n.div_ceil(2)).map(pair).collect(),
+            middle: T::narrowed(if n.is_multiple_of(2) { sine(n / 2) } else { 0.0 }),
+            scale: 1.0 / scheme.lobe_integral(),
+        }
+    }
+
+    /// `sum_cells sum_t |sum_j (a_j - b_j) c_j(t)|`, W/rad: each row of `width` cells alone, then rows in order.
+    #[inline(always)]
+    pub(crate) fn l1<O: Octet<Number = T>>(
+        &self,
+        proof: O::Proof,
+        width: usize,
+        a: &[[T; 8]],
+        b: &[[T; 8]],
+    ) -> f64 {
+        let diagonal = O::splat(proof, T::narrowed(FRAC_1_SQRT_2));
+        let middle = O::splat(proof, self.middle);
+        let mut total = 0.0;
+        for y in 0..a.len() / width {
+            let (next_a, next_b) = (&a[y * width..], &b[y * width..]);
+            let (a, b) = (&next_a[..width], &next_b[..width]);
+            let mut row = O::splat(proof, T::default());
+            for (i, (a, b)) in a.iter().zip(b).enumerate() {
+                O::expect(proof, &next_a[(i + AHEAD).min(next_a.len() - 1)]);
+                O::expect(proof, &next_b[(i + AHEAD).min(next_b.len() - 1)]);
+                let d = O::load(proof, a) - O::load(proof, b);
+                let p = (d.previous() + d.next()).mul_add(diagonal, d);
+                let after = p.next();
+                let (sum, difference) = ((p + after).abs(), (p - after).abs());
+                // Apart from the row's sum, which would make every cell wait for the one before.
+                let mut cell = sum.mul_add(middle, p.abs());
+                for pair in &self.pairs {
+                    let larger = sum.max(difference * O::splat(proof, pair.ratio));
+                    cell = larger.mul_add(O::splat(proof, pair.weight), cell);
+                }
+                row = row + cell;
+            }
+            let mut sectors = [T::default(); 8];
+            row.store(&mut sectors);
+            let [s0, s1, s2, s3, s4, s5, s6, s7] = sectors.map(Number::widened);
+            total += ((s0 + s4) + (s2 + s6)) + ((s1 + s5) + (s3 + s7));
+        }
+        total * self.scale
+    }
+}
+
+/// `sum over cells and samples of |b1 - b2|`, W/rad. Pulse samples count as 0 in their own cells.
+#[must_use]
+pub fn l1_difference<T: Real>(
+    field: &Scattering<'_>,
+    level: Level,
+    b1: &PulseDistribution<T>,
+    b2: &PulseDistribution<T>,
+) -> f64 {
+    let l1 = crate::simd::l1(level, T::sector_sums(field), field.grid().width(), b1.lobes(), b2.lobes());
+    l1 + source_correction(field, b1, b2)
+}
+
+/// What the zeroed pulse samples change in the L1 difference, W/rad.
+fn source_correction<T: Real>(
+    field: &Scattering<'_>,
+    b1: &PulseDistribution<T>,
+    b2: &PulseDistribution<T>,
+) -> f64 {
+    let scheme = field.scheme();
+    let zeroed = [(b1.source(), b1.sample()), (b2.source(), b2.sample())];
+    let distinct = if zeroed[0] == zeroed[1] { 1 } else { 2 };
+    let correction_at = |&(cell, t): &(Cell, usize)| {
+        let i = field.grid().index(cell);
+        let plain = |b: &PulseDistribution<T>| scheme.intensity(&b.lobes()[i].map(Number::widened), t);
+        let value = |b, own| if own == (cell, t) { 0.0 } else { plain(b) };
+        let right = (value(b1, zeroed[0]) - value(b2, zeroed[1])).abs();
+        right - (plain(b1) - plain(b2)).abs()
+    };
+    zeroed[..distinct].iter().map(correction_at).sum()
+}

@@ -1,0 +1,330 @@
+//! From dark to the stop, lane by lane.
+
+use super::PulseDistribution;
+use super::source::Source;
+use super::stationary::{Memory, Settled};
+use super::stream::{MAX_FUSED, Scene, Stream};
+use crate::real::Number;
+use crate::scattering::Scattering;
+use crate::simd::{Level, Vector};
+use crate::stopping::{StepMeasures, Verdict};
+use crate::window::Window;
+use crate::{Real, Stopping, StoppingRule};
+use tigereye_core::{Cell, Grid, StopReason, Work};
+
+/// How one lane's propagation ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LaneOutcome {
+    /// Why.
+    pub stop: StopReason,
+    /// Steps, and cells passed through the scheme until this lane stopped.
+    pub work: Work,
+}
+
+/// Solves pulses in one field, reusing its buffers.
+pub struct PulseSolver<'a, T> {
+    field: &'a Scattering<'a>,
+    level: Level,
+    /// Streams of 4, 8 and 16 lanes, made when first needed.
+    narrow: Option<Stream<T, 4>>,
+    middle: Option<Stream<T, 8>>,
+    wide: Option<Stream<T, 16>>,
+}
+
+impl<'a, T: Real> PulseSolver<'a, T> {
+    /// A solver for `field`. `level` must be one this processor has, as [`Level::detect`] gives it.
+    #[must_use]
+    pub const fn new(field: &'a Scattering<'a>, level: Level) -> Self {
+        Self { field, level, narrow: None, middle: None, wide: None }
+    }
+
+    /// Bytes of a solver's buffers for a grid, whatever numbers of samples it is asked for.
+    #[must_use]
+    pub const fn bytes(grid: Grid) -> u128 {
+        let lanes = T::LANES + T::LANES / 2;
+        let lane = Stream::<T, 1>::cells(grid) * 8 + Memory::<T, 1>::numbers(grid.cells());
+        (lane * lanes * size_of::<T>()) as u128
+    }
+
+    /// Propagates pulses from `cell` in 1 to [`Real::LANES`] samples, each until `stopping` ends it; the light of
+    /// `samples[i]` goes to `results[i]`. Panics where there are more samples, a sample or the cell does not exist, or a
+    /// result has another size: the sweep chose them.
+    pub fn solve(
+        &mut self,
+        cell: Cell,
+        samples: &[usize],
+        stopping: &Stopping,
+        results: &mut [PulseDistribution<T>],
+    ) -> Vec<LaneOutcome> {
+        assert!(samples.len() == results.len() && (1..=T::LANES).contains(&samples.len()));
+        let grid = self.field.grid();
+        for (result, &sample) in results.iter_mut().zip(samples) {
+            assert_eq!(result.lobes().len(), grid.cells(), "a result of the field's size");
+            (result.source, result.sample) = (cell, sample);
+        }
+        let (field, level) = (self.field, self.level);
+        // Half of the lanes at least: narrower registers would be slower than empty lanes.
+        match samples.len().max(T::LANES / 2) {
+            ..=4 => {
+                let stream = self.narrow.get_or_insert_with(|| Stream::dark(grid));
+                run(field, level, stream, cell, samples, stopping, results)
+            }
+            5..=8 => {
+                let stream = self.middle.get_or_insert_with(|| Stream::dark(grid));
+                run(field, level, stream, cell, samples, stopping, results)
+            }
+            _ => {
+                let stream = self.wide.get_or_insert_with(|| Stream::dark(grid));
+                run(field, level, stream, cell, samples, stopping, results)
+            }
+        }
+    }
+}
+
+fn run<T: Real, const N: usize>(
+    field: &Scattering<'_>,
+    level: Level,
+    stream: &mut Stream<T, N>,
+    cell: Cell,
+    samples: &[usize],
+    stopping: &Stopping,
+    results: &mut [PulseDistribution<T>],
+) -> Vec<LaneOutcome> {
+    let lanes: [usize; N] = std::array::from_fn(|l| samples[l.min(samples.len() - 1)]);
+    let shape = field.transmission().shape(cell);
+    let source = Source::new(field.scheme(), shape, cell, &lanes);
+    let scene = Scene { cells: T::passages(field), source };
+    let run = Run { field, level, scene, stream, stopping: *stopping, results };
+    crate::simd::solve(level, run)[..samples.len()].to_vec()
+}
+
+/// One batch of pulses.
+pub(crate) struct Run<'r, 'a, T, const N: usize> {
+    pub(super) field: &'r Scattering<'a>,
+    level: Level,
+    pub(super) scene: Scene<'r, T, N>,
+    pub(super) stream: &'r mut Stream<T, N>,
+    stopping: Stopping,
+    results: &'r mut [PulseDistribution<T>],
+}
+
+/// Where a run stands.
+struct Progress<const N: usize> {
+    /// Where light is.
+    window: Window,
+    work: Work,
+    /// Flux of the last step and of the two before, W.
+    totals: [[f64; N]; 3],
+    outcomes: [Option<LaneOutcome>; N],
+}
+
+impl<const N: usize> Progress<N> {
+    const fn new(cell: Cell, outcomes: [Option<LaneOutcome>; N]) -> Self {
+        Self {
+            window: Window { x0: cell.x, x1: cell.x, y0: cell.y, y1: cell.y },
+            work: Work { steps: 0, cell_updates: 0 },
+            totals: [[0.0; N]; 3],
+            outcomes,
+        }
+    }
+
+    /// How many steps may be fused without one of them being a lane's last but not the last of them, as far as can be
+    /// foreseen: a guess that costs time where it is wrong, and nothing else.
+    fn fusible(&self, stopping: &Stopping) -> usize {
+        let limit = stopping.max_iterations.saturating_add(1).saturating_sub(self.work.steps);
+        match stopping.rule {
+            StoppingRule::Steps(n) => n - self.work.steps,
+            StoppingRule::FluxChange { threshold } if self.work.steps > 2 => {
+                let running = (0..N).filter(|&l| self.outcomes[l].is_none());
+                running.map(|l| self.steps_above(threshold, l)).min().unwrap_or(1).min(limit)
+            }
+            _ => 1,
+        }
+    }
+
+    /// One more than the steps in which lane `l`'s flux will change by more than the threshold if the change goes on
+    /// shrinking as it did.
+    fn steps_above(&self, threshold: f64, l: usize) -> usize {
+        /// Changes this close above the threshold may fall below it unforeseen.
+        const MARGIN: f64 = 1.2;
+        let [now, before, earlier] = self.totals.map(|t| t[l]);
+        let (mut change, previous) = ((now - before).abs(), (before - earlier).abs());
+        let ratio = (change / previous).min(1.0);
+        let mut steps = 1;
+        while steps < MAX_FUSED {
+            change *= ratio;
+            // Not a number is not above either.
+            if change > MARGIN * threshold {
+                steps += 1;
+            } else {
+                break;
+            }
+        }
+        steps
+    }
+}
+
+impl<T: Real, const N: usize> Run<'_, '_, T, N> {
+    /// Until every lane has stopped. The stream is dark before and after.
+    #[inline(always)]
+    pub(crate) fn solve<V: Vector<Number = T>>(mut self, proof: V::Proof) -> [LaneOutcome; N] {
+        let StoppingRule::Converged { tolerance } = self.stopping.rule else {
+            return self.march::<V>(proof, [None; N]);
+        };
+        let limit = self.stopping.max_iterations.saturating_add(1);
+        let settled = self.settle::<V>(proof, tolerance, limit);
+        self.stream.clear(whole(self.field.grid()));
+        let outcomes = settled.map(|settled| match settled {
+            Settled::Stationary(work) => Some(LaneOutcome { stop: StopReason::Converged, work }),
+            Settled::Limit(work) => Some(LaneOutcome { stop: StopReason::StepLimit, work }),
+            Settled::Never => None,
+        });
+        // Light that is caught in a loop grows for ever: it is what it is after so many plain steps.
+        self.stopping = Stopping::steps(limit.min(Stopping::REFERENCE.max_iterations + 1));
+        if outcomes.contains(&None) { self.march::<V>(proof, outcomes) } else { self.finished(outcomes) }
+    }
+
+    fn finished(&self, outcomes: [Option<LaneOutcome>; N]) -> [LaneOutcome; N] {
+        let never = LaneOutcome { stop: StopReason::StepLimit, work: Work { steps: 0, cell_updates: 0 } };
+        outcomes.map(|o| o.unwrap_or(never))
+    }
+
+    /// Steps until every lane has stopped that has no outcome yet. The stream is dark before and after.
+    #[inline(always)]
+    fn march<V: Vector<Number = T>>(
+        &mut self,
+        proof: V::Proof,
+        outcomes: [Option<LaneOutcome>; N],
+    ) -> [LaneOutcome; N] {
+        let grid = self.field.grid();
+        let mut changes = self.stopping.needs_distribution_change().then(|| Changes::new(self));
+        // Up to which step runs may be fused: known better after a wrong guess.
+        let mut fusible_until = usize::MAX;
+        let mut progress = Progress::new(self.scene.source.cell(), outcomes);
+        loop {
+            let steps = match fusible_until.saturating_sub(progress.work.steps) {
+                0 => 1,
+                left => progress.fusible(&self.stopping).clamp(1, left.min(MAX_FUSED)),
+            };
+            let (totals, windows) = self.stream.advance::<V>(proof, &self.scene, progress.window, steps);
+            let passed = windows[steps - 1];
+            let mut foreseen = true;
+            for s in 0..steps {
+                progress.work.steps += 1;
+                progress.work.cell_updates += windows[s].cells();
+                progress.totals = [totals[s], progress.totals[0], progress.totals[1]];
+                progress.window = windows[s].grown(grid);
+                let stopped = self.stop_lanes(&mut progress, changes.as_mut());
+                if stopped.is_empty() {
+                    continue;
+                }
+                foreseen = s + 1 == steps;
+                if !foreseen {
+                    break;
+                }
+                self.take(progress.window, &stopped);
+            }
+            if !foreseen {
+                // The light of that step is gone: once more, and slowly from there on.
+                fusible_until = progress.work.steps - 1;
+                progress = Progress::new(self.scene.source.cell(), outcomes);
+                self.stream.clear(passed);
+            } else if progress.outcomes.iter().all(Option::is_some) {
+                self.stream.clear(passed);
+                let work = progress.work;
+                return progress
+                    .outcomes
+                    .map(|o| o.unwrap_or(LaneOutcome { stop: StopReason::StepLimit, work }));
+            }
+        }
+    }
+
+    /// Ends the lanes that stop at this step.
+    fn stop_lanes(&self, progress: &mut Progress<N>, changes: Option<&mut Changes<T>>) -> Vec<usize> {
+        let measured = changes.map(|c| c.measure(self, progress.window));
+        let mut stopped = Vec::new();
+        for l in 0..N {
+            let (distribution_change, energy) = measured.as_ref().map_or((0.0, 0.0), |m| m[self.distinct(l)]);
+            let measures = StepMeasures {
+                step: progress.work.steps,
+                total_flux: progress.totals[0][l],
+                previous_total_flux: progress.totals[1][l],
+                distribution_change,
+                energy,
+            };
+            let stop = match self.stopping.verdict(&measures) {
+                _ if progress.outcomes[l].is_some() => continue,
+                Verdict::Continue => continue,
+                Verdict::Converged => StopReason::Converged,
+                Verdict::StepLimit => StopReason::StepLimit,
+            };
+            progress.outcomes[l] = Some(LaneOutcome { stop, work: progress.work });
+            stopped.push(l);
+        }
+        stopped
+    }
+
+    /// Lanes that were not asked for repeat the last one that was.
+    fn distinct(&self, lane: usize) -> usize {
+        lane.min(self.results.len() - 1)
+    }
+
+    /// Writes the light of `lanes` to their results.
+    pub(super) fn take(&mut self, window: Window, lanes: &[usize]) {
+        let grid = self.field.grid();
+        let asked: Vec<usize> = lanes.iter().copied().filter(|&l| l < self.results.len()).collect();
+        let whole = window.cells() == grid.cells() as u64;
+        let mut results = self.results.iter_mut().enumerate();
+        let mut to: Vec<&mut [[T; 8]]> = (results.by_ref())
+            .filter(|(l, _)| asked.contains(l))
+            .map(|(_, result)| result.lobes_mut())
+            .collect();
+        if !whole {
+            to.iter_mut().for_each(|to| to.fill([T::default(); 8]));
+        }
+        self.stream.copy_lanes(window, &asked, &mut to);
+    }
+}
+
+/// The window of the whole grid.
+pub(super) const fn whole(grid: Grid) -> Window {
+    Window { x0: 0, x1: grid.width() - 1, y0: 0, y1: grid.height() - 1 }
+}
+
+/// The distributions of this step and of the one before, for rules that compare them.
+struct Changes<T> {
+    now: Vec<PulseDistribution<T>>,
+    before: Vec<PulseDistribution<T>>,
+}
+
+impl<T: Real> Changes<T> {
+    fn new<const N: usize>(run: &Run<'_, '_, T, N>) -> Self {
+        let dark = || vec![PulseDistribution::dark(run.field.grid().cells()); run.results.len()];
+        Self { now: dark(), before: dark() }
+    }
+
+    /// L1 change (W) and energy (W) of every lane that was asked for.
+    fn measure<const N: usize>(&mut self, run: &Run<'_, '_, T, N>, window: Window) -> Vec<(f64, f64)> {
+        core::mem::swap(&mut self.now, &mut self.before);
+        let lanes: Vec<usize> = (0..self.now.len()).collect();
+        let mut to: Vec<&mut [[T; 8]]> = self.now.iter_mut().map(PulseDistribution::lobes_mut).collect();
+        run.stream.copy_lanes(window, &lanes, &mut to);
+        lanes.iter().map(|&l| self.measure_lane(run, l)).collect()
+    }
+
+    fn measure_lane<const N: usize>(&self, run: &Run<'_, '_, T, N>, l: usize) -> (f64, f64) {
+        let (scheme, grid, cell, sample) =
+            (run.field.scheme(), run.field.grid(), run.scene.source.cell(), run.results[l].sample);
+        let (now, before) = (self.now[l].lobes(), self.before[l].lobes());
+        let l1 = crate::simd::l1(run.level, T::sector_sums(run.field), grid.width(), now, before);
+        let at_sample =
+            |lobes: &[[T; 8]]| scheme.intensity(&lobes[grid.index(cell)].map(Number::widened), sample);
+        // The pulse's own sample holds S before and after.
+        let change = l1 - (at_sample(now) - at_sample(before)).abs();
+        let row_energy = |row: &[[T; 8]]| row.iter().flatten().map(|v| v.widened()).sum::<f64>();
+        let lobes: f64 = now.chunks(grid.width()).map(row_energy).sum();
+        let missing = scheme.directions().count() as f64 - at_sample(now);
+        let h = scheme.directions().step_rad();
+        (h * change, lobes + h * missing)
+    }
+}

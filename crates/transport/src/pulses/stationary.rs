@@ -1,0 +1,407 @@
+//! The stationary state of pulses, by far fewer evaluations of the scheme than stepping there takes.
+//!
+//! A slot (cell, direction) is written by one cell only, so the scheme can be swept through one state in place: each cell
+//! passes on what has arrived so far, first in row-major order, then in exactly the reverse one (a nonlinear symmetric
+//! Gauss-Seidel iteration). Its fixed points are those of the plain step. After every few such pairs of sweeps the states
+//! are mixed so that the change, taken as linear in them, is least (Anderson acceleration of type II: Walker and Ni, SIAM J.
+//! Numer. Anal. 49, 2011).
+//!
+//! A row-major sweep writes directions 0, 5, 6 and 7 of a cell before it reads them. So a pair of sweeps depends on the
+//! other four alone: half of the state is all that is mixed and remembered. To choose the few weights one of these four
+//! numbers per cell is enough.
+//!
+//! Every lane decides for itself, by sums in a fixed order: its light depends neither on the other lanes nor on the
+//! processor.
+
+use super::solver::Run;
+use super::stream::{Lobes, Parity, Scene, Stream, load8, slot, slot_mut};
+use crate::Real;
+use crate::real::Number;
+use crate::simd::Vector;
+use tigereye_core::{Cell, Work};
+
+/// Pairs of sweeps between two mixings.
+const PAIRS: usize = 3;
+/// Changes that are remembered.
+const DEPTH: usize = 3;
+/// Directions that a row-major sweep reads before it writes them.
+const READ: [usize; 4] = [1, 2, 3, 4];
+/// A mixed number below this part of the unmixed one rejects the mixing: light stays positive, and what is lit stays lit.
+const FLOOR: f64 = 1.0 / 16.0;
+/// A change so many times the smallest one so far empties the memory.
+const GROWTH: f64 = 4.0;
+/// A remembered change that depends on newer ones up to this part of its squared norm is not used.
+const DEPENDENT: f64 = 1e-12;
+/// What a plain step may change of the light a pulse injects in one (1). Light that is caught in a loop grows for ever, and
+/// its relative change falls below any tolerance.
+const OF_INJECTED: f64 = 1e-3;
+/// A pulse whose light stays longer than so many steps has no stationary state within reach.
+const RESIDENCE: f64 = 1e7;
+/// What a pulse injects in one step at most, W.
+const INJECTED: f64 = core::f64::consts::TAU;
+
+/// How a lane's search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Settled {
+    /// A plain step changes nothing more.
+    Stationary(Work),
+    /// Its light is caught.
+    Never,
+    /// The limit came first; the state is what it was then.
+    Limit(Work),
+}
+
+/// One number for each lane.
+type Lanes<T, const N: usize> = [T; N];
+
+/// What is remembered of earlier mixings.
+#[derive(Debug)]
+pub(crate) struct Memory<T, const N: usize> {
+    /// Unmixed halves of the state, newest first; one more than are used, to write the next one to.
+    halves: [Vec<[Lanes<T, N>; 4]>; DEPTH + 1],
+    /// Differences of consecutive changes of the samples, newest first.
+    differences: [Vec<Lanes<T, N>>; DEPTH],
+    /// Samples before the sweeps, their change by them, and by those before.
+    before: Vec<Lanes<T, N>>,
+    change: Vec<Lanes<T, N>>,
+    last_change: Vec<Lanes<T, N>>,
+    /// How many changes in a row a lane may look back on.
+    remembered: [usize; N],
+    /// The smallest change of the samples so far.
+    smallest: [f64; N],
+}
+
+/// The weight of each remembered difference, newest first.
+type Weights<T, const N: usize> = [Lanes<T, N>; DEPTH];
+
+impl<T: Real, const N: usize> Run<'_, '_, T, N> {
+    /// Brings every lane to its stationary state and writes its light. The stream is dark before, and in need of clearing
+    /// afterwards.
+    #[inline(always)]
+    pub(crate) fn settle<V: Vector<Number = T>>(
+        &mut self,
+        proof: V::Proof,
+        tolerance: f64,
+        limit: usize,
+    ) -> [Settled; N] {
+        let grid = self.field.grid();
+        let tolerance = tolerance.max(T::SETTLED);
+        let work = |steps: usize| Work { steps, cell_updates: (steps * grid.cells()) as u64 };
+        let mut memory = self.stream.memory();
+        let mut settled: [Option<Settled>; N] = [None; N];
+        let mut trigger = [tolerance; N];
+        let mut sweeps = 0;
+        let mut asked = [0; N];
+        loop {
+            self.stream.sample(&mut memory.before);
+            for _ in 0..PAIRS {
+                self.stream.relax::<false, V>(proof, &self.scene);
+                self.stream.relax::<true, V>(proof, &self.scene);
+                sweeps += 2;
+            }
+            self.stream.sample(&mut memory.change);
+            let (lit, changed) = memory.compare();
+            // The samples say when to ask; the plain step's own change decides.
+            let asks: [bool; N] =
+                std::array::from_fn(|l| settled[l].is_none() && changed[l] <= trigger[l] * lit[l]);
+            if asks.contains(&true) {
+                let (plain, energy) = self.plain_change::<V>(proof);
+                for l in (0..N).filter(|&l| asks[l]) {
+                    // Counted for those who asked: a lane's work does not depend on its neighbours.
+                    asked[l] += 1;
+                    trigger[l] *= 0.25;
+                    if energy[l] > RESIDENCE * INJECTED {
+                        settled[l] = Some(Settled::Never);
+                    } else if plain[l] <= tolerance * energy[l] && plain[l] <= OF_INJECTED * INJECTED {
+                        settled[l] = Some(Settled::Stationary(work(sweeps + asked[l])));
+                    }
+                }
+                self.take_settled(&asks, &settled);
+            }
+            if sweeps >= limit {
+                let running = settled.map(|s| s.is_none());
+                let settled = std::array::from_fn(|l| {
+                    settled[l].unwrap_or_else(|| Settled::Limit(work(sweeps + asked[l])))
+                });
+                self.take_settled(&running, &settled.map(Some));
+                self.stream.keep(memory);
+                return settled;
+            }
+            if settled.iter().all(Option::is_some) {
+                self.stream.keep(memory);
+                return settled.map(|s| s.unwrap_or(Settled::Never));
+            }
+            let weights = memory.weigh(&changed);
+            self.stream.mix(&mut memory, &weights);
+        }
+    }
+
+    /// Writes the light of the lanes among `now` that have settled.
+    fn take_settled(&mut self, now: &[bool; N], settled: &[Option<Settled>; N]) {
+        let lanes: Vec<usize> =
+            (0..N).filter(|&l| now[l] && settled[l].is_some_and(|s| s != Settled::Never)).collect();
+        if !lanes.is_empty() {
+            self.take(super::solver::whole(self.field.grid()), &lanes);
+        }
+    }
+
+    /// `sum |F(a) - a|` over the fluxes that arrive anywhere, and the energy, pulses included: one evaluation that changes
+    /// nothing.
+    #[inline(always)]
+    fn plain_change<V: Vector<Number = T>>(&mut self, proof: V::Proof) -> ([f64; N], [f64; N]) {
+        let (mut change, mut energy) = ([0.0; N], [0.0; N]);
+        for cell in self.field.grid().iter() {
+            let (arriving, phi) = self.stream.evaluate::<V>(proof, &self.scene, cell);
+            let reached = self.stream.reached(cell);
+            let rows = self.stream.three_rows(cell, 1);
+            for l in 0..N {
+                for k in (0..8).filter(|&k| reached[k]) {
+                    change[l] += (phi[k][l] - slot(&rows, k)[l]).abs().widened();
+                }
+                energy[l] += arriving.iter().map(|a| a[l].widened()).sum::<f64>();
+            }
+            if cell == self.scene.source.cell() {
+                let missing = self.scene.source.missing_energy(&arriving);
+                for l in 0..N {
+                    energy[l] += missing[l];
+                }
+            }
+        }
+        (change, energy)
+    }
+}
+
+impl<T: Number, const N: usize> Stream<T, N> {
+    /// One sweep in place, in row-major order or `BACK`.
+    #[inline(always)]
+    fn relax<const BACK: bool, V: Vector<Number = T>>(&mut self, proof: V::Proof, scene: &Scene<'_, T, N>) {
+        let grid = self.grid();
+        for i in 0..grid.height() {
+            let y = if BACK { grid.height() - 1 - i } else { i };
+            let passages = &scene.cells[y * grid.width()..][..grid.width()];
+            let mut rows = self.three_rows(Cell::new(0, y), grid.width());
+            for j in 0..grid.width() {
+                let x = if BACK { grid.width() - 1 - j } else { j };
+                let mut around = rows.each_mut().map(|row| &mut row[x..x + 3]);
+                for c in 0..N / V::WIDTH {
+                    let a: [V; 8] = load8(proof, c, |k| &around[1][1][k]);
+                    let phi = if (Cell { x, y }) == scene.source.cell() {
+                        scene.source.passed(proof, c, &passages[x], &a)
+                    } else {
+                        passages[x].pass(proof, &a).phi
+                    };
+                    // What has nowhere to go ends in the ring of ghost cells, from where nothing is read.
+                    for k in 0..8 {
+                        phi[k].store(slot_mut(&mut around, k), c);
+                    }
+                }
+            }
+        }
+        debug_assert_eq!(self.parity(), Parity::Even);
+    }
+
+    /// What arrives at a cell and what it would pass on.
+    #[inline(always)]
+    fn evaluate<V: Vector<Number = T>>(
+        &self,
+        proof: V::Proof,
+        scene: &Scene<'_, T, N>,
+        cell: Cell,
+    ) -> (Lobes<T, N>, Lobes<T, N>) {
+        let slots = self.cell(cell);
+        let passage = &scene.cells[self.grid().index(cell)];
+        let mut passed = *slots;
+        for c in 0..N / V::WIDTH {
+            let a: [V; 8] = load8(proof, c, |k| &slots[k]);
+            let phi = if cell == scene.source.cell() {
+                scene.source.passed(proof, c, passage, &a)
+            } else {
+                passage.pass(proof, &a).phi
+            };
+            for k in 0..8 {
+                phi[k].store(&mut passed[k], c);
+            }
+        }
+        (*slots, passed)
+    }
+
+    /// The number of each cell that stands for it: the four directions in turn.
+    #[inline(always)]
+    fn sample(&self, to: &mut [Lanes<T, N>]) {
+        for (to, cell) in to.iter_mut().zip(self.grid().iter()) {
+            *to = self.cell(cell)[READ[(cell.x + 2 * cell.y) % 4]];
+        }
+    }
+
+    /// Mixes the halves with these weights, and remembers the unmixed one.
+    #[inline(always)]
+    fn mix(&mut self, memory: &mut Memory<T, N>, weights: &Weights<T, N>) {
+        let grid = self.grid();
+        memory.halves.rotate_right(1);
+        let (unmixed, older) = memory.halves.split_at_mut(1);
+        let unmixed = &mut unmixed[0];
+        let floor = T::narrowed(FLOOR);
+        let mut accepted = [true; N];
+        for (i, cell) in grid.iter().enumerate() {
+            let slots = self.cell_mut(cell);
+            for (half, &k) in READ.iter().enumerate() {
+                let here = slots[k];
+                let (mut mixed, mut newer) = (here, here);
+                for (older, weight) in older.iter().zip(weights) {
+                    let older = older[i][half];
+                    for l in 0..N {
+                        mixed[l] = mixed[l] - weight[l] * (newer[l] - older[l]);
+                    }
+                    newer = older;
+                }
+                for l in 0..N {
+                    // Not a number rejects too.
+                    accepted[l] &= mixed[l] >= floor * here[l];
+                }
+                unmixed[i][half] = here;
+                slots[k] = mixed;
+            }
+        }
+        if !accepted.contains(&false) {
+            return;
+        }
+        for (i, cell) in grid.iter().enumerate() {
+            let slots = self.cell_mut(cell);
+            for (half, &k) in READ.iter().enumerate() {
+                for l in 0..N {
+                    slots[k][l] = if accepted[l] { slots[k][l] } else { unmixed[i][half][l] };
+                }
+            }
+        }
+    }
+}
+
+impl<T: Number, const N: usize> Memory<T, N> {
+    /// Numbers it takes.
+    pub(crate) const fn numbers(cells: usize) -> usize {
+        cells * N * (4 * (DEPTH + 1) + DEPTH + 3)
+    }
+
+    pub(crate) fn new(cells: usize) -> Self {
+        let lanes = || vec![[T::default(); N]; cells];
+        Self {
+            halves: std::array::from_fn(|_| vec![[[T::default(); N]; 4]; cells]),
+            differences: std::array::from_fn(|_| lanes()),
+            before: lanes(),
+            change: lanes(),
+            last_change: lanes(),
+            remembered: [0; N],
+            smallest: [f64::INFINITY; N],
+        }
+    }
+
+    /// Forgets everything: weights that are 0 do not make what is not a number harmless.
+    pub(crate) fn clear(&mut self) {
+        self.halves.iter_mut().for_each(|half| half.fill([[T::default(); N]; 4]));
+        self.remembered = [0; N];
+        self.smallest = [f64::INFINITY; N];
+    }
+
+    /// Turns the samples after the sweeps into their change; the sum of the samples and of the absolute changes.
+    #[inline(always)]
+    fn compare(&mut self) -> ([f64; N], [f64; N]) {
+        let (mut lit, mut changed) = ([0.0; N], [0.0; N]);
+        for (change, before) in self.change.iter_mut().zip(&self.before) {
+            for l in 0..N {
+                lit[l] += change[l].widened();
+                change[l] = change[l] - before[l];
+                changed[l] += change[l].abs().widened();
+            }
+        }
+        (lit, changed)
+    }
+
+    /// The weights of the remembered differences that make the newest change least, which it takes in.
+    #[inline(always)]
+    fn weigh(&mut self, changed: &[f64; N]) -> Weights<T, N> {
+        self.differences.rotate_right(1);
+        for (difference, (now, before)) in
+            self.differences[0].iter_mut().zip(self.change.iter().zip(&self.last_change))
+        {
+            for l in 0..N {
+                difference[l] = now[l] - before[l];
+            }
+        }
+        // Sums of products of the differences with each other and with the change, each lane apart.
+        let mut products = [[[0.0; N]; DEPTH + 1]; DEPTH];
+        for (i, change) in self.change.iter().enumerate() {
+            for c in 0..DEPTH {
+                let d = &self.differences[c][i];
+                for r in c..DEPTH {
+                    let e = &self.differences[r][i];
+                    for l in 0..N {
+                        products[c][r][l] += d[l].widened() * e[l].widened();
+                    }
+                }
+                for l in 0..N {
+                    products[c][DEPTH][l] += d[l].widened() * change[l].widened();
+                }
+            }
+        }
+        core::mem::swap(&mut self.change, &mut self.last_change);
+        let mut weights = [[T::default(); N]; DEPTH];
+        for l in 0..N {
+            if changed[l] > GROWTH * self.smallest[l] {
+                (self.remembered[l], self.smallest[l]) = (0, f64::INFINITY);
+            }
+            self.smallest[l] = self.smallest[l].min(changed[l]);
+            let of_lane = products.map(|row| row.map(|p| p[l]));
+            let found = least_squares(of_lane, self.remembered[l].min(DEPTH));
+            self.remembered[l] += 1;
+            for (weight, found) in weights.iter_mut().zip(found) {
+                weight[l] = T::narrowed(found);
+            }
+        }
+        weights
+    }
+}
+
+/// Solves the normal equations of the first `n` unknowns, of which the upper triangle and the right-hand side are given.
+/// Unknowns that depend on those before them are 0, and all are where they are not finite.
+fn least_squares(mut m: [[f64; DEPTH + 1]; DEPTH], n: usize) -> [f64; DEPTH] {
+    let norms: [f64; DEPTH] = std::array::from_fn(|c| m[c][c]);
+    for r in 0..DEPTH {
+        for c in 0..r {
+            m[r][c] = m[c][r];
+        }
+    }
+    let mut used = [false; DEPTH];
+    for c in 0..n {
+        used[c] = norms[c] > 0.0 && m[c][c] > DEPENDENT * norms[c];
+        if used[c] {
+            for r in c + 1..n {
+                let q = m[r][c] / m[c][c];
+                for j in c + 1..=DEPTH {
+                    m[r][j] -= q * m[c][j];
+                }
+            }
+        }
+    }
+    let mut weights = [0.0; DEPTH];
+    for c in (0..n).rev().filter(|&c| used[c]) {
+        let known: f64 = (c + 1..n).map(|j| m[c][j] * weights[j]).sum();
+        weights[c] = (m[c][DEPTH] - known) / m[c][c];
+    }
+    if weights.iter().all(|w| w.is_finite()) { weights } else { [0.0; DEPTH] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn least_squares_solve_and_leave_out_what_depends() {
+        // Differences (1, 0, 1), (0, 2, 0) and their sum; change 3 (1, 0, 1) - (0, 2, 0).
+        let m = [[2.0, 0.0, 2.0, 6.0], [0.0, 4.0, 4.0, -4.0], [0.0, 0.0, 6.0, 2.0]];
+        assert_eq!(least_squares(m, 3), [3.0, -1.0, 0.0]);
+        assert_eq!(least_squares(m, 1), [3.0, 0.0, 0.0]);
+        assert_eq!(least_squares(m, 0), [0.0; 3]);
+        assert_eq!(least_squares([[0.0; 4]; 3], 3), [0.0; 3]);
+        assert_eq!(least_squares([[f64::NAN; 4]; 3], 3), [0.0; 3]);
+    }
+}

@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Info(InfoArgs),
     /// Difference of two results.
     Compare(CompareArgs),
+    /// The engine's speed beside the limits of this machine.
+    Bench(BenchArgs),
 }
 
 #[derive(Debug, Subcommand)]
@@ -248,6 +250,36 @@ pub(crate) struct CompareArgs {
     /// Angular slices of volumes to leave out (sample indices).
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = parse_count)]
     pub(crate) except_slices: Vec<usize>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchArgs {
+    /// The larger number of threads to measure; all processors by default. One thread is measured too.
+    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    pub(crate) threads: Option<usize>,
+    /// Sides of the square fields.
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',', default_value = "14,51,101,201", value_parser = parse_side)]
+    pub(crate) cells: Vec<usize>,
+    /// Seconds for each number; each of the three numbers of a row takes so long, at the least.
+    #[arg(long, value_name = "F", default_value = "1", value_parser = parse_seconds)]
+    pub(crate) seconds: f64,
+    /// As JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn parse_side(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 3..=1000) => Ok(n),
+        _ => Err("expected 3 to 1000".to_owned()),
+    }
+}
+
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 60.0 => Ok(x),
+        _ => Err("expected a number of seconds above 0, at most 60".to_owned()),
+    }
 }
 
 fn parse_directions(text: &str) -> Result<Directions, String> {

@@ -25,7 +25,8 @@ fn main() -> ExitCode {
     if let Err(error) = interrupt::install() {
         return report(&error);
     }
-    match dispatch(cli) {
+    // A wrong name is told before anything runs, not ignored.
+    match system::level().and_then(|_| dispatch(cli)) {
         Ok(code) => ExitCode::from(code),
         Err(error) => report(&error),
     }
@@ -43,6 +44,7 @@ fn dispatch(cli: Cli) -> Result<u8, CliError> {
         Command::Merge(a) => commands::merge::merge(&a),
         Command::Info(a) => commands::info::info(&a),
         Command::Compare(a) => commands::compare::compare(&a),
+        Command::Bench(a) => commands::bench::bench(&a),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The machine: memory, threads, time.
 
 use crate::error::CliError;
+use tigereye_transport::Level;
 
 /// Half of the machine's memory, bytes; 4 GiB where it cannot be found out.
 pub(crate) fn half_of_memory() -> u64 {
@@ -17,6 +18,23 @@ pub(crate) fn peak_memory() -> Option<u64> {
 fn kilobytes(text: &str, key: &str) -> Option<u64> {
     let line = text.lines().find_map(|l| l.strip_prefix(key))?;
     line.split_whitespace().next()?.parse().ok()
+}
+
+/// The instruction set of the hot loops: the widest there is, or the one that the environment names.
+pub(crate) fn level() -> Result<Level, CliError> {
+    let Some(name) = std::env::var_os(Level::VARIABLE) else { return Ok(Level::detect()) };
+    let name = name.to_string_lossy();
+    Level::named(&name).ok_or_else(|| {
+        let names: Vec<&str> = Level::available().iter().map(|l| l.name()).collect();
+        CliError::input(Level::VARIABLE, format!("`{name}`: expected one of {}", names.join(", ")))
+    })
+}
+
+/// What the system calls the processor.
+pub(crate) fn processor() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let name = text.lines().find_map(|l| l.strip_prefix("model name")?.split_once(':').map(|(_, name)| name));
+    name.map_or_else(|| "an unnamed processor".to_owned(), |name| name.trim().to_owned())
 }
 
 /// Runs `work` on a pool of `threads` threads (all processors: `None`).

@@ -7,7 +7,7 @@ use crate::LtgError;
 use crate::sets::{DirectionSet, direction_sets};
 use std::ops::Range;
 use tigereye_core::{Directions, Grid};
-use tigereye_transport::{PulseDistribution, PulseSolver, Real};
+use tigereye_transport::{PulseDistribution, PulseSolver, Real, Stopping};
 
 /// Rows of pulses in memory. A pulse takes the place of the one two rows above as soon as it is compared with it.
 pub(crate) const ROWS: usize = 2;
@@ -17,6 +17,7 @@ pub(crate) const ROWS: usize = 2;
 pub(crate) struct Bounds {
     pub(crate) memory_bytes: u64,
     pub(crate) threads: usize,
+    pub(crate) stopping: Stopping,
 }
 
 /// Bytes of two rows of `columns` cells with a pulse in each direction of a set.
@@ -25,15 +26,15 @@ fn ring_bytes<T: Real>(grid: Grid, columns: usize, set: &DirectionSet) -> u128 {
 }
 
 /// Bytes that a sweep takes whatever its strips.
-fn fixed_bytes<T: Real>(grid: Grid, directions: Directions, slices: usize, threads: usize) -> u128 {
+fn fixed_bytes<T: Real>(grid: Grid, directions: Directions, slices: usize, bounds: Bounds) -> u128 {
     let (cells, samples) = (grid.cells() as u128, directions.count() as u128);
-    // Transmission profiles (twice while they are made) and matrices.
-    let prepared = cells * (2 * samples * 8 + 168);
+    // Transmission profiles (twice while they are made) and matrices in two forms.
+    let prepared = cells * (2 * samples * 8 + 168 + 136);
     // The gradient itself, and twice its bytes while a checkpoint is read or written.
     let values = cells * slices as u128 * 3 * 8;
-    let solver =
-        PulseSolver::<T>::bytes(grid) + PulseDistribution::<T>::bytes(grid.cells()) * T::LANES as u128;
-    prepared + values + solver * threads as u128
+    let solver = PulseSolver::<T>::bytes(grid, &bounds.stopping)
+        + PulseDistribution::<T>::bytes(grid.cells()) * T::LANES as u128;
+    prepared + values + solver * bounds.threads as u128
 }
 
 /// The strips of inner columns for each set of directions, so that everything fits together.
@@ -47,7 +48,7 @@ pub(crate) fn strips<T: Real>(
     if grid.width() < 3 || grid.height() < 3 {
         return Ok(vec![Vec::new(); sets.len()]);
     }
-    let fixed = fixed_bytes::<T>(grid, directions, slices, bounds.threads);
+    let fixed = fixed_bytes::<T>(grid, directions, slices, bounds);
     let needed = |columns: usize, set: &DirectionSet| fixed + ring_bytes::<T>(grid, columns, set);
     let bound = bounds.memory_bytes;
     let least = sets.iter().map(|set| needed(3, set)).max().unwrap_or(fixed);
@@ -91,8 +92,15 @@ mod tests {
     fn small_memory_means_strips_then_refusal() {
         let grid = Grid::new(21, 21).expect("a grid");
         let (directions, sets) = sets(64, 6);
-        let strips =
-            |memory_bytes| strips::<f64>(grid, directions, &sets, 64, Bounds { memory_bytes, threads: 2 });
+        let strips = |memory_bytes| {
+            strips::<f64>(
+                grid,
+                directions,
+                &sets,
+                64,
+                Bounds { memory_bytes, threads: 2, stopping: Stopping::REFERENCE },
+            )
+        };
         let row = ring_bytes::<f64>(grid, 21, &sets[0]) as u64;
         assert_eq!(strips(4 * row).expect("whole rows"), vec![Vec::from([1..20; 1]); 2]);
         let narrow = strips(row).expect("strips");
@@ -110,7 +118,7 @@ mod tests {
         let grid = Grid::new(101, 101).expect("a grid");
         let (directions, sets) = sets(64, 6);
         for threads in [2, 64] {
-            let bounds = Bounds { memory_bytes: 2_000_000_000, threads };
+            let bounds = Bounds { memory_bytes: 2_000_000_000, threads, stopping: Stopping::REFERENCE };
             let strips = strips::<f64>(grid, directions, &sets, 64, bounds).expect("strips");
             assert!(strips.iter().all(|s| s.len() <= 5), "{threads} threads: {strips:?}");
         }
@@ -120,7 +128,13 @@ mod tests {
     fn grids_without_interior_need_nothing() {
         let grid = Grid::new(2, 9).expect("a grid");
         let (directions, sets) = sets(8, 1);
-        let none = strips::<f64>(grid, directions, &sets, 8, Bounds { memory_bytes: 1, threads: 2 });
+        let none = strips::<f64>(
+            grid,
+            directions,
+            &sets,
+            8,
+            Bounds { memory_bytes: 1, threads: 2, stopping: Stopping::REFERENCE },
+        );
         assert_eq!(none, Ok(vec![Vec::new(); sets.len()]));
     }
 }

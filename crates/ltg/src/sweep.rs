@@ -78,7 +78,11 @@ pub fn check_fit(grid: Grid, directions: Directions, settings: &LtgSettings) -> 
 }
 
 fn bounds(settings: &LtgSettings) -> Bounds {
-    Bounds { memory_bytes: settings.memory_bytes, threads: rayon::current_num_threads() }
+    Bounds {
+        memory_bytes: settings.memory_bytes,
+        threads: rayon::current_num_threads(),
+        stopping: settings.stopping,
+    }
 }
 
 fn run<T: Real>(

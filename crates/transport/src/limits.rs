@@ -35,11 +35,20 @@ pub(crate) fn arithmetic_with<V: Vector>(proof: V::Proof, updates: u64) -> u64 {
     let mut quotient = term;
     let rounds = updates.div_ceil(V::WIDTH as u64);
     for _ in 0..rounds {
-        for i in 0..PRODUCTS {
-            products[i % PRODUCT_CHAINS] = products[i % PRODUCT_CHAINS].mul_add(factor, term);
+        // Written so that all of it is unrolled: every chain stays in its register.
+        for turn in 0..PRODUCTS.div_ceil(PRODUCT_CHAINS) {
+            for (i, product) in products.iter_mut().enumerate() {
+                if turn * PRODUCT_CHAINS + i < PRODUCTS {
+                    *product = product.mul_add(factor, term);
+                }
+            }
         }
-        for i in 0..SUMS {
-            sums[i % SUM_CHAINS] = sums[i % SUM_CHAINS] + term;
+        for turn in 0..SUMS.div_ceil(SUM_CHAINS) {
+            for (i, sum) in sums.iter_mut().enumerate() {
+                if turn * SUM_CHAINS + i < SUMS {
+                    *sum = *sum + term;
+                }
+            }
         }
         quotient = term / quotient;
     }

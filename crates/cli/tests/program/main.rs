@@ -5,6 +5,7 @@ mod experiments;
 mod faults;
 #[cfg(unix)]
 mod interruption;
+mod machine;
 mod odd_fields;
 #[cfg(unix)]
 mod parts;

@@ -38,12 +38,18 @@ impl<'a, T: Real> PulseSolver<'a, T> {
         Self { field, level, narrow: None, middle: None, wide: None }
     }
 
-    /// Bytes of a solver's buffers for a grid, whatever numbers of samples it is asked for.
+    /// Bytes of a solver's buffers for a grid and a stopping rule, whatever numbers of samples it is asked for.
     #[must_use]
-    pub const fn bytes(grid: Grid) -> u128 {
+    pub const fn bytes(grid: Grid, stopping: &Stopping) -> u128 {
         let lanes = T::LANES + T::LANES / 2;
-        let lane = Stream::<T, 1>::cells(grid) * 8 + Memory::<T, 1>::numbers(grid.cells());
-        (lane * lanes * size_of::<T>()) as u128
+        let state = Stream::<T, 1>::cells(grid) * 8;
+        let more = match stopping.rule {
+            StoppingRule::Converged { .. } => Memory::<T, 1>::numbers(grid.cells()),
+            // This step's light and that of the one before.
+            StoppingRule::DistributionChange { .. } => 2 * 8 * grid.cells(),
+            StoppingRule::FluxChange { .. } | StoppingRule::Steps(_) => 0,
+        };
+        ((state + more) * lanes * size_of::<T>()) as u128
     }
 
     /// Propagates pulses from `cell` in 1 to [`Real::LANES`] samples, each until `stopping` ends it; the light of

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{field, scheme, transmission};
-use tigereye_core::{Cell, Field, Normalization, StopReason, Svd, Tensor2, TransmissionField};
+use tigereye_core::{Cell, Field, Grid, Normalization, StopReason, Svd, Tensor2, TransmissionField};
 use tigereye_transport::{
     EightLobe, Engine, LaneOutcome, Level, Light, Outcome, Problem, PulseDistribution, PulseSolver, Real,
     Scattering, Scheme, Stopping, StoppingRule,
@@ -86,31 +86,56 @@ fn single_precision_settles_as_far_as_it_can_tell() {
     }
 }
 
-/// In a spiral of totally anisotropic cells some light runs in a closed loop and never leaves: its energy grows by what is
-/// injected in each step, for ever. Extrapolation must not make a state of it.
+/// In a spiral of totally anisotropic cells some light runs in a closed loop and never leaves: its energy grows for ever.
+/// Extrapolation must not make a state of it, in a field of its own and inside another one, whose other light it mixes with.
 #[test]
 fn light_caught_in_a_loop_is_reported_as_not_stationary() {
     let spiral = field("spiral:size=21");
-    let flat =
-        Field::from_fn(spiral.grid(), |c| Tensor2::from_axes(Svd::of(spiral.at(c)).phi_rad(), 1.0, 0.0));
-    let (scheme, transmission) = (scheme(SAMPLES), transmission(&flat, SAMPLES, Normalization::Local));
+    let flat = |c: Cell| Tensor2::from_axes(Svd::of(spiral.at(c)).phi_rad(), 1.0, 0.0);
+    let whole = Field::from_fn(spiral.grid(), flat);
+    let inside = Field::from_fn(Grid::new(13, 13).expect("a grid"), |c| {
+        let middle = (3..10).contains(&c.x) && (3..10).contains(&c.y);
+        if middle { flat(Cell::new(c.x + 4, c.y + 4)) } else { Tensor2::IDENTITY }
+    });
+    let caught = [
+        caught::<f64>(&whole, &[Cell::new(6, 12), Cell::new(10, 9)]),
+        caught::<f64>(&inside, &[Cell::new(6, 6), Cell::new(1, 6), Cell::new(4, 5)]),
+        caught::<f32>(&whole, &[Cell::new(6, 12), Cell::new(10, 9)]),
+        caught::<f32>(&inside, &[Cell::new(6, 6), Cell::new(1, 6), Cell::new(4, 5)]),
+    ];
+    assert!(caught.iter().all(|n| *n > 0), "no light is caught: the test shows nothing: {caught:?}");
+}
+
+/// Checks the pulses of some cells; how many of them are caught.
+fn caught<T: Real>(tensors: &Field<Tensor2>, cells: &[Cell]) -> usize {
+    let (scheme, transmission) = (scheme(SAMPLES), transmission(tensors, SAMPLES, Normalization::Local));
     let scattering = Scattering::new(&scheme, &transmission);
+    let injected = std::f64::consts::TAU;
     let mut caught = 0;
-    for cell in [Cell::new(10, 9), Cell::new(12, 10), Cell::new(8, 8), Cell::new(6, 12)] {
+    for &cell in cells {
         let samples = [0, 2, 4, 6, 8, 10, 12, 14];
-        let (pulses, outcomes) = solved::<f64>(&scattering, cell, &samples);
+        let (pulses, outcomes) = solved::<T>(&scattering, cell, &samples);
         for ((pulse, outcome), t) in pulses.iter().zip(outcomes).zip(samples) {
             let after = |steps| plain(&scheme, &transmission, Light::pulse(cell, t), Stopping::steps(steps));
             let [few, many] = [3000, 6000].map(|steps| energy(after(steps).distribution.incoming().values()));
-            let grows = many > 1.5 * few;
-            let stop = if grows { StopReason::StepLimit } else { StopReason::Converged };
-            assert_eq!(outcome.stop, stop, "{cell:?}, {t}: {few} W after 3000 steps, {many} W after 6000");
-            if grows {
+            let growth = (many - few) / 3000.0 / injected;
+            let name =
+                format!("{} {cell:?}, {t}: grows by {growth} of what is injected, {outcome:?}", T::NAME);
+            // The balance that is asked for is 1e-3.
+            if growth > 2e-3 {
                 caught += 1;
+                assert_eq!(outcome.stop, StopReason::StepLimit, "{name}");
                 let difference = difference(pulse.lobes(), after(1001).distribution.incoming().values());
-                assert!(difference < 1e-12, "{cell:?}, {t}: {difference} from 1001 plain steps");
+                assert!(difference < 1e-4, "{name}: {difference} from 1001 plain steps");
+                continue;
+            }
+            let rule = Stopping::STATIONARY.rule;
+            let steps =
+                plain(&scheme, &transmission, Light::pulse(cell, t), Stopping { rule, max_iterations: 6000 });
+            if steps.stop == StopReason::Converged {
+                assert_eq!(outcome.stop, StopReason::Converged, "{name}");
             }
         }
     }
-    assert!(caught > 0, "no light is caught: the test shows nothing");
+    caught
 }

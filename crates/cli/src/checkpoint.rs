@@ -12,6 +12,8 @@ use tigereye_ltg::{PartialVolume, Shard};
 
 /// Name of the file in the folder.
 const FILE: &str = "checkpoint.part";
+/// The file that one run at a time locks.
+const LOCK: &str = "lock";
 /// How the names of temporary files in the folder begin.
 const TEMPORARY: &str = ".tigereye-checkpoint-";
 /// A checkpoint is written at most so often,
@@ -54,7 +56,11 @@ impl Checkpoint {
         }
         files::make_folder(folder)?;
         let lock = lock(folder, &name)?;
-        remove_strays(folder);
+        if lock.is_some() {
+            remove_strays(folder);
+        } else {
+            eprintln!("tigereye: {name}: cannot be locked here; see that no other run uses it");
+        }
         let path = folder.join(FILE);
         files::check_writable(&path)?;
         let found = if path.exists() { Some(part_file::read(&path)?) } else { None };
@@ -131,9 +137,11 @@ fn shard_name(shard: Shard) -> String {
 }
 
 /// One run at a time: two would overwrite each other's file. The system gives the lock back, however this run ends; where it
-/// cannot lock folders there is none.
+/// cannot lock files there is none. A file of its own, open for writing: network file systems lock nothing else.
 fn lock(folder: &Path, name: &str) -> Result<Option<File>, CliError> {
-    let Ok(file) = File::open(folder) else { return Ok(None) };
+    let Ok(file) = File::options().create(true).truncate(false).write(true).open(folder.join(LOCK)) else {
+        return Ok(None);
+    };
     match file.try_lock() {
         Ok(()) => Ok(Some(file)),
         Err(TryLockError::WouldBlock) => {

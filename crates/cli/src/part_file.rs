@@ -50,6 +50,13 @@ impl Identity {
         Self { version: VERSION.to_owned(), parameters, input_blake3: input_blake3.to_owned() }
     }
 
+    /// What is wrong with the version, if it is not this program's: the layout of a part follows from the program.
+    pub(crate) fn foreign_version(&self) -> Option<String> {
+        let problem =
+            || format!("was made by tigereye {}; expected a part of tigereye {VERSION}", self.version);
+        (self.version != VERSION).then(problem)
+    }
+
     /// The first difference that shows in the result, as its name and its values here and there.
     pub(crate) fn difference(&self, other: &Self) -> Option<(String, String, String)> {
         if self.version != other.version {

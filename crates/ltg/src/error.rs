@@ -35,6 +35,14 @@ pub enum LtgError {
         /// Bytes allowed.
         bound: u64,
     },
+    /// A stored value that no gradient has.
+    #[error("value {index} is {value}: expected a finite number from 0")]
+    Value {
+        /// Index into the values.
+        index: usize,
+        /// What is there.
+        value: f64,
+    },
     /// A stopping rule out of range.
     #[error(transparent)]
     Stopping(#[from] TransportError),

@@ -66,7 +66,7 @@ impl PartialVolume {
     /// What an earlier run finished. Nothing is allocated for sizes that do not fit.
     ///
     /// # Errors
-    /// As [`Self::empty`], and [`LtgError::Length`] for lists of other lengths than this gradient's.
+    /// As [`Self::empty`], and [`LtgError::Length`] for lists of other lengths than this gradient's, [`LtgError::Value`] for values it cannot have.
     pub fn restored(
         grid: Grid,
         directions: Directions,
@@ -80,6 +80,10 @@ impl PartialVolume {
         };
         check("values", finished.squares.len(), grid.cells() as u128 * volume.slices.len() as u128)?;
         check("marks", finished.done.len(), volume.sets.len() as u128 * inner_cells(grid) as u128)?;
+        let rubbish = |v: &f64| !v.is_finite() || *v < 0.0;
+        if let Some(index) = finished.squares.iter().position(rubbish) {
+            return Err(LtgError::Value { index, value: finished.squares[index] });
+        }
         volume.finished = finished;
         Ok(volume)
     }

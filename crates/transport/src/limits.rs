@@ -4,7 +4,6 @@
 
 use crate::Real;
 use crate::aligned::Aligned;
-use crate::pulses::state_numbers;
 use crate::simd::{Level, Vector};
 use core::hint::black_box;
 use tigereye_core::Grid;
@@ -71,7 +70,8 @@ impl<T: Real> Traffic<T> {
     /// Memory for `grid`.
     #[must_use]
     pub fn new(grid: Grid) -> Self {
-        Self { numbers: Aligned::zeros(state_numbers::<T>(grid)), cells: grid.cells() as u64 }
+        // The ring of ghost cells around them is hardly touched by a step.
+        Self { numbers: Aligned::zeros(grid.cells() * 8 * T::LANES), cells: grid.cells() as u64 }
     }
 
     /// Reads and writes every number once, as a step does, and nothing else. Returns how many updates of a cell in a lane

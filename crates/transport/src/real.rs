@@ -57,6 +57,8 @@ pub(crate) trait Number:
     const TINY: Self;
     /// Relative changes of a whole distribution below this are rounding.
     const SETTLED: f64;
+    /// A pulse whose light stays longer than so many steps has no stationary state within reach of these numbers.
+    const RESIDENCE: f64;
 
     /// How the cells of a field pass light on, row-major.
     fn passages<'f>(field: &'f Scattering<'_>) -> &'f [Passage<Self>];
@@ -70,10 +72,11 @@ pub(crate) trait Number:
 }
 
 macro_rules! number {
-    ($type:ident, $passages:ident, $sums:ident, $tiny:literal, $settled:literal) => {
+    ($type:ident, $passages:ident, $sums:ident, $tiny:literal, $settled:literal, $residence:literal) => {
         impl Number for $type {
             const TINY: Self = $tiny;
             const SETTLED: f64 = $settled;
+            const RESIDENCE: f64 = $residence;
 
             fn passages<'f>(field: &'f Scattering<'_>) -> &'f [Passage<Self>] {
                 field.$passages.get_or_init(|| field.make_passages())
@@ -102,5 +105,5 @@ macro_rules! number {
     };
 }
 
-number!(f64, passages_f64, sums_f64, 1e-280, 1e-14);
-number!(f32, passages_f32, sums_f32, 1e-30, 1e-6);
+number!(f64, passages_f64, sums_f64, 1e-280, 1e-14, 1e7);
+number!(f32, passages_f32, sums_f32, 1e-30, 1e-6, 1e4);

@@ -128,6 +128,7 @@ fn fault(error: LtgError) -> CliError {
         LtgError::Shard { .. } => CliError::input("--shard", error),
         LtgError::Unlike { .. }
         | LtgError::Length { .. }
+        | LtgError::Value { .. }
         | LtgError::DoneTwice { .. }
         | LtgError::Missing { .. } => CliError::input("--checkpoint", error),
     }

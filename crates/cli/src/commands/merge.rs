@@ -55,6 +55,9 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
 
 fn read(path: &Path) -> Result<(Taken, PartialVolume), CliError> {
     let PartFile { identity, shard, costs, volume } = part_file::read(path)?;
+    if let Some(problem) = identity.foreign_version() {
+        return Err(CliError::input(&path.display().to_string(), problem));
+    }
     let done = volume.finished().done.clone();
     Ok((Taken { name: path.display().to_string(), identity, shard, costs, done }, volume))
 }

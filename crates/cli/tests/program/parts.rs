@@ -368,7 +368,7 @@ fn the_cluster_scripts_compute_shards_and_merge_them() {
             .env("TIGEREYE_PARTS", "parts")
             .env("TIGEREYE_MEMORY", "1G")
             .env("SLURM_ARRAY_TASK_ID", task.to_string())
-            .env("SLURM_ARRAY_TASK_COUNT", "3")
+            .env("TIGEREYE_SHARDS", "3")
             .env("SLURM_CPUS_PER_TASK", "1")
             .output()
             .unwrap();

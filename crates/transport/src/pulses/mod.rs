@@ -22,13 +22,7 @@ pub(crate) use solver::Run;
 
 use crate::Real;
 use crate::aligned::Aligned;
-use stream::Stream;
-use tigereye_core::{Cell, Grid};
-
-/// How many numbers the light of full lanes takes on a grid.
-pub(crate) const fn state_numbers<T: Real>(grid: Grid) -> usize {
-    Stream::<T, 1>::cells(grid) * 8 * T::LANES
-}
+use tigereye_core::Cell;
 
 /// The light of one pulse: eight fluxes a cell, `lobes[cell][direction]`, W, row-major.
 ///

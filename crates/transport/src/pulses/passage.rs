@@ -57,6 +57,11 @@ impl<T: Number> Passage<T> {
         }
     }
 
+    /// `Tbar`, 0 to 1.
+    pub(crate) const fn rate(&self) -> T {
+        self.rate
+    }
+
     /// `Phi = Tbar E (M a) / sum(M a)` with `E = sum a`; nothing where nothing passes.
     ///
     /// Sixty-two operations and a division: 8 + 8 for p, 24 for M a, 7 for E and the sums of opposite p, 4 for sum(M a),

@@ -182,10 +182,9 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
         self.stream.clear(whole(self.field.grid()));
         let outcomes = settled.map(|settled| match settled {
             Settled::Stationary(work) => Some(LaneOutcome { stop: StopReason::Converged, work }),
-            Settled::Limit(work) => Some(LaneOutcome { stop: StopReason::StepLimit, work }),
             Settled::Never => None,
         });
-        // Light that is caught in a loop grows for ever: it is what it is after so many plain steps.
+        // Light that is caught in a loop grows for ever: it is what it is after so many plain steps. The search is not counted.
         self.stopping = Stopping::steps(limit.min(Stopping::REFERENCE.max_iterations + 1));
         if outcomes.contains(&None) { self.march::<V>(proof, outcomes) } else { self.finished(outcomes) }
     }

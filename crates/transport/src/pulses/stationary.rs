@@ -14,14 +14,16 @@
 //! processor.
 
 use super::solver::Run;
-use super::stream::{Lobes, Parity, Scene, Stream, load8, slot, slot_mut};
+use super::stream::{Lobes, Parity, Scene, Stream, load8, slot_mut};
 use crate::Real;
 use crate::real::Number;
 use crate::simd::Vector;
-use tigereye_core::{Cell, Work};
+use tigereye_core::{Cell, Grid, Work};
 
 /// Pairs of sweeps between two mixings.
 const PAIRS: usize = 3;
+/// Rows that a sweep works on at once.
+const ROWS: usize = 4;
 /// Changes that are remembered.
 const DEPTH: usize = 3;
 /// Directions that a row-major sweep reads before it writes them.
@@ -32,23 +34,24 @@ const FLOOR: f64 = 1.0 / 16.0;
 const GROWTH: f64 = 4.0;
 /// A remembered change that depends on newer ones up to this part of its squared norm is not used.
 const DEPENDENT: f64 = 1e-12;
-/// What a plain step may change of the light a pulse injects in one (1). Light that is caught in a loop grows for ever, and
-/// its relative change falls below any tolerance.
-const OF_INJECTED: f64 = 1e-3;
-/// A pulse whose light stays longer than so many steps has no stationary state within reach.
-const RESIDENCE: f64 = 1e7;
+/// By what part of it the light that leaves the grid or is absorbed in a step may differ from what the pulse injects (1). Light
+/// that is caught in a loop grows for ever, while its relative change falls below any tolerance, and below rounding.
+const BALANCE: f64 = 1e-3;
 /// What a pulse injects in one step at most, W.
 const INJECTED: f64 = core::f64::consts::TAU;
+/// Evaluations after which the search is given up: some ten times what rings of light, the slowest of the published fields,
+/// need on a grid of that size.
+const fn patience(grid: Grid) -> usize {
+    1000 + 20 * (grid.width() + grid.height())
+}
 
 /// How a lane's search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Settled {
     /// A plain step changes nothing more.
     Stationary(Work),
-    /// Its light is caught.
+    /// Its light is caught, or the search took too long.
     Never,
-    /// The limit came first; the state is what it was then.
-    Limit(Work),
 }
 
 /// One number for each lane.
@@ -92,6 +95,11 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
         let mut trigger = [tolerance; N];
         let mut sweeps = 0;
         let mut asked = [0; N];
+        let limit = limit.min(patience(grid));
+        if limit <= 2 * PAIRS {
+            self.stream.keep(memory);
+            return [Settled::Never; N];
+        }
         loop {
             self.stream.sample(&mut memory.before);
             for _ in 0..PAIRS {
@@ -105,29 +113,23 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
             let asks: [bool; N] =
                 std::array::from_fn(|l| settled[l].is_none() && changed[l] <= trigger[l] * lit[l]);
             if asks.contains(&true) {
-                let (plain, energy) = self.plain_change::<V>(proof);
+                let found = self.balance::<V>(proof);
                 for l in (0..N).filter(|&l| asks[l]) {
                     // Counted for those who asked: a lane's work does not depend on its neighbours.
                     asked[l] += 1;
-                    trigger[l] *= 0.25;
-                    if energy[l] > RESIDENCE * INJECTED {
+                    // Not below what rounding leaves of a change.
+                    trigger[l] = (0.25 * trigger[l]).max(0.25 * T::SETTLED);
+                    if found.energy[l] > T::RESIDENCE * INJECTED {
                         settled[l] = Some(Settled::Never);
-                    } else if plain[l] <= tolerance * energy[l] && plain[l] <= OF_INJECTED * INJECTED {
+                    } else if found.change[l] <= tolerance * found.energy[l]
+                        && (found.injected[l] - found.lost[l]).abs() <= BALANCE * found.injected[l]
+                    {
                         settled[l] = Some(Settled::Stationary(work(sweeps + asked[l])));
                     }
                 }
                 self.take_settled(&asks, &settled);
             }
-            if sweeps >= limit {
-                let running = settled.map(|s| s.is_none());
-                let settled = std::array::from_fn(|l| {
-                    settled[l].unwrap_or_else(|| Settled::Limit(work(sweeps + asked[l])))
-                });
-                self.take_settled(&running, &settled.map(Some));
-                self.stream.keep(memory);
-                return settled;
-            }
-            if settled.iter().all(Option::is_some) {
+            if settled.iter().all(Option::is_some) || sweeps + 2 * PAIRS >= limit {
                 self.stream.keep(memory);
                 return settled.map(|s| s.unwrap_or(Settled::Never));
             }
@@ -138,76 +140,115 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
 
     /// Writes the light of the lanes among `now` that have settled.
     fn take_settled(&mut self, now: &[bool; N], settled: &[Option<Settled>; N]) {
-        let lanes: Vec<usize> =
-            (0..N).filter(|&l| now[l] && settled[l].is_some_and(|s| s != Settled::Never)).collect();
+        let stationary = |l: &usize| matches!(settled[*l], Some(Settled::Stationary(_)));
+        let lanes: Vec<usize> = (0..N).filter(|&l| now[l]).filter(stationary).collect();
         if !lanes.is_empty() {
             self.take(super::solver::whole(self.field.grid()), &lanes);
         }
     }
 
-    /// `sum |F(a) - a|` over the fluxes that arrive anywhere, and the energy, pulses included: one evaluation that changes
-    /// nothing.
+    /// One evaluation that changes nothing: what a plain step would change, and where the light of the pulses stays.
     #[inline(always)]
-    fn plain_change<V: Vector<Number = T>>(&mut self, proof: V::Proof) -> ([f64; N], [f64; N]) {
-        let (mut change, mut energy) = ([0.0; N], [0.0; N]);
-        for cell in self.field.grid().iter() {
-            let (arriving, phi) = self.stream.evaluate::<V>(proof, &self.scene, cell);
+    fn balance<V: Vector<Number = T>>(&self, proof: V::Proof) -> Balance<N> {
+        let mut found = Balance { change: [0.0; N], energy: [0.0; N], injected: [0.0; N], lost: [0.0; N] };
+        for (i, cell) in self.field.grid().iter().enumerate() {
+            let arriving = self.stream.cell(cell);
+            let phi = self.stream.evaluate::<V>(proof, &self.scene, cell);
             let reached = self.stream.reached(cell);
-            let rows = self.stream.three_rows(cell, 1);
-            for l in 0..N {
-                for k in (0..8).filter(|&k| reached[k]) {
-                    change[l] += (phi[k][l] - slot(&rows, k)[l]).abs().widened();
+            let (mut energy, mut passed) = ([0.0; N], [0.0; N]);
+            for k in 0..8 {
+                for l in 0..N {
+                    energy[l] += arriving[k][l].widened();
+                    passed[l] += phi[k][l].widened();
                 }
-                energy[l] += arriving.iter().map(|a| a[l].widened()).sum::<f64>();
+                if reached[k] {
+                    let there = &self.stream.beyond(cell, k)[k];
+                    for l in 0..N {
+                        found.change[l] += (phi[k][l] - there[l]).abs().widened();
+                    }
+                } else {
+                    for l in 0..N {
+                        found.lost[l] += phi[k][l].widened();
+                    }
+                }
             }
             if cell == self.scene.source.cell() {
-                let missing = self.scene.source.missing_energy(&arriving);
+                found.injected = self.scene.source.missing_energy(arriving);
                 for l in 0..N {
-                    energy[l] += missing[l];
+                    energy[l] += found.injected[l];
                 }
             }
+            // By the rate, not by what is missing from `passed`: that would be rounding where nothing is absorbed.
+            let absorbed = 1.0 - self.scene.cells[i].rate().widened();
+            for l in 0..N {
+                found.energy[l] += energy[l];
+                found.lost[l] += if passed[l] > 0.0 { absorbed * energy[l] } else { energy[l] };
+            }
         }
-        (change, energy)
+        found
     }
+}
+
+/// Light of the lanes, W.
+struct Balance<const N: usize> {
+    /// `sum |F(a) - a|` over the fluxes that arrive anywhere.
+    change: [f64; N],
+    /// In the grid, the pulse among it.
+    energy: [f64; N],
+    /// What the pulse adds in a step.
+    injected: [f64; N],
+    /// What leaves the grid or is absorbed in a step.
+    lost: [f64; N],
 }
 
 impl<T: Number, const N: usize> Stream<T, N> {
     /// One sweep in place, in row-major order or `BACK`.
+    ///
+    /// Every cell waits for the one before it. So a few rows run at once, each two cells behind the one before: far enough
+    /// for all that it depends on, and the result is that of one row after the other, to the last bit.
     #[inline(always)]
     fn relax<const BACK: bool, V: Vector<Number = T>>(&mut self, proof: V::Proof, scene: &Scene<'_, T, N>) {
-        let grid = self.grid();
-        for i in 0..grid.height() {
-            let y = if BACK { grid.height() - 1 - i } else { i };
-            let passages = &scene.cells[y * grid.width()..][..grid.width()];
-            let mut rows = self.three_rows(Cell::new(0, y), grid.width());
-            for j in 0..grid.width() {
-                let x = if BACK { grid.width() - 1 - j } else { j };
-                let mut around = rows.each_mut().map(|row| &mut row[x..x + 3]);
-                for c in 0..N / V::WIDTH {
-                    let a: [V; 8] = load8(proof, c, |k| &around[1][1][k]);
-                    let phi = if (Cell { x, y }) == scene.source.cell() {
-                        scene.source.passed(proof, c, &passages[x], &a)
-                    } else {
-                        passages[x].pass(proof, &a).phi
-                    };
-                    // What has nowhere to go ends in the ring of ghost cells, from where nothing is read.
-                    for k in 0..8 {
-                        phi[k].store(slot_mut(&mut around, k), c);
-                    }
+        debug_assert_eq!(self.parity(), Parity::Even);
+        let (width, height) = (self.grid().width(), self.grid().height());
+        for first in (0..height).step_by(ROWS) {
+            let rows = ROWS.min(height - first);
+            for i in 0..width + 2 * (rows - 1) {
+                for r in 0..rows {
+                    let Some(j) = i.checked_sub(2 * r).filter(|&j| j < width) else { continue };
+                    let (x, y) = (j, first + r);
+                    let cell = if BACK { Cell::new(width - 1 - x, height - 1 - y) } else { Cell::new(x, y) };
+                    self.relax_cell::<V>(proof, scene, cell);
                 }
             }
         }
-        debug_assert_eq!(self.parity(), Parity::Even);
     }
 
-    /// What arrives at a cell and what it would pass on.
+    #[inline(always)]
+    fn relax_cell<V: Vector<Number = T>>(&mut self, proof: V::Proof, scene: &Scene<'_, T, N>, cell: Cell) {
+        let passage = &scene.cells[self.grid().index(cell)];
+        let mut around = self.three_rows(cell, 1);
+        for c in 0..N / V::WIDTH {
+            let a: [V; 8] = load8(proof, c, |k| &around[1][1][k]);
+            let phi = if cell == scene.source.cell() {
+                scene.source.passed(proof, c, passage, &a)
+            } else {
+                passage.pass(proof, &a).phi
+            };
+            // What has nowhere to go ends in the ring of ghost cells, from where nothing is read.
+            for k in 0..8 {
+                phi[k].store(slot_mut(&mut around, k), c);
+            }
+        }
+    }
+
+    /// What a cell would pass on.
     #[inline(always)]
     fn evaluate<V: Vector<Number = T>>(
         &self,
         proof: V::Proof,
         scene: &Scene<'_, T, N>,
         cell: Cell,
-    ) -> (Lobes<T, N>, Lobes<T, N>) {
+    ) -> Lobes<T, N> {
         let slots = self.cell(cell);
         let passage = &scene.cells[self.grid().index(cell)];
         let mut passed = *slots;
@@ -222,7 +263,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
                 phi[k].store(&mut passed[k], c);
             }
         }
-        (*slots, passed)
+        passed
     }
 
     /// The number of each cell that stands for it: the four directions in turn.

@@ -98,6 +98,14 @@ impl<T: Number, const N: usize> Stream<T, N> {
         &mut self.slots_mut()[here]
     }
 
+    /// The slots of the cell in direction `k`, which may be a ghost.
+    #[inline(always)]
+    pub(crate) fn beyond(&self, cell: Cell, k: usize) -> &Lobes<T, N> {
+        let (dx, dy) = NEIGHBOUR_OFFSETS[k];
+        let here = self.index(cell.x, cell.y) as isize;
+        &self.slots()[(here + dx + dy * self.stride as isize) as usize]
+    }
+
     /// An empty memory.
     pub(crate) fn memory(&mut self) -> Box<Memory<T, N>> {
         let mut memory = self.memory.take().unwrap_or_else(|| Box::new(Memory::new(self.grid.cells())));
@@ -403,7 +411,7 @@ fn keep_reached<V: Vector>(proof: V::Proof, phi: &mut [V; 8], reached: &[bool; 8
 
 /// Slot k of the neighbour in direction k, of three cells of three rows.
 #[inline(always)]
-pub(crate) fn slot<'a, T, const N: usize>(rows: &'a [&mut [Lobes<T, N>]; 3], k: usize) -> &'a [T; N] {
+fn slot<'a, T, const N: usize>(rows: &'a [&mut [Lobes<T, N>]; 3], k: usize) -> &'a [T; N] {
     let (dx, dy) = NEIGHBOUR_OFFSETS[k];
     &rows[(dy + 1) as usize][(dx + 1) as usize][k]
 }

@@ -1,11 +1,12 @@
 //! Files, progress and interruption for experiments.
 
-use crate::interrupt;
+use crate::{interrupt, system};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
 use tigereye_experiments::{Host, library};
+use tigereye_transport::Level;
 
 /// How many parents of an experiment's folder are searched for its data.
 const PARENTS: usize = 3;
@@ -42,6 +43,11 @@ pub(crate) fn sweep_style() -> ProgressStyle {
 }
 
 impl Host for FileHost {
+    fn level(&self) -> Level {
+        // A wrong name was refused at the start.
+        system::level().unwrap_or_else(|_| Level::detect())
+    }
+
     fn read(&self, path: &str) -> Result<Vec<u8>, String> {
         let mut tried = Vec::new();
         let mut folder = self.folder.clone();

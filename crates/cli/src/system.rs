@@ -20,13 +20,16 @@ fn kilobytes(text: &str, key: &str) -> Option<u64> {
     line.split_whitespace().next()?.parse().ok()
 }
 
+/// The environment variable that may name an instruction set to use instead of the widest one.
+const LEVEL: &str = "TIGEREYE_SIMD";
+
 /// The instruction set of the hot loops: the widest there is, or the one that the environment names.
 pub(crate) fn level() -> Result<Level, CliError> {
-    let Some(name) = std::env::var_os(Level::VARIABLE) else { return Ok(Level::detect()) };
+    let Some(name) = std::env::var_os(LEVEL) else { return Ok(Level::detect()) };
     let name = name.to_string_lossy();
     Level::named(&name).ok_or_else(|| {
         let names: Vec<&str> = Level::available().iter().map(|l| l.name()).collect();
-        CliError::input(Level::VARIABLE, format!("`{name}`: expected one of {}", names.join(", ")))
+        CliError::input(LEVEL, format!("`{name}`: expected one of {}", names.join(", ")))
     })
 }
 

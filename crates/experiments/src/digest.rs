@@ -2,8 +2,10 @@
 
 use crate::measure::{inner_cells, mean_anisotropy};
 use crate::outcome::ExperimentOutcome;
+use crate::pulses::PulseRecord;
 use crate::runs::{LightResult, Results};
 use crate::settings::Settings;
+use crate::spec::PulseNumber;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use tigereye_ltg::LtgOutcome;
@@ -16,7 +18,12 @@ pub struct Digest {
     fields: BTreeMap<String, FieldDigest>,
     lights: BTreeMap<String, LightDigest>,
     gradients: BTreeMap<String, GradientDigest>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pulses: BTreeMap<String, PulsesDigest>,
     figures: Vec<String>,
+    /// Headings of tables, with their numbers of rows.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    tables: Vec<String>,
     checks: Vec<CheckDigest>,
 }
 
@@ -54,6 +61,19 @@ struct GradientDigest {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+struct PulsesDigest {
+    pulses: usize,
+    settled: usize,
+    /// Steps or evaluations of all pulses.
+    stopped_steps: String,
+    plain_steps: String,
+    evaluations: String,
+    /// Smallest, quartiles and largest of the pulses.
+    stopped_distance: [String; 5],
+    missing_energy: [String; 5],
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
 struct CheckDigest {
     name: String,
     value: String,
@@ -79,11 +99,13 @@ pub(crate) fn digest(settings: &Settings, results: &Results, outcome: &Experimen
         fields: fields.collect(),
         lights: results.lights.iter().map(|(n, r)| (n.clone(), light(r))).collect(),
         gradients: results.gradients.iter().map(|(n, g)| (n.clone(), gradient(g))).collect(),
+        pulses: results.pulses.iter().map(|(n, p)| (n.clone(), pulses(p))).collect(),
         figures: outcome
             .figures
             .iter()
             .map(|f| format!("{} {}x{}", f.name, f.width_px.round(), f.height_px.round()))
             .collect(),
+        tables: outcome.tables.iter().map(|t| format!("{}: {} rows", t.title, t.rows.len())).collect(),
         checks: outcome
             .checks
             .iter()
@@ -123,6 +145,20 @@ fn gradient(outcome: &LtgOutcome) -> GradientDigest {
         limited: outcome.limited,
         mean: rounded(volume.values().iter().sum::<f64>() / volume.values().len().max(1) as f64),
         quantiles: quantiles(values.collect()),
+    }
+}
+
+fn pulses(records: &[PulseRecord]) -> PulsesDigest {
+    let all = |number| records.iter().map(|p| p.number(number)).collect::<Vec<f64>>();
+    let sum = |number| all(number).iter().sum::<f64>().to_string();
+    PulsesDigest {
+        pulses: records.len(),
+        settled: all(PulseNumber::Settled).iter().filter(|s| **s == 1.0).count(),
+        stopped_steps: sum(PulseNumber::StoppedSteps),
+        plain_steps: sum(PulseNumber::PlainSteps),
+        evaluations: sum(PulseNumber::Evaluations),
+        stopped_distance: quantiles(all(PulseNumber::StoppedDistance)),
+        missing_energy: quantiles(all(PulseNumber::MissingEnergy)),
     }
 }
 

@@ -344,6 +344,9 @@ impl Draw<'_> {
             S::SliceRow { label, run, deg, row } => {
                 (label.clone(), self.slice_row(run, deg.get(), *row).unwrap_or_default())
             }
+            S::PulsesOverColumn { label, run, number, deg } => {
+                (label.clone(), self.pulses_over_column(run, *number, deg.get()).unwrap_or_default())
+            }
             S::MeanOverCells { label, run } => (label.clone(), self.mean_over_cells(run).unwrap_or_default()),
         })
     }
@@ -359,6 +362,13 @@ impl Draw<'_> {
         let w = slice.grid().width();
         (row < slice.grid().height())
             .then(|| (1..w - 1).map(|x| (x as f64, *slice.at(Cell::new(x, row)))).collect())
+    }
+
+    fn pulses_over_column(&self, run: &str, number: spec::PulseNumber, deg: f64) -> Option<Vec<(f64, f64)>> {
+        let (_, settings) = self.settings.runs.iter().find(|(name, _)| name == run)?;
+        let sample = sample_of(deg, settings.scene().directions).ok()?;
+        let pulses = self.results.pulses.get(run)?.iter().filter(|p| p.sample == sample);
+        Some(pulses.map(|p| (p.cell.x as f64, p.number(number))).collect())
     }
 
     fn mean_over_cells(&self, run: &str) -> Option<Vec<(f64, f64)>> {

@@ -6,8 +6,11 @@ use crate::host::Host;
 use crate::measure;
 use crate::outcome::{DataFile, ExperimentOutcome};
 use crate::provenance::{hash_of_field, provenance};
+use crate::pulses::comma_separated;
 use crate::runs::{Results, RunError, run_all};
 use crate::settings::{RunSettings, Settings};
+use crate::spec::PulseNumber;
+use crate::tables;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use thiserror::Error;
@@ -89,6 +92,7 @@ pub fn evaluate(
         claim: e.claim.clone(),
         look_for: e.look_for.clone(),
         figures,
+        tables: e.tables.iter().map(|t| tables::table(t, &results)).collect(),
         checks,
         work: work_of(settings, &results),
         data,
@@ -112,11 +116,23 @@ fn work_of(settings: &Settings, results: &Results) -> Vec<(String, u64)> {
             work.push((format!("{name}: most steps of a source"), g.work.iterations_max));
             work.push((format!("{name}: cell updates"), g.work.cell_updates));
         }
+        if let Some(pulses) = results.pulses.get(name) {
+            let settled = |number| pulses.iter().map(move |p| p.number(number)).filter(|n| n.is_finite());
+            let sum = |number| settled(number).sum::<f64>() as u64;
+            work.push((
+                format!("{name}: plain steps of all pulses that settle"),
+                sum(PulseNumber::PlainSteps),
+            ));
+            work.push((
+                format!("{name}: evaluations of all pulses that settle"),
+                sum(PulseNumber::Evaluations),
+            ));
+        }
     }
     work
 }
 
-/// Every run's result as VTK image data with its provenance.
+/// Every run's result: VTK image data with its provenance, or a list of pulses.
 fn data_files(
     settings: &Settings,
     command: &str,
@@ -124,6 +140,11 @@ fn data_files(
 ) -> Result<Vec<DataFile>, ExperimentError> {
     let mut files = Vec::new();
     for (name, run) in &settings.runs {
+        if let Some(pulses) = results.pulses.get(name) {
+            let bytes = comma_separated(pulses).into_bytes();
+            files.push(DataFile { name: format!("{}.pulses.csv", file_name(name)), bytes });
+            continue;
+        }
         let story = story_of(settings, command, run);
         let image = if let Some(r) = results.lights.get(name) {
             tigereye_io::image_from_light(&r.last, &story)
@@ -154,6 +175,7 @@ fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
             (&l.scene, json!({ "lights": lights, "engine": format!("{:?}", l.engine) }))
         }
         RunSettings::Gradient(g) => (&g.scene, json!({ "omega_step": g.omega_step, "slices": g.slices })),
+        RunSettings::Pulses(p) => (&p.scene, json!({ "pulses": p.pulses.len() })),
     };
     let stop = match scene.stopping.rule {
         StoppingRule::FluxChange { .. } => "flux",

@@ -1,6 +1,7 @@
 //! What an experiment needs from outside.
 
 use std::ops::ControlFlow;
+use tigereye_transport::Level;
 
 /// The world as experiments see it. The program implements it with files, a clock and a progress bar.
 pub trait Host: Sync {
@@ -13,6 +14,11 @@ pub trait Host: Sync {
     /// Seconds on a clock that only goes forward, for runtimes in figures; they enter no check and no snapshot.
     fn seconds(&self) -> f64 {
         0.0
+    }
+
+    /// The instruction set for sweeps; results do not depend on it.
+    fn level(&self) -> Level {
+        Level::detect()
     }
 
     /// Something happens: `done` of `total` parts of `what`. `Break` ends the experiment.

@@ -14,16 +14,18 @@ mod measure;
 mod outcome;
 mod places;
 pub mod provenance;
+mod pulses;
 pub mod report;
 mod runs;
 pub mod settings;
 pub mod spec;
+mod tables;
 mod uses;
 
 pub use digest::Digest;
 pub use evaluate::{Evaluation, ExperimentError, evaluate, normalization_name};
 pub use host::Host;
-pub use outcome::{CheckOutcome, DataFile, Expected, ExperimentOutcome, Figure};
+pub use outcome::{CheckOutcome, Column, DataFile, Expected, ExperimentOutcome, Figure, Table};
 pub use runs::RunError;
 
 /// A message with its middle left out where somebody's input makes it longer than people read.

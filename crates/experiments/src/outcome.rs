@@ -17,6 +17,8 @@ pub struct ExperimentOutcome {
     pub look_for: String,
     /// Figures in the order of the file.
     pub figures: Vec<Figure>,
+    /// Tables in the order of the file.
+    pub tables: Vec<Table>,
     /// Checks in the order of the file.
     pub checks: Vec<CheckOutcome>,
     /// Work done, as (label, number) in the order of the runs.
@@ -54,6 +56,28 @@ pub struct Figure {
     pub png: Vec<u8>,
     /// The picture as SVG.
     pub svg: String,
+}
+
+/// A table of results for readers; what is compared with expectations stands in the checks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// Heading.
+    pub title: String,
+    /// What is seen, in a few sentences.
+    pub caption: String,
+    /// The columns, that of the rows' names first.
+    pub columns: Vec<Column>,
+    /// Rows: the name and an entry for each further column.
+    pub rows: Vec<(String, Vec<String>)>,
+}
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Heading, with the unit.
+    pub heading: String,
+    /// Whether it holds words; numbers otherwise.
+    pub words: bool,
 }
 
 /// A file of data.

@@ -1,6 +1,6 @@
 //! Whether the steps, slices and cells that figures and checks mention exist, asked before anything is computed.
 
-use crate::settings::{LightSettings, RunSettings, sample_of};
+use crate::settings::{GradientSettings, LightSettings, RunSettings, sample_of};
 use crate::spec::{Panel, ProfileSource, Quantity, SeriesSource};
 use tigereye_core::{Cell, Field, Grid, Tensor2};
 use tigereye_fields::{Expression, ExpressionField};
@@ -18,6 +18,12 @@ pub(crate) struct Misplaced {
     pub(crate) word: String,
     /// What is wrong with it.
     pub(crate) problem: String,
+}
+
+fn sorted(mut slices: Vec<usize>) -> Vec<usize> {
+    slices.sort_unstable();
+    slices.dedup();
+    slices
 }
 
 fn reversed((from, to): (usize, usize)) -> Option<Misplaced> {
@@ -63,6 +69,7 @@ impl Known<'_> {
             SeriesSource::SliceRow { run, deg, row, .. } => {
                 self.slice(run, deg.get()).or_else(|| self.cell_of(run, (0, *row)))
             }
+            SeriesSource::PulsesOverColumn { run, deg, .. } => self.pulse(run, deg.get()),
             SeriesSource::Deviation { of, from, .. } => {
                 fault_of_expression(from, &["x"]).or_else(|| self.fault_of_series(of))
             }
@@ -94,6 +101,7 @@ impl Known<'_> {
             Q::GradientAt { run, cell, sample } => {
                 self.cell_of(run, *cell).or_else(|| self.sample(run, *sample, || format!("sample {sample}")))
             }
+            Q::GradientDifference { run, from } => self.comparable(run, from),
             Q::RidgeColumnError { run, deg, rows, .. } => {
                 let place = || self.slice(run, deg.get()).or_else(|| self.cell_of(run, (0, rows.1)));
                 reversed(*rows).or_else(place)
@@ -114,11 +122,7 @@ impl Known<'_> {
     }
 
     fn cell_of(&self, run: &str, cell: (usize, usize)) -> Option<Misplaced> {
-        let scene = match (self.run)(run)? {
-            RunSettings::Light(l) => &l.scene,
-            RunSettings::Gradient(g) => &g.scene,
-        };
-        self.cell((self.field)(&scene.field)?.grid(), cell)
+        self.cell((self.field)(&(self.run)(run)?.scene().field)?.grid(), cell)
     }
 
     fn step(&self, run: &str, step: Option<usize>) -> Option<Misplaced> {
@@ -140,6 +144,29 @@ impl Known<'_> {
             }
             Err(problem) => Some(Misplaced { word, problem }),
         }
+    }
+
+    fn pulse(&self, run: &str, deg: f64) -> Option<Misplaced> {
+        let RunSettings::Pulses(p) = (self.run)(run)? else { return None };
+        let found = sample_of(deg, p.scene.directions);
+        let missing = match found {
+            Ok(sample) => p.pulses.iter().all(|(_, t)| *t != sample),
+            Err(_) => true,
+        };
+        let problem = || format!("no pulse of \"{run}\" starts at {deg} degrees");
+        missing.then(|| Misplaced { word: format!("deg: {deg}"), problem: problem() })
+    }
+
+    fn comparable(&self, run: &str, from: &str) -> Option<Misplaced> {
+        let (RunSettings::Gradient(a), RunSettings::Gradient(b)) = ((self.run)(run)?, (self.run)(from)?)
+        else {
+            return None;
+        };
+        let grid = |g: &GradientSettings| (self.field)(&g.scene.field).map(Field::grid);
+        let slices = |g: &GradientSettings| g.slices.clone().map(sorted);
+        let same = grid(a)? == grid(b)? && a.scene.directions == b.scene.directions && slices(a) == slices(b);
+        let problem = || format!("\"{run}\" and \"{from}\" differ in cells, directions or slices");
+        (!same).then(|| Misplaced { word: format!("\"{from}\""), problem: problem() })
     }
 
     fn sample(&self, run: &str, sample: usize, what: impl Fn() -> String) -> Option<Misplaced> {

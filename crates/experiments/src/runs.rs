@@ -1,6 +1,7 @@
 //! Runs settings and keeps what figures and checks ask for.
 
 use crate::host::Host;
+use crate::pulses::{PulseRecord, run_pulses};
 use crate::settings::{GradientSettings, LightSettings, RunSettings, Settings};
 use crate::spec::EngineChoice;
 use std::collections::BTreeMap;
@@ -12,7 +13,7 @@ use tigereye_core::{
 use tigereye_ltg::{LtgError, LtgOutcome, LtgSettings, Precision, SweepObserver, check_fit, sweep};
 use tigereye_render::RenderError;
 use tigereye_transport::{
-    EightLobe, Engine, Level, Problem, SampleSpace, Scattering, Scheme, StepView, TransportError,
+    EightLobe, Engine, Problem, SampleSpace, Scattering, Scheme, StepView, TransportError,
 };
 
 /// A run that could not be made, although its settings were in order.
@@ -76,6 +77,7 @@ pub enum RunError {
 pub(crate) struct Results {
     pub(crate) lights: BTreeMap<String, LightResult>,
     pub(crate) gradients: BTreeMap<String, LtgOutcome>,
+    pub(crate) pulses: BTreeMap<String, Vec<PulseRecord>>,
     /// Seconds each run took.
     pub(crate) seconds: BTreeMap<String, f64>,
 }
@@ -99,11 +101,7 @@ pub(crate) struct LightResult {
 pub(crate) fn run_all(settings: &Settings, memory_bytes: u64, host: &dyn Host) -> Result<Results, RunError> {
     let mut results = Results::default();
     for (name, run) in &settings.runs {
-        let scene = match run {
-            RunSettings::Light(l) => &l.scene,
-            RunSettings::Gradient(g) => &g.scene,
-        };
-        let Some(field) = settings.fields.get(&scene.field) else { continue };
+        let Some(field) = settings.fields.get(&run.scene().field) else { continue };
         let start = host.seconds();
         match run {
             RunSettings::Light(light) => {
@@ -113,6 +111,10 @@ pub(crate) fn run_all(settings: &Settings, memory_bytes: u64, host: &dyn Host) -
             RunSettings::Gradient(gradient) => {
                 let result = run_gradient(name, gradient, field, memory_bytes, host)?;
                 results.gradients.insert(name.clone(), result);
+            }
+            RunSettings::Pulses(pulses) => {
+                let result = run_pulses(name, pulses, field, host)?;
+                results.pulses.insert(name.clone(), result);
             }
         }
         results.seconds.insert(name.clone(), host.seconds() - start);
@@ -220,7 +222,7 @@ fn run_gradient(
         omega_step: settings.omega_step,
         slices: settings.slices.clone(),
         memory_bytes,
-        level: Level::detect(),
+        level: host.level(),
         precision: Precision::F64,
     };
     // Before anything large is made.

@@ -32,9 +32,23 @@ pub enum RunSettings {
     Light(LightSettings),
     /// A gradient.
     Gradient(GradientSettings),
+    /// Pulses and their stationary states.
+    Pulses(PulsesSettings),
 }
 
-/// What runs of both kinds share.
+impl RunSettings {
+    /// Field and scheme.
+    #[must_use]
+    pub const fn scene(&self) -> &Scene {
+        match self {
+            Self::Light(l) => &l.scene,
+            Self::Gradient(g) => &g.scene,
+            Self::Pulses(p) => &p.scene,
+        }
+    }
+}
+
+/// What runs of all kinds share.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Name of the field.
@@ -73,6 +87,15 @@ pub struct GradientSettings {
     pub omega_step: usize,
     /// Sample indices; `None`: all.
     pub slices: Option<Vec<usize>>,
+}
+
+/// Pulses, ready to start.
+#[derive(Clone, Debug)]
+pub struct PulsesSettings {
+    /// Field and scheme; its rule is the one compared with the stationary state.
+    pub scene: Scene,
+    /// Cell and sample of each pulse, in the order of the file: a cell's samples follow each other.
+    pub pulses: Vec<(Cell, usize)>,
 }
 
 /// Resolves an experiment that was read from `text` in `file`.
@@ -114,6 +137,10 @@ pub fn resolve(
         experiment
             .checks
             .retain(|c| uses::of_quantity(&c.quantity).iter().all(|(r, _)| runs_now.contains(r)));
+        for table in &mut experiment.tables {
+            uses::keep_rows(table, &runs_now);
+        }
+        experiment.tables.retain(|t| !uses::is_empty(t));
         Ok(Settings { slug, experiment, fields, runs })
     } else {
         Err(resolver.problems)
@@ -127,7 +154,7 @@ pub fn slug_of(file: &str) -> String {
     name.strip_suffix(".ron").unwrap_or(name).to_owned()
 }
 
-/// A figure or check that mentions something.
+/// A figure, table or check that mentions something.
 #[derive(Clone, Copy)]
 struct User<'a> {
     kind: &'static str,
@@ -136,7 +163,7 @@ struct User<'a> {
 
 const fn scope_of(run: &Run) -> Scope {
     match run {
-        Run::Light { scope, .. } | Run::Gradient { scope, .. } => *scope,
+        Run::Light { scope, .. } | Run::Gradient { scope, .. } | Run::Pulses { scope, .. } => *scope,
     }
 }
 
@@ -168,7 +195,8 @@ impl Resolver<'_> {
     ) -> Option<RunSettings> {
         let (field_name, directions, normalization, weights, stop) = match run {
             Run::Light { field, directions, normalization, weights, stop, .. }
-            | Run::Gradient { field, directions, normalization, weights, stop, .. } => {
+            | Run::Gradient { field, directions, normalization, weights, stop, .. }
+            | Run::Pulses { field, directions, normalization, weights, stop, .. } => {
                 (field, directions.0, *normalization, *weights, *stop)
             }
         };
@@ -197,6 +225,9 @@ impl Resolver<'_> {
             }
             Run::Gradient { omega_step, slices_deg, .. } => {
                 self.gradient(name, scene, *omega_step, slices_deg.as_deref())
+            }
+            Run::Pulses { cells, angles_deg, .. } => {
+                self.pulses(name, scene, field.grid(), cells, angles_deg)
             }
         }
     }
@@ -277,7 +308,45 @@ impl Resolver<'_> {
         Some(RunSettings::Gradient(GradientSettings { scene, omega_step, slices }))
     }
 
-    /// Reports a problem with the `word` that a figure or check mentions.
+    fn pulses(
+        &mut self,
+        name: &str,
+        scene: Scene,
+        grid: Grid,
+        cells: &[(usize, usize)],
+        angles_deg: &[spec::Finite],
+    ) -> Option<RunSettings> {
+        let before = self.problems.len();
+        let mut samples = Vec::new();
+        for deg in angles_deg {
+            match sample_of(deg.get(), scene.directions) {
+                Ok(t) if samples.contains(&t) => {
+                    self.fault(name, format!("run \"{name}\": {} degrees stand twice", deg.get()));
+                }
+                Ok(t) => samples.push(t),
+                Err(problem) => self.fault(name, format!("run \"{name}\": {problem}")),
+            }
+        }
+        for (i, &(x, y)) in cells.iter().enumerate() {
+            if !grid.contains(Cell::new(x, y)) {
+                let (w, h) = (grid.width(), grid.height());
+                self.fault(
+                    name,
+                    format!("run \"{name}\": cell ({x}, {y}) lies outside of the {w} x {h} cells"),
+                );
+            } else if cells[..i].contains(&(x, y)) {
+                self.fault(name, format!("run \"{name}\": cell ({x}, {y}) stands twice"));
+            }
+        }
+        if cells.is_empty() || angles_deg.is_empty() {
+            self.fault(name, format!("run \"{name}\" has no pulse: expected cells and angles"));
+        }
+        let of_cell = |&(x, y): &(usize, usize)| samples.iter().map(move |&t| (Cell::new(x, y), t));
+        let pulses = cells.iter().flat_map(of_cell).collect();
+        (self.problems.len() == before).then_some(RunSettings::Pulses(PulsesSettings { scene, pulses }))
+    }
+
+    /// Reports a problem with the `word` that a figure, table or check mentions.
     fn fault_of(&mut self, user: User<'_>, word: &str, problem: &str) {
         let problem = format!("{} \"{}\" {problem}", user.kind, user.name);
         self.fault_at(&[&format!("{}s:", user.kind), &format!("\"{}\"", user.name)], word, &problem);
@@ -291,7 +360,7 @@ impl Resolver<'_> {
         self.problems.push(SpecError { file: self.file.to_owned(), line, column, problem });
     }
 
-    /// Checks every name that figures and checks mention.
+    /// Checks every name that figures, tables and checks mention.
     fn references(&mut self, experiment: &Experiment) {
         let mut runs: Vec<(User, &str, RunKind)> = Vec::new();
         let mut fields: Vec<(User, &str)> = Vec::new();
@@ -307,6 +376,11 @@ impl Resolver<'_> {
             runs.extend(uses::of_quantity(&check.quantity).into_iter().map(|(run, kind)| (user, run, kind)));
             fields.extend(uses::field_of_quantity(&check.quantity).map(|f| (user, f)));
         }
+        for table in &experiment.tables {
+            let user = User { kind: "table", name: &table.title };
+            runs.extend(uses::of_table(table).into_iter().map(|(run, kind)| (user, run, kind)));
+            self.runtimes(experiment, user, table);
+        }
         for (user, run, kind) in runs {
             let found = experiment.runs.get(run).map(RunKind::of);
             if found.is_none() {
@@ -321,6 +395,16 @@ impl Resolver<'_> {
             self.fault_of(user, field, &format!("names a field \"{field}\": expected one of {known}"));
         }
         self.figure_names(experiment);
+    }
+
+    /// Checks the runs whose seconds a table shows: of any kind.
+    fn runtimes(&mut self, experiment: &Experiment, user: User<'_>, table: &spec::Table) {
+        let spec::TableRows::Runtimes { rows } = &table.rows else { return };
+        let named = rows.iter().filter_map(|r| r.run.as_deref());
+        for run in named.filter(|r| experiment.runs.get(r).is_none()) {
+            let known = experiment.runs.names();
+            self.fault_of(user, run, &format!("names a run \"{run}\": expected one of {known}"));
+        }
     }
 
     /// Checks every step, slice and cell that figures and checks mention.

@@ -1,12 +1,13 @@
-//! Which runs and fields the figures and checks of an experiment mention.
+//! Which runs and fields the figures, tables and checks of an experiment mention.
 
-use crate::spec::{Experiment, Panel, ProfileSource, Quantity, Run, SeriesSource};
+use crate::spec::{Experiment, Panel, ProfileSource, Quantity, Run, SeriesSource, Table, TableRows};
 
 /// The kinds of runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RunKind {
     Light,
     Gradient,
+    Pulses,
 }
 
 impl RunKind {
@@ -14,6 +15,7 @@ impl RunKind {
         match run {
             Run::Light { .. } => Self::Light,
             Run::Gradient { .. } => Self::Gradient,
+            Run::Pulses { .. } => Self::Pulses,
         }
     }
 }
@@ -49,6 +51,38 @@ fn of_series(series: &SeriesSource) -> Option<(&str, RunKind)> {
         | S::RadiusMean { run, .. }
         | S::RadiusSpread { run, .. } => Some((run, RunKind::Light)),
         S::SliceRow { run, .. } | S::MeanOverCells { run, .. } => Some((run, RunKind::Gradient)),
+        S::PulsesOverColumn { run, .. } => Some((run, RunKind::Pulses)),
+    }
+}
+
+/// Runs a table shows whose kind matters.
+pub(crate) fn of_table(table: &Table) -> Vec<(&str, RunKind)> {
+    match &table.rows {
+        TableRows::Pulses { runs } => runs.iter().map(|r| (r.as_str(), RunKind::Pulses)).collect(),
+        TableRows::Gradients { rows, .. } => {
+            rows.iter().flat_map(|r| [&r.first, &r.second]).map(|r| (r.as_str(), RunKind::Gradient)).collect()
+        }
+        TableRows::Runtimes { .. } => Vec::new(),
+    }
+}
+
+/// Leaves rows out whose runs are not among `runs`; a runtime that is missing is told instead.
+pub(crate) fn keep_rows(table: &mut Table, runs: &[&str]) {
+    match &mut table.rows {
+        TableRows::Pulses { runs: rows } => rows.retain(|r| runs.contains(&r.as_str())),
+        TableRows::Gradients { rows, .. } => {
+            rows.retain(|r| runs.contains(&r.first.as_str()) && runs.contains(&r.second.as_str()));
+        }
+        TableRows::Runtimes { .. } => {}
+    }
+}
+
+/// Whether a table has no rows.
+pub(crate) const fn is_empty(table: &Table) -> bool {
+    match &table.rows {
+        TableRows::Pulses { runs } => runs.is_empty(),
+        TableRows::Gradients { rows, .. } => rows.is_empty(),
+        TableRows::Runtimes { rows } => rows.is_empty(),
     }
 }
 
@@ -101,7 +135,10 @@ pub(crate) fn of_quantity(quantity: &Quantity) -> Vec<(&str, RunKind)> {
         | Q::RidgeColumnError { run, .. }
         | Q::RidgeContrast { run, .. }
         | Q::GradientSymmetry { run, .. } => vec![(run, RunKind::Gradient)],
-        Q::GradientCorrelation { run, with } => vec![(run, RunKind::Gradient), (with, RunKind::Gradient)],
+        Q::GradientCorrelation { run, with: other } | Q::GradientDifference { run, from: other } => {
+            vec![(run, RunKind::Gradient), (other, RunKind::Gradient)]
+        }
+        Q::OfPulses { runs, .. } => runs.iter().map(|r| (r.as_str(), RunKind::Pulses)).collect(),
     }
 }
 

@@ -36,6 +36,12 @@ const GOOD: &str = r#"// Claim: this file is in order.
             omega_step: Samples(2),
             slices_deg: [0, 45],
         ),
+        "rest": Pulses(
+            field: "formula",
+            directions: 16,
+            cells: [(2, 3), (1, 1)],
+            angles_deg: [0, 67.5],
+        ),
     },
     figures: [
         (
@@ -55,9 +61,20 @@ const GOOD: &str = r#"// Claim: this file is in order.
                     x: (label: "x"),
                     y: (label: "y"),
                     title: "d",
-                    series: [Formula(label: "e", expression: "x^2", range: (0, 1))],
+                    series: [
+                        Formula(label: "e", expression: "x^2", range: (0, 1)),
+                        PulsesOverColumn(label: "f", run: "rest", number: PlainSteps, deg: 67.5),
+                    ],
                 ),
             ],
+        ),
+    ],
+    tables: [
+        (title: "stillness", caption: "Caption.", rows: Pulses(runs: ["rest"])),
+        (
+            title: "times",
+            caption: "Caption.",
+            rows: Runtimes(rows: [(label: "g", cores: 64, published_s: 757, run: "slope"), (label: "h", cores: 1, published_s: 2)]),
         ),
     ],
     checks: [
@@ -71,6 +88,12 @@ const GOOD: &str = r#"// Claim: this file is in order.
             name: "axis",
             quantity: MajorAxisError(field: "formula", phi_deg: "theta"),
             expect: AtMost(360),
+            basis: "Basis.",
+        ),
+        (
+            name: "calm",
+            quantity: OfPulses(runs: ["rest"], number: Settled, over: Least),
+            expect: AtLeast(1),
             basis: "Basis.",
         ),
     ],
@@ -326,6 +349,85 @@ fn angular_steps_are_from_1_to_half_the_samples() {
         assert_eq!((found[0].line, found[0].column), place_of(&text, "\"slope\""));
         assert!(found[0].problem.contains(&format!("step {k}: expected 1 to 8")), "{}", found[0]);
     }
+}
+
+#[test]
+fn pulses_start_from_cells_and_samples_that_exist() {
+    for (from, to, words) in [
+        ("(2, 3), (1, 1)", "(2, 5)", &["(2, 5) lies outside of the 5 x 5 cells"][..]),
+        ("(2, 3), (1, 1)", "(2, 3), (1, 1), (2, 3)", &["(2, 3) stands twice"]),
+        ("(2, 3), (1, 1)", "", &["no pulse", "cells and angles"]),
+        ("[0, 67.5]", "[]", &["no pulse", "cells and angles"]),
+        ("[0, 67.5]", "[67.5, 60]", &["60 degrees is no sample of 16"]),
+        ("[0, 67.5]", "[0, 67.5, 360]", &["360 degrees stand twice"]),
+    ] {
+        let text = GOOD.replace(from, to);
+        let found = faults(&text, true);
+        assert_eq!(found.len(), 1, "{to}: {found:#?}");
+        assert_eq!((found[0].line, found[0].column), place_of(&text, "\"rest\""), "{}", found[0]);
+        let says = |w: &&str| found[0].problem.contains(*w);
+        assert!(words.iter().chain(&["run \"rest\""]).all(says), "{to}: {}", found[0]);
+    }
+}
+
+#[test]
+fn users_of_pulses_name_pulses() {
+    let words = ["check \"calm\"", "\"glow\"", "Pulses"];
+    refused("OfPulses(runs: [\"rest\"]", "OfPulses(runs: [\"glow\"]", "\"glow\"", &words);
+    refused(
+        "rows: Pulses(runs: [\"rest\"])",
+        "rows: Pulses(runs: [\"slope\"])",
+        "\"slope\"",
+        &["table \"stillness\"", "Pulses"],
+    );
+    refused("number: Settled", "number: Settle", "Settle", &["Settle", "Settled"]);
+    refused("deg: 67.5", "deg: 45.0", "deg: 45", &["figure \"curve\"", "no pulse of \"rest\""]);
+}
+
+#[test]
+fn tables_name_runs_and_times_that_can_be() {
+    refused("run: \"slope\"), (", "run: \"slop\"), (", "\"slop\"", &["table \"times\"", "glow, slope"]);
+    refused(
+        "rows: Pulses(runs: [\"rest\"])",
+        "rows: Pulses(runs: [\"nest\"])",
+        "\"nest\"",
+        &["table \"stillness\"", "glow, slope"],
+    );
+    refused("published_s: 757", "published_s: 0", "0", &["above 0"]);
+    refused("cores: 64", "core: 64", "core", &["core", "cores"]);
+}
+
+#[test]
+fn gradients_are_compared_over_the_same_slices() {
+    let other =
+        "\"other\": Gradient(field: \"formula\", directions: 16, slices_deg: [SLICES]), \"rest\": Pulses(";
+    let compared = |slices: &str| {
+        GOOD.replace("\"rest\": Pulses(", &other.replace("SLICES", slices))
+            .replace("Steps(run: \"glow\")", "GradientDifference(run: \"slope\", from: \"other\")")
+    };
+    assert_eq!(faults(&compared("45, 0"), true), []);
+    let text = compared("45");
+    let found = faults(&text, true);
+    assert_eq!(found.len(), 1, "{found:#?}");
+    let (line, column) = place_of(&text, "from: \"other\"");
+    assert_eq!((found[0].line, found[0].column), (line, column + "from: ".len()));
+    assert!(found[0].problem.contains("differ in cells, directions or slices"), "{}", found[0]);
+}
+
+#[test]
+fn rows_of_another_scope_are_left_out_but_missing_times_are_told() {
+    let text = GOOD
+        .replace("angles_deg: [0, 67.5],", "angles_deg: [0, 67.5], scope: Full,")
+        .replace("slices_deg: [0, 45],", "slices_deg: [0, 45], scope: Full,");
+    let tables = |full| {
+        let experiment = spec::load(FILE, &text).unwrap();
+        let settings = settings::resolve(FILE, &text, experiment, full, &Nothing).unwrap();
+        settings.experiment.tables.iter().map(|t| t.title.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        (tables(true), tables(false)),
+        (vec!["stillness".into(), "times".into()], vec!["times".into()])
+    );
 }
 
 #[test]

@@ -20,7 +20,6 @@ use crate::real::Number;
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Sub};
-use std::sync::OnceLock;
 
 /// Instruction set of the hot loops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,18 +38,10 @@ impl Level {
     /// What every processor of the target has.
     pub const BASELINE: Self = Self(Kind::Baseline);
 
-    /// The environment variable that may name a set to use instead of the widest one.
-    pub const VARIABLE: &str = "TIGEREYE_SIMD";
-
-    /// The set that the variable names, or the widest this processor has. Results do not depend on it. A name that means
-    /// nothing here counts as none; [`Level::named`] tells.
+    /// The widest set this processor has.
     #[must_use]
     pub fn detect() -> Self {
-        static DETECTED: OnceLock<Level> = OnceLock::new();
-        *DETECTED.get_or_init(|| {
-            let asked = std::env::var(Self::VARIABLE).ok().and_then(|name| Self::named(&name));
-            asked.or_else(|| Self::available().pop()).unwrap_or(Self::BASELINE)
-        })
+        Self::available().pop().unwrap_or(Self::BASELINE)
     }
 
     /// All sets this processor has, narrowest first.

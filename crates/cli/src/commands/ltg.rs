@@ -18,7 +18,7 @@ use tigereye_experiments::provenance::provenance;
 use tigereye_ltg::{
     LtgError, LtgSettings, PartialVolume, Precision, Shard, check_fit, omega_step_of_volumes, sweep_part,
 };
-use tigereye_transport::{Level, Scattering, Scheme, SharedWeights};
+use tigereye_transport::{Scattering, Scheme, SharedWeights};
 
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     check_places(args)?;
@@ -140,7 +140,7 @@ fn settings_of(args: &LtgArgs) -> Result<LtgSettings, CliError> {
         omega_step: args.omega_step.unwrap_or_else(|| omega_step_of_volumes(args.scheme.directions)),
         slices: args.slices.clone(),
         memory_bytes: args.resources.memory.unwrap_or_else(system::half_of_memory),
-        level: Level::detect(),
+        level: system::level()?,
         precision: match args.precision {
             args::Precision::F64 => Precision::F64,
             args::Precision::F32 => Precision::F32,

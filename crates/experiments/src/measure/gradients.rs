@@ -105,6 +105,16 @@ pub(super) fn correlation(a: &LtgVolume, b: &LtgVolume) -> Option<f64> {
     pearson(&pairs)
 }
 
+/// L2 difference of two gradients over the L2 norm of `a`, at the same cells and slices.
+pub(crate) fn difference(a: &LtgVolume, b: &LtgVolume) -> Option<f64> {
+    if a.grid() != b.grid() || a.directions() != b.directions() || a.slices() != b.slices() {
+        return None;
+    }
+    let off: f64 = a.values().iter().zip(b.values()).map(|(a, b)| (a - b) * (a - b)).sum();
+    let norm: f64 = a.values().iter().map(|a| a * a).sum();
+    (norm > 0.0).then(|| (off / norm).sqrt())
+}
+
 fn bilinear(field: &Field<f64>, x: f64, y: f64) -> f64 {
     let grid = field.grid();
     let (x0, y0) = (x.floor() as usize, y.floor() as usize);
@@ -136,6 +146,17 @@ mod tests {
         let columns = ridge_columns(&slice);
         assert!((columns[0].expect("a ridge") - 3.25).abs() < 1e-12);
         assert_eq!(ridge_columns(&Field::from_fn(grid, |_| 0.0)), [None]);
+    }
+
+    #[test]
+    fn volumes_differ_relative_to_the_first() {
+        let grid = Grid::new(2, 1).expect("a grid");
+        let directions = Directions::new(8).expect("directions");
+        let volume = |slice, values: [f64; 2]| LtgVolume::new(grid, directions, vec![slice], values.to_vec());
+        let (a, b) = (volume(0, [3.0, 4.0]), volume(0, [3.0, 3.0]));
+        assert_eq!((difference(&a, &b), difference(&a, &a)), (Some(0.2), Some(0.0)));
+        assert_eq!(difference(&a, &volume(1, [3.0, 4.0])), None);
+        assert_eq!(difference(&volume(0, [0.0; 2]), &a), None);
     }
 
     #[test]

@@ -3,10 +3,12 @@
 mod fields;
 mod gradients;
 mod lights;
+mod pulses;
 
 pub(crate) use fields::mean_anisotropy;
-pub(crate) use gradients::{inner_cells, ridge_columns};
+pub(crate) use gradients::{difference as gradient_difference, inner_cells, ridge_columns};
 pub(crate) use lights::{at_step, lobe_ratio, net_flux_ratio};
+pub(crate) use pulses::summary;
 
 use crate::outcome::{CheckOutcome, Expected};
 use crate::runs::{LightResult, Results, RunError};
@@ -75,6 +77,11 @@ impl Measure<'_> {
             Q::ZeroShare { field } => self.field(field).map(fields::zero_share),
             Q::TotalAnisotropyShare { field } => self.field(field).map(fields::total_anisotropy_share),
             Q::LargestAxis { field } => self.field(field).map(fields::largest_axis),
+            Q::OfPulses { runs, number, over } => {
+                let pulses: Option<Vec<_>> =
+                    runs.iter().map(|r| self.results.pulses.get(r).map(Vec::as_slice)).collect();
+                pulses.map(|pulses| summary(&pulses, *number, *over))
+            }
             _ => self.light_quantity(quantity).or_else(|| self.gradient_quantity(quantity)),
         })
     }
@@ -137,6 +144,9 @@ impl Measure<'_> {
             }
             Q::GradientCorrelation { run, with } => {
                 gradients::correlation(&self.gradient(run)?.volume, &self.gradient(with)?.volume)
+            }
+            Q::GradientDifference { run, from } => {
+                gradient_difference(&self.gradient(run)?.volume, &self.gradient(from)?.volume)
             }
             _ => None,
         }

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::figures::figures;
 use super::links::{address, path};
 use super::numbers::{count, counted, duration, file_size, number};
+use super::tables::tables;
 use super::verdict::{Tally, excess, mark};
 use crate::{CheckOutcome, DataFile, Expected, ExperimentOutcome};
 
@@ -29,6 +30,7 @@ pub(super) fn article(outcome: &ExperimentOutcome) -> Markup {
                 p.look-for { b { "What to look for. " } (outcome.look_for) }
             }
             (figures(&outcome.slug, &outcome.figures))
+            (tables(&outcome.tables))
             (checks(&outcome.title, &outcome.checks))
             footer {
                 p.again { "Run it again: " code { (outcome.command) } }

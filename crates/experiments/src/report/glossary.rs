@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-const TERMS: [(&str, &str); 13] = [
+const TERMS: [(&str, &str); 14] = [
     (
         "Tensor",
         "Here a 2 × 2 matrix in a cell, symmetric or not, that says how strongly something acts in each \
@@ -45,6 +45,11 @@ const TERMS: [(&str, &str); 13] = [
         "Threshold",
         "Propagation stops once the total flux changes by less than this between two steps, so results \
          depend on it a little.",
+    ),
+    (
+        "Stationary state",
+        "The light that a further step no longer changes: what steps without end would lead to, free of any \
+         threshold.",
     ),
     ("S", "The number of samples of the full circle of directions, a multiple of 8."),
 ];

@@ -9,6 +9,7 @@ mod links;
 mod numbers;
 mod page;
 mod summary;
+mod tables;
 #[cfg(test)]
 mod tests;
 mod verdict;

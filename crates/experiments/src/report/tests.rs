@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::{About, html, summary_json};
-use crate::{CheckOutcome, DataFile, Expected, ExperimentOutcome, Figure};
+use crate::{CheckOutcome, Column, DataFile, Expected, ExperimentOutcome, Figure, Table};
 
 fn about() -> About {
     let command = "tigereye reproduce --out results".into();
@@ -38,6 +38,14 @@ fn outcome(slug: &str, section: &str, checks: Vec<CheckOutcome>) -> ExperimentOu
         claim: "Light follows 1/r.".into(),
         look_for: "A straight line.".into(),
         figures: vec![figure],
+        tables: vec![Table {
+            title: "Steps by field".into(),
+            caption: "Few and many.".into(),
+            columns: [("Field", true), ("Steps", false)]
+                .map(|(h, words)| Column { heading: h.into(), words })
+                .into(),
+            rows: vec![("rings".into(), vec!["812 (7 to 900)".into()])],
+        }],
         checks,
         work: vec![("steps".into(), 12_345), ("cells".into(), 7), ("steps".into(), 9)],
         data: vec![DataFile { name: "samples.csv".into(), bytes: vec![0; 2048] }],
@@ -146,6 +154,9 @@ fn text_is_escaped_everywhere() {
     hostile.checks[0].basis = evil.into();
     hostile.work = vec![(evil.into(), 1)];
     hostile.data[0].name = evil.into();
+    let table = &mut hostile.tables[0];
+    (table.title, table.caption, table.columns[0].heading) = (evil.into(), evil.into(), evil.into());
+    table.rows[0] = (evil.into(), vec![evil.into()]);
     let figure = &mut hostile.figures[0];
     (figure.name, figure.caption, figure.alt) = (evil.into(), evil.into(), evil.into());
     let about = About { version: evil.into(), command: evil.into(), ..about() };
@@ -172,6 +183,18 @@ fn figures_have_alternative_text_and_size() {
     let page = html(&mixed(), &about());
     assert!(page.contains("alt=\"A bright spot\" width=\"300\" height=\"200\""));
     assert!(page.contains("data:image/png;base64,AQID"));
+}
+
+#[test]
+fn tables_have_headings_of_rows_and_columns() {
+    let page = html(&mixed()[..1], &about());
+    for part in [
+        "<caption><b>Steps by field.</b> Few and many.</caption>",
+        "<th scope=\"col\">Field</th><th class=\"number\" scope=\"col\">Steps</th>",
+        "<th scope=\"row\">rings</th><td class=\"number\">812 (7 to 900)</td>",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
 }
 
 #[test]

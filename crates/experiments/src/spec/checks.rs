@@ -56,6 +56,47 @@ pub enum SchemeConstant {
     WeightSumError,
 }
 
+/// A number of a pulse. What it compares are the fluxes between cells; the injected sample itself does not count. Not a
+/// number where the pulse has no stationary state within reach, except for the first two.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum PulseNumber {
+    /// 1 where plain steps and the solver both reach the stationary state, 0 elsewhere.
+    Settled,
+    /// Steps until the run's stopping rule ends the propagation.
+    StoppedSteps,
+    /// Plain steps until the relative change of the distribution is at most 1e-10.
+    PlainSteps,
+    /// Evaluations of the scheme that the solver needs for the same.
+    Evaluations,
+    /// Plain steps over evaluations.
+    Saving,
+    /// L1 distance of the stopped fluxes from the stationary ones, over the sum of these: over all cells and lobes.
+    StoppedDistance,
+    /// Share of the stationary energy that the stopped state lacks.
+    MissingEnergy,
+    /// What the stopped fluxes exceed the stationary ones by, in sum, over the sum of these: half of how much the distance
+    /// is larger than the missing energy, 0 where light only grows.
+    Overshoot,
+    /// L1 distance, as above, of the solver's state from the one that much longer stepping gives.
+    SolverError,
+    /// The same of the state at which plain steps change by 1e-10.
+    PlainError,
+}
+
+/// One number for many.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum Summary {
+    /// The smallest.
+    Least,
+    /// Their mean.
+    Mean,
+    /// The largest.
+    Most,
+    /// The largest difference of two pulses that follow each other in a run: of neighbours where its cells are neighbours
+    /// and it has one angle.
+    Jump,
+}
+
 /// A number of this run.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -250,6 +291,22 @@ pub enum Quantity {
         run: String,
         /// Symmetry.
         under: Mirror,
+    },
+    /// L2 difference of two gradients over the L2 norm of the first. Both need the same cells and slices.
+    GradientDifference {
+        /// Name of a gradient run.
+        run: String,
+        /// Name of another.
+        from: String,
+    },
+    /// A number of all pulses of some runs, summed up.
+    OfPulses {
+        /// Names of pulses runs.
+        runs: Vec<String>,
+        /// The number.
+        number: PulseNumber,
+        /// How pulses are summed up.
+        over: Summary,
     },
     /// Correlation of the mean over directions of two gradients, the coarser one sampled at the finer one's cells.
     GradientCorrelation {

@@ -1,6 +1,6 @@
 //! Pictures an experiment may draw.
 
-use super::{Finite, NonNegative, Positive};
+use super::{Finite, NonNegative, Positive, PulseNumber};
 use serde::Deserialize;
 
 /// A picture with its caption.
@@ -306,6 +306,17 @@ pub enum SeriesSource {
         label: String,
         /// Names of gradient runs.
         runs: Vec<String>,
+    },
+    /// A number of the pulses in one direction, over the column of their cell.
+    PulsesOverColumn {
+        /// Name in the legend.
+        label: String,
+        /// Name of the pulses run.
+        run: String,
+        /// The number.
+        number: PulseNumber,
+        /// Direction, degrees.
+        deg: Finite,
     },
     /// Mean of a gradient over all inner cells, over the direction in degrees.
     MeanOverCells {

@@ -8,13 +8,15 @@ mod figures;
 mod load;
 mod named;
 mod numbers;
+mod tables;
 
-pub use checks::{Check, Expectation, Mirror, Quantity, SchemeConstant};
+pub use checks::{Check, Expectation, Mirror, PulseNumber, Quantity, SchemeConstant, Summary};
 pub use figures::{Axis, Curve, Figure, FlatView, GlyphColour, Panel, ProfileSource, Scale, SeriesSource};
 pub(crate) use load::place_after;
 pub use load::{SpecError, load};
 pub use named::Named;
 pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive};
+pub use tables::{GradientRow, RuntimeRow, Table, TableRows};
 
 use serde::Deserialize;
 
@@ -43,11 +45,14 @@ pub struct Experiment {
     /// Tensor fields by name.
     #[serde(default)]
     pub fields: Named<FieldSource>,
-    /// Propagations and gradients by name, in order.
+    /// Propagations, gradients and studies of pulses by name, in order.
     #[serde(default)]
     pub runs: Named<Run>,
     /// Pictures.
     pub figures: Vec<Figure>,
+    /// Tables of results.
+    #[serde(default)]
+    pub tables: Vec<Table>,
     /// What must hold.
     pub checks: Vec<Check>,
 }
@@ -196,6 +201,31 @@ pub enum Run {
         /// Angles to compute, degrees; all when left out. Each must be a sample.
         #[serde(default)]
         slices_deg: Option<Vec<Finite>>,
+        /// When it runs.
+        #[serde(default)]
+        scope: Scope,
+    },
+    /// How pulses come to rest: what a stopping rule leaves out of their stationary states, how many plain steps lead there,
+    /// and how few evaluations the solver of gradients needs instead.
+    Pulses {
+        /// Name of the field.
+        field: String,
+        /// Angular samples S, a multiple of 8.
+        #[serde(default)]
+        directions: DirectionCount,
+        /// How profiles are scaled.
+        #[serde(default)]
+        normalization: NormalizationRule,
+        /// Cone weights of the overlap.
+        #[serde(default)]
+        weights: Weights,
+        /// The rule that is compared with the stationary state.
+        #[serde(default)]
+        stop: Stop,
+        /// Columns and rows from which pulses start.
+        cells: Vec<(usize, usize)>,
+        /// Directions in which a pulse starts from each of the cells, degrees. Each must be a sample.
+        angles_deg: Vec<Finite>,
         /// When it runs.
         #[serde(default)]
         scope: Scope,

@@ -3,6 +3,7 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use tigereye_core::{Below, Directions, Normalization};
+use tigereye_io::volume::{Axis, Crop, Frame, Plane};
 use tigereye_ltg::Shard;
 
 /// Shows 2D tensor fields by letting light run through them.
@@ -32,6 +33,8 @@ pub(crate) enum Command {
     Merge(MergeArgs),
     /// What a tensor field holds and how it was read.
     Info(InfoArgs),
+    /// Any readable tensor field to another format.
+    Convert(ConvertArgs),
     /// Difference of two results.
     Compare(CompareArgs),
     /// The engine's speed beside the limits of this machine.
@@ -120,9 +123,73 @@ pub(crate) struct SchemeArgs {
     /// global, local, local-above:F or local-above-global:F; `local` for generators and .txt, `global` otherwise.
     #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
     pub(crate) normalization: Option<Normalization>,
-    /// Array of a .vti to take the tensors from.
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+}
+
+/// What files do not state, and the plane of a volume.
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct ReadingArgs {
+    /// Array of a .vti or .vtk to take the tensors from.
     #[arg(long, value_name = "NAME")]
     pub(crate) array: Option<String>,
+    /// Order of the components: vtk, nrrd, dipy, fsl, mrtrix, or names such as xx,xy,xz,yy,yz,zz.
+    #[arg(long, value_name = "ORDER")]
+    pub(crate) order: Option<String>,
+    /// The axes that the components are along.
+    #[arg(long, value_enum)]
+    pub(crate) frame: Option<FrameName>,
+    /// Slice of a volume: axis and index, from 0 as the file counts, for example z=10.
+    #[arg(long, value_name = "AXIS=INDEX", value_parser = parse_slice)]
+    pub(crate) slice: Option<(Axis, usize)>,
+    /// Plane of a volume; the first letter to the right, the second up.
+    #[arg(long, value_enum)]
+    pub(crate) plane: Option<PlaneName>,
+    /// Part of the plane: columns X0 to X1-1, rows Y0 to Y1-1, row 0 on top.
+    #[arg(long, value_name = "X0:X1,Y0:Y1", value_parser = parse_crop)]
+    pub(crate) crop: Option<Crop>,
+}
+
+/// Frames of components.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FrameName {
+    /// The voxel axes.
+    Voxel,
+    /// The world of the file: the scanner's axes, or VTK's x, y, z.
+    World,
+    /// NRRD's measurement frame.
+    Measurement,
+}
+
+impl From<FrameName> for Frame {
+    fn from(name: FrameName) -> Self {
+        match name {
+            FrameName::Voxel => Self::Voxel,
+            FrameName::World => Self::World,
+            FrameName::Measurement => Self::Measurement,
+        }
+    }
+}
+
+/// Planes of voxel axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PlaneName {
+    /// x right, y up.
+    Xy,
+    /// x right, z up.
+    Xz,
+    /// y right, z up.
+    Yz,
+}
+
+impl From<PlaneName> for Plane {
+    fn from(name: PlaneName) -> Self {
+        match name {
+            PlaneName::Xy => Self::Xy,
+            PlaneName::Xz => Self::Xz,
+            PlaneName::Yz => Self::Yz,
+        }
+    }
 }
 
 /// Stopping rules.
@@ -138,7 +205,7 @@ pub(crate) enum StopRule {
 
 #[derive(Debug, Args)]
 pub(crate) struct PropagateArgs {
-    /// A file (.txt, .npy, .vti) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .vti .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
     /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1).
     #[arg(long = "light", value_name = "X,Y[,PROFILE]", required = true, allow_hyphen_values = true)]
@@ -173,7 +240,7 @@ pub(crate) enum Picture {
 
 #[derive(Debug, Args)]
 pub(crate) struct LtgArgs {
-    /// A file (.txt, .npy, .vti) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .vti .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
     /// Outputs by their endings: .vti, .npy; .png, .svg show the only slice, or the mean over the slices. With --shard
     /// one .part.
@@ -227,14 +294,26 @@ pub(crate) enum Precision {
 
 #[derive(Debug, Args)]
 pub(crate) struct InfoArgs {
-    /// A file (.txt, .npy, .vti) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .vti .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
-    /// Array of a .vti to take the tensors from.
-    #[arg(long, value_name = "NAME")]
-    pub(crate) array: Option<String>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     /// As JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ConvertArgs {
+    /// A file (.txt .npy .vti .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    pub(crate) input: String,
+    /// The output by its ending: .vti, .npy or .txt. A volume without a plane is written whole, as .vti only.
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+    /// Replace an output that exists.
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, Args)]
@@ -306,6 +385,22 @@ fn parse_threads(text: &str) -> Result<usize, String> {
     }
 }
 
+fn parse_slice(text: &str) -> Result<(Axis, usize), String> {
+    let parts = text.split_once('=');
+    let slice = parts.and_then(|(axis, i)| Some((Axis::from_name(axis.trim())?, i.trim().parse().ok()?)));
+    slice.ok_or_else(|| "expected x=INDEX, y=INDEX or z=INDEX, for example z=10".to_owned())
+}
+
+fn parse_crop(text: &str) -> Result<Crop, String> {
+    let range = |t: &str| {
+        let (a, b) = t.split_once(':')?;
+        let (a, b) = (a.trim().parse().ok()?, b.trim().parse().ok()?);
+        (a < b).then_some([a, b])
+    };
+    let crop = text.split_once(',').and_then(|(x, y)| Some(Crop { x: range(x)?, y: range(y)? }));
+    crop.ok_or_else(|| "expected X0:X1,Y0:Y1 with X0 < X1 and Y0 < Y1, for example 10:60,0:40".to_owned())
+}
+
 pub(crate) fn parse_shard(text: &str) -> Result<Shard, String> {
     let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
     let (index, count) = numbers.ok_or("expected K/N, for example 0/4")?;
@@ -356,6 +451,18 @@ mod tests {
             parse_bytes("0").is_err() && parse_bytes("x").is_err() && parse_bytes("99999999999G").is_err()
         );
         assert!(parse_bytes("").is_err() && parse_bytes("ü").is_err());
+    }
+
+    #[test]
+    fn slices_and_crops_are_spelled_as_documented() {
+        assert_eq!(parse_slice("z=10"), Ok((Axis::Z, 10)));
+        assert_eq!(parse_crop("1:5,0:4"), Ok(Crop { x: [1, 5], y: [0, 4] }));
+        for wrong in ["", "z", "w=1", "z=-1", "xy=1", "z=1.5"] {
+            assert!(parse_slice(wrong).is_err(), "{wrong}");
+        }
+        for wrong in ["", "1:5", "5:5,0:1", "a:b,c:d", "1:5,4:0", "1,2,3,4"] {
+            assert!(parse_crop(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -115,6 +115,11 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
+/// A file named by another one, relative to its folder.
+pub(crate) fn beside(path: &Path, name: &str) -> PathBuf {
+    folder_of(path).join(name)
+}
+
 /// Temporary files are private to their owner; results are not.
 #[cfg(unix)]
 fn set_ordinary_permissions(file: &std::fs::File) -> std::io::Result<()> {

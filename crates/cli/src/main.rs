@@ -11,6 +11,7 @@ mod host;
 mod input;
 mod interrupt;
 mod part_file;
+mod source;
 mod system;
 mod watch;
 
@@ -43,6 +44,7 @@ fn dispatch(cli: Cli) -> Result<u8, CliError> {
         Command::Ltg(a) => commands::ltg::ltg(&a),
         Command::Merge(a) => commands::merge::merge(&a),
         Command::Info(a) => commands::info::info(&a),
+        Command::Convert(a) => commands::convert::convert(&a),
         Command::Compare(a) => commands::compare::compare(&a),
         Command::Bench(a) => commands::bench::bench(&a),
     }

@@ -16,6 +16,7 @@ mod grid;
 pub mod math;
 mod profile;
 mod results;
+mod symmetric3;
 mod tensor;
 mod transmission;
 
@@ -27,6 +28,7 @@ pub use field::Field;
 pub use grid::{Cell, Grid, NEIGHBOUR_OFFSETS};
 pub use profile::PolarProfile;
 pub use results::{LightDistribution, LtgVolume, StopReason, SweepWork, Work};
+pub use symmetric3::{fractional_anisotropy3, symmetric_eigenvalues3};
 pub use tensor::Tensor2;
 pub use transmission::{
     Below, Normalization, TOTAL_ANISOTROPY_RATIO, TransmissionField, is_totally_anisotropic,

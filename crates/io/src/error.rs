@@ -319,6 +319,160 @@ pub enum IoError {
         byte: usize,
     },
 
+    // ---- tensor volumes
+    /// A field of an NRRD header that is missing or makes no sense.
+    #[error("line {line}: NRRD field `{field}`: found `{found}`, expected {expected}")]
+    NrrdField {
+        /// Line, from 1; that of the header's end for a missing field.
+        line: usize,
+        /// Name of the field.
+        field: &'static str,
+        /// Its value, shortened.
+        found: String,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// A field of a NIfTI header that makes no sense.
+    #[error("byte {byte}: NIfTI field {field}: found {found}, expected {expected}")]
+    NiftiField {
+        /// Where the field stands, in the unpacked file.
+        byte: usize,
+        /// Name of the field in the standard.
+        field: &'static str,
+        /// Its value.
+        found: String,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// A legacy VTK file with something else where its format has a fixed meaning.
+    #[error("byte {byte}: found `{found}`, expected {expected}")]
+    LegacyWord {
+        /// Where.
+        byte: usize,
+        /// What is there, shortened.
+        found: String,
+        /// What should have been there.
+        expected: &'static str,
+    },
+    /// Data that end too early.
+    #[error("byte {byte}: the data are cut off: expected {needed} bytes, {present} are there")]
+    DataTruncated {
+        /// Where the data start.
+        byte: usize,
+        /// Bytes that the header declares.
+        needed: u128,
+        /// Bytes there, after decompression.
+        present: u64,
+    },
+    /// Compressed data that are none.
+    #[error("byte {byte}: expected gzip data: {problem}")]
+    Gzip {
+        /// Where they start.
+        byte: usize,
+        /// What the decompressor says.
+        problem: String,
+    },
+    /// A word in text data that is not a number of its type, or missing.
+    #[error("byte {byte}: found `{found}`, expected a {scalar} number")]
+    DataWord {
+        /// Where.
+        byte: usize,
+        /// The word, shortened; empty at the end.
+        found: String,
+        /// Type of the numbers.
+        scalar: &'static str,
+    },
+    /// Points that do not lie on a regular lattice.
+    #[error(
+        "byte {byte}: the points form no lattice: expected equal steps along each axis, point {point} is off"
+    )]
+    NoLattice {
+        /// Where the points are declared.
+        byte: usize,
+        /// The first point that is off, from 0.
+        point: usize,
+    },
+    /// A component order that is not understood, or does not fit the array.
+    #[error("component order `{order}` for {components} components: expected {expected}")]
+    Order {
+        /// As given.
+        order: String,
+        /// Numbers per tuple in the file.
+        components: usize,
+        /// What would fit.
+        expected: &'static str,
+    },
+    /// Tuples that make no tensor without being told how.
+    #[error("`{array}` has {components} components: expected a tensor of 9, 6, 4 or 3 (or 7 with a mask)")]
+    NoTensor {
+        /// Name of the array or kind.
+        array: String,
+        /// Numbers per tuple.
+        components: usize,
+    },
+    /// A frame that the file does not describe.
+    #[error("the file has no measurement frame: expected frame voxel or world")]
+    NoMeasurementFrame,
+    /// Voxel axes that are not at right angles, with tensors in another frame than theirs.
+    #[error(
+        "the voxel axes are not at right angles (off by {off:e}): expected orthogonal axes, or tensors in frame voxel"
+    )]
+    SkewedAxes {
+        /// Largest cosine between two axes.
+        off: f64,
+    },
+    /// A volume without a choice of plane.
+    #[error(
+        "{} x {} x {} voxels: a plane is needed, expected a slice x=I, y=I or z=I (I from 0)",
+        size[0], size[1], size[2]
+    )]
+    PlaneNeeded {
+        /// Voxels along each axis.
+        size: [usize; 3],
+    },
+    /// A plane without the index of its slice.
+    #[error("plane {plane} needs a slice {axis}=I, expected I from 0 to {last}")]
+    SliceNeeded {
+        /// The plane.
+        plane: &'static str,
+        /// Its normal.
+        axis: char,
+        /// Largest index.
+        last: usize,
+    },
+    /// A plane and a slice that do not belong together.
+    #[error("plane {plane} and a slice along {axis} do not fit: expected a slice along {normal}")]
+    PlaneConflict {
+        /// The plane.
+        plane: &'static str,
+        /// Axis of the slice.
+        axis: char,
+        /// Normal of the plane.
+        normal: char,
+    },
+    /// A slice outside the volume.
+    #[error("slice {axis}={index}: expected an index from 0 to {last}")]
+    SliceRange {
+        /// Axis of the slice.
+        axis: char,
+        /// As given.
+        index: usize,
+        /// Largest index.
+        last: usize,
+    },
+    /// A crop that is empty or sticks out.
+    #[error("crop {}:{},{}:{}: expected a part of 0:{width},0:{height} (the end not included)", x[0], x[1], y[0], y[1])]
+    CropRange {
+        /// First column and the one behind the last.
+        x: [usize; 2],
+        /// First row and the one behind the last.
+        y: [usize; 2],
+        /// Columns of the plane.
+        width: usize,
+        /// Rows of the plane.
+        height: usize,
+    },
+
     // ---- meaning
     /// Three-dimensional data where an image is needed.
     #[error(

@@ -2,7 +2,8 @@
 //!
 //! Every reader takes a byte slice and every writer returns bytes: nothing here opens a path, prints or starts a
 //! thread. Each format has one module; [`ImageData`] is what the image formats share, and [`tensors_from_image`] and
-//! its siblings connect it with core's types.
+//! its siblings connect it with core's types. Volumes of all formats become a [`volume::Lattice`], whose tensors are
+//! read in an order and a frame and cut to a plane.
 //!
 //! Files are untrusted. Sizes are multiplied in 128 bits and compared with the bytes that are really there, or with
 //! [`Limits`] where compression hides them, before anything is allocated; an array is read or refused by its name,
@@ -15,12 +16,18 @@
 mod convert;
 mod error;
 mod image;
+mod inflate;
+pub mod legacy;
 mod limits;
 pub mod matrices;
+pub mod nifti;
 pub mod npy;
+pub mod nrrd;
 pub mod part;
 mod scalar;
+pub mod volume;
 pub mod vti;
+mod words;
 mod xml;
 
 pub use convert::{

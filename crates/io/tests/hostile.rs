@@ -4,9 +4,13 @@
 mod support;
 
 use proptest::prelude::*;
-use support::{ARRAY, LZ4, ZLIB, bomb, declaring, npy_file, words};
+use std::io::Write as _;
+use support::{ARRAY, LZ4, ZLIB, bomb, declaring, nifti_file, npy_file, words};
 use tigereye_core::{Cell, Field, Grid, Tensor2};
-use tigereye_io::{DataArray, ImageData, IoError, Limits, image_from_tensors, matrices, npy, vti};
+use tigereye_io::volume::{Axis, Frame, PlaneChoice, Reading, image_from_volume, lattice_from_image};
+use tigereye_io::{
+    DataArray, ImageData, IoError, Limits, image_from_tensors, legacy, matrices, nifti, npy, nrrd, vti,
+};
 
 #[test]
 fn a_small_file_with_many_points_is_refused_at_once() {
@@ -213,8 +217,125 @@ fn tensor_arrays_have_one_of_three_shapes() {
     assert!(matches!(read(&[0, 2, 2, 2]), Err(IoError::Core { .. })));
 }
 
+fn small_volumes() -> [Vec<u8>; 3] {
+    let tensors = "1 2 3 4 5 6 ".repeat(4);
+    let nrrd = format!(
+        "NRRD0005\ntype: float\ndimension: 4\nspace: left-posterior-superior\nsizes: 6 2 2 1\n\
+         space directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: 3D-symmetric-matrix space space space\n\
+         encoding: ascii\nmeasurement frame: (1,0,0) (0,1,0) (0,0,1)\n\n{tensors}"
+    );
+    let vtk = format!(
+        "# vtk DataFile Version 4.2\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 1\nORIGIN 0 0 0\n\
+         SPACING 1 1 1\nPOINT_DATA 4\nTENSORS6 t float\n{tensors}\nFIELD f 1\na 1 4 int\n1 2 3 4\n"
+    );
+    [nrrd.into_bytes(), nifti_file(false, &[2, 2, 1, 1, 6], 16, 32, 1005, 3.0, &[1; 96]), vtk.into_bytes()]
+}
+
+/// Whatever an NRRD or NIfTI file loses at its end, it is refused.
+#[test]
+fn cut_volumes_are_refused() {
+    let [nrrd_file, nifti_file, _] = small_volumes();
+    let words = nrrd_file.trim_ascii_end().len();
+    for end in 0..words {
+        assert!(nrrd::read(&nrrd_file[..end], None).is_err(), "cut at {end}");
+    }
+    for end in 0..nifti_file.len() {
+        assert!(nifti::read(&nifti_file[..end]).is_err(), "cut at {end}");
+    }
+    let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    encoder.write_all(&nifti_file).unwrap();
+    let packed = encoder.finish().unwrap();
+    for end in 0..packed.len() - 8 {
+        let cut = nifti::read(&packed[..end]);
+        // The last bytes of a gzip stream are its checksum; the numbers may be complete before.
+        assert!(cut.is_err() || end + 16 > packed.len(), "cut at {end}");
+    }
+}
+
+/// Four hundred bytes that declare more than there can be.
+#[test]
+fn small_volumes_with_many_voxels_are_refused_at_once() {
+    let limits = Limits { cells: u64::MAX, values: u64::MAX };
+    let start = std::time::Instant::now();
+    for size in [
+        "10000 10000 10000",
+        "99999999999 99999999999 99999999999",
+        "18446744073709551615 1 1",
+        "1000 1000 1000",
+    ] {
+        for rest in
+            ["raw\nendian: little", "gzip\nendian: big", "ascii", "raw\nendian: little\nbyte skip: -1"]
+        {
+            let file = format!(
+                "NRRD0004\ntype: double\ndimension: 4\nsizes: 9 {size}\nkinds: 3D-matrix space space space\nencoding: {rest}\n\n1"
+            );
+            assert!(nrrd::read(file.as_bytes(), None).is_err(), "{size} {rest}");
+            assert!(nrrd::read_with_limits(file.as_bytes(), None, limits).is_err(), "{size} {rest}");
+        }
+        for encoding in ["ASCII", "BINARY"] {
+            let points = if size.len() < 20 { "1000000000000" } else { "1" };
+            let file = format!(
+                "# vtk DataFile Version 3.0\n\n{encoding}\nDATASET STRUCTURED_POINTS\nDIMENSIONS {size}\n\
+                 POINT_DATA {points}\nTENSORS t double\n1 2 3"
+            );
+            assert!(legacy::read(file.as_bytes()).is_err(), "{size}");
+            assert!(legacy::read_with_limits(file.as_bytes(), limits).is_err(), "{size}");
+        }
+    }
+    let nifti_large = nifti_file(false, &[32767, 32767, 32767, 6], 64, 64, 0, 0.0, &[0; 40]);
+    let message = nifti::read(&nifti_large).unwrap_err().to_string();
+    assert!(message.contains("cells are declared, the limit is"), "{message}");
+    assert!(matches!(nifti::read_with_limits(&nifti_large, limits), Err(IoError::DataTruncated { .. })));
+    assert!(start.elapsed().as_secs() < 1);
+}
+
+/// Headers that ask for files elsewhere, or for what is not read.
+#[test]
+fn nrrd_fields_that_are_not_read_are_named() {
+    let header = |rest: &str| {
+        let file = format!(
+            "NRRD0004\ntype: float\ndimension: 3\nsizes: 3 1 1\nkinds: 2D-symmetric-matrix domain domain\n{rest}\n\n1 2 3\n"
+        );
+        nrrd::read(file.as_bytes(), None).map(drop).map_err(|e| e.to_string())
+    };
+    assert_eq!(header("encoding: ascii"), Ok(()));
+    for (rest, words) in [
+        ("", "line 6: NRRD field `encoding`: found ``"),
+        ("encoding: bzip2", "line 6: NRRD field `encoding`: found `bzip2`, expected raw, gzip or ascii"),
+        ("encoding: raw", "`endian`"),
+        ("encoding: ascii\ndata file: /etc/passwd", "in the folder"),
+        ("encoding: ascii\ndata file: ../x.raw", "in the folder"),
+        ("encoding: ascii\ndata file: LIST", "one file"),
+        ("encoding: ascii\ndata file: x%03d.raw 1 3 1", "one file"),
+        ("encoding: ascii\nspace directions: (1,0", "vectors"),
+        ("encoding: ascii\nspace directions: none (1,0,0)", "every axis"),
+        ("encoding: ascii\nspace directions: none (1,inf,0) none", "vectors"),
+        ("encoding: ascii\nmeasurement frame: (1,0,0)", "every axis of the space"),
+        ("encoding: ascii\nbyte skip: -1", "byte skip"),
+        ("encoding: ascii\nline skip: 1000000000000", "line skip"),
+        ("encoding: ascii\nno colon", "line 7"),
+    ] {
+        let message = header(rest).unwrap_err();
+        assert!(message.contains(words), "{rest}: {message}");
+    }
+}
+
 /// Reads bytes as everything; only panics matter.
 fn read_as_everything(bytes: &[u8]) {
+    let limits = Limits { cells: 1 << 16, values: 1 << 20 };
+    let volumes = [
+        nrrd::read_with_limits(bytes, Some(bytes), limits),
+        nifti::read_with_limits(bytes, limits),
+        legacy::read_with_limits(bytes, limits).and_then(|image| lattice_from_image(&image, None)),
+        vti::read(bytes).and_then(|image| lattice_from_image(&image, None)),
+    ];
+    for lattice in volumes.into_iter().flatten() {
+        if let Ok(volume) = lattice.tensors(Reading::default()) {
+            let choice = PlaneChoice { plane: None, slice: Some((Axis::Z, 0)) };
+            let _ = (volume.slice(choice), volume.story(), volume.suspicion());
+            let _ = image_from_volume(&volume, Frame::World);
+        }
+    }
     if let Ok(image) = &vti::read(bytes) {
         let _ = (tigereye_io::tensors_from_image(image, None), tigereye_io::ltg_from_image(image));
         let _ = vti::write(image);
@@ -226,9 +347,11 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 3000, ..ProptestConfig::default() })]
 
     #[test]
-    fn changed_files_never_panic(which in 0..3_usize,
+    fn changed_files_never_panic(which in 0..6_usize,
                                  changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 1..6)) {
-        let mut file = [vti::write(&small_image()).unwrap(), small_text_image(), small_npy()][which].clone();
+        let [nrrd, nifti, vtk] = small_volumes();
+        let images = [vti::write(&small_image()).unwrap(), small_text_image(), small_npy(), nrrd, nifti, vtk];
+        let mut file = images[which].clone();
         for (at, byte, kind) in changes {
             let at = at.index(file.len());
             match kind {

@@ -2,10 +2,13 @@
 //!
 //! The only test of its program: the peak of the address space is the process's own.
 
+#![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
+
 mod support;
 
-use support::{ARRAY, LZ4, ZLIB, bomb, declaring, npy_file, words};
-use tigereye_io::{Limits, npy, vti};
+use std::io::Write as _;
+use support::{ARRAY, LZ4, ZLIB, bomb, declaring, nifti_file, npy_file, words};
+use tigereye_io::{Limits, legacy, nifti, npy, nrrd, vti};
 
 /// Every file here declares or expands to at least 1 GiB.
 const ALLOWED: u64 = 256 << 20;
@@ -36,6 +39,36 @@ fn hostile_images() -> Vec<Vec<u8>> {
     ]
 }
 
+/// Volumes whose headers promise more than there is, and gzip streams that hold more than the header says.
+fn hostile_volumes() -> [Vec<Vec<u8>>; 3] {
+    let zeros = {
+        let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+        let head = nifti_file(false, &[10, 10, 10, 7], 16, 32, 1005, 3.0, &[]);
+        encoder.write_all(&head).unwrap();
+        (0..1 << 14).for_each(|_| encoder.write_all(&[0; 1 << 16]).unwrap());
+        encoder.finish().unwrap()
+    };
+    let nrrd = |encoding: &str, data: &[u8]| {
+        let head = format!(
+            "NRRD0004\ntype: double\ndimension: 4\nsizes: 6 400 400 400\nkinds: 3D-symmetric-matrix space space space\n\
+             endian: little\nencoding: {encoding}\n\n"
+        );
+        [head.as_bytes(), data].concat()
+    };
+    let small = zeros[..zeros.len().min(20_000)].to_vec();
+    let vtk = |encoding: &str| {
+        format!(
+            "# vtk DataFile Version 3.0\n\n{encoding}\nDATASET STRUCTURED_POINTS\nDIMENSIONS 400 400 400\n\
+             POINT_DATA 64000000\nTENSORS t double\n1 2 3"
+        )
+    };
+    [
+        vec![nrrd("raw", b"1"), nrrd("gzip", &small), nrrd("ascii", b"1 2 3")],
+        vec![zeros, nifti_file(false, &[2000, 2000, 60, 6], 64, 64, 0, 0.0, &[0; 40])],
+        vec![vtk("ASCII").into_bytes(), vtk("BINARY").into_bytes()],
+    ]
+}
+
 #[test]
 fn allocation_follows_the_bytes_there() {
     let images = hostile_images();
@@ -45,6 +78,7 @@ fn allocation_follows_the_bytes_there() {
     let mut long = npy_file(2, "{}", 0);
     long[8..12].fill(0xff);
     arrays.push(long);
+    let [nrrd_files, nifti_files, legacy_files] = hostile_volumes();
     let Some(before) = peak() else {
         println!("skipped: /proc/self/status tells no VmPeak here");
         return;
@@ -53,6 +87,11 @@ fn allocation_follows_the_bytes_there() {
         for image in &images {
             assert!(vti::read_with_limits(image, limits).is_err());
         }
+    }
+    for limits in [Limits::default(), Limits { cells: u64::MAX, values: u64::MAX }] {
+        assert!(nrrd_files.iter().all(|f| nrrd::read_with_limits(f, None, limits).is_err()));
+        assert!(nifti_files.iter().all(|f| nifti::read_with_limits(f, limits).is_err()));
+        assert!(legacy_files.iter().all(|f| legacy::read_with_limits(f, limits).is_err()));
     }
     for array in &arrays {
         assert!(npy::read_array(array).is_err());

@@ -6,7 +6,10 @@ mod support;
 use serde_json::Value;
 use support::{bytes, folder, json};
 use tigereye_core::{Cell, Field, Tensor2};
-use tigereye_io::{DataArray, ImageData, ltg_from_image, matrices, npy, tensors_from_image, vti};
+use tigereye_io::volume::{Frame, Lattice, Plane, PlaneChoice, Reading, TensorVolume, lattice_from_image};
+use tigereye_io::{
+    DataArray, ImageData, legacy, ltg_from_image, matrices, nifti, npy, nrrd, tensors_from_image, vti,
+};
 
 /// Relative to the range: the files hold f32, text files fewer digits.
 const RANGE_TOLERANCE: f64 = 1e-6;
@@ -136,6 +139,101 @@ fn all_encodings_give_the_same_tensors() {
                 near(kind, *x, *y, 27.0);
                 assert!(kind == "ascii" || x == y, "{kind}");
             }
+        }
+    }
+}
+
+/// Any file of a volume, its components read in an order.
+fn volume(data: &std::path::Path, file: &str, order: Option<&str>) -> TensorVolume {
+    let bytes = bytes(data, file);
+    let lattice: Lattice = match file {
+        _ if file.ends_with(".nrrd") => nrrd::read(&bytes, None).unwrap(),
+        _ if file.ends_with(".nii.gz") => nifti::read(&bytes).unwrap(),
+        _ if file.ends_with(".vtk") => lattice_from_image(&legacy::read(&bytes).unwrap(), None).unwrap(),
+        _ => lattice_from_image(&vti::read(&bytes).unwrap(), None).unwrap(),
+    };
+    lattice.tensors(Reading { order, frame: None }).unwrap()
+}
+
+/// The order that a file does not state, by its name.
+fn order_of(file: &str) -> Option<&'static str> {
+    ["dipy", "fsl", "mrtrix"].into_iter().find(|tool| file.contains(tool))
+}
+
+#[test]
+fn volumes_have_their_published_values() {
+    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let expected = json(&data, "expected.json");
+    let mut seen = 0;
+    for extension in [".vti", ".vtk", ".nii.gz", ".nrrd"] {
+        for entry in entries(&expected, extension).iter().filter(|e| e["rank"] == 3) {
+            let file = entry["file"].as_str().unwrap();
+            let volume = volume(&data, file, order_of(file));
+            let shape: Vec<usize> = list(&entry["shape_xyz"]).iter().map(index).collect();
+            assert_eq!(volume.lattice().size.to_vec(), shape, "{file}");
+            check_values(entry, 3, &volume.tensors().flatten().collect::<Vec<_>>());
+            if let Some(measured) = entry["mask_nonzero"].as_u64() {
+                assert_eq!(volume.lattice().voxels() - volume.masked_out(), measured as usize);
+            }
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 18);
+}
+
+#[test]
+fn scalar_images_have_their_published_values() {
+    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let expected = json(&data, "expected.json");
+    let entry = &entries(&expected, "small_64D_fa.nii.gz")[0];
+    let lattice = nifti::read(&bytes(&data, "small_64D_fa.nii.gz")).unwrap();
+    assert_eq!((lattice.size, lattice.components), ([10; 3], 1));
+    for probe in list(&entry["probes"]) {
+        let [x, y, z] = [0, 1, 2].map(|i| index(&probe["index"][i]));
+        near("fa", lattice.values[(z * 10 + y) * 10 + x], number(&probe["value"]), 1.0);
+    }
+    let tensors = volume(&data, "small_64D_tensor_dipy.nii.gz", None);
+    for (t, fa) in tensors.tensors().zip(&lattice.values) {
+        // dipy clamps eigenvalues at 1e-9 before it computes FA.
+        let l = tigereye_core::symmetric_eigenvalues3(&t).map(|v| v.max(1e-9));
+        near("fa", tigereye_core::fractional_anisotropy3(l), *fa, 1.0);
+    }
+}
+
+/// Every slice of the volume, in the five layouts of one field.
+#[test]
+fn layouts_of_one_field_give_one_slice() {
+    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let name = |kind: &str| format!("small_64D_tensor_{kind}");
+    let dipy = volume(&data, &name("dipy.nii.gz"), Some("dipy"));
+    let scale = 0.005;
+    for kind in ["symmat5d.nii.gz", "fsl.nii.gz", "mrtrix.nii.gz", "masked.nrrd"] {
+        let file = name(kind);
+        let order = order_of(&file);
+        let frame = order.is_some().then_some(Frame::Voxel);
+        let lattice = volume(&data, &file, order).lattice().clone();
+        let other = lattice.tensors(Reading { order, frame }).unwrap();
+        for plane in [Plane::Xy, Plane::Xz, Plane::Yz] {
+            let choice = PlaneChoice { plane: Some(plane), slice: Some((plane.normal(), 4)) };
+            let (a, b) = (dipy.slice(choice).unwrap(), other.slice(choice).unwrap());
+            for (s, t) in a.field.values().iter().zip(b.field.values()) {
+                for (x, y) in s.components().iter().zip(t.components()) {
+                    near(&file, y, *x, scale);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn wrong_orders_look_wrong() {
+    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    for tool in ["dipy", "fsl", "mrtrix"] {
+        let file = format!("small_64D_tensor_{tool}.nii.gz");
+        assert_eq!(volume(&data, &file, Some(tool)).suspicion(), None, "{file}");
+        for wrong in ["vtk", "dipy", "fsl", "mrtrix"].into_iter().filter(|w| *w != tool) {
+            let suspicion = volume(&data, &file, Some(wrong)).suspicion().expect("a suspicion");
+            assert!(suspicion.tools.contains(tool), "{file} read as {wrong}: {suspicion:?}");
         }
     }
 }

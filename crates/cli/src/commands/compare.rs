@@ -1,6 +1,6 @@
 //! `tigereye compare`: the difference of two results.
 
-use crate::args::CompareArgs;
+use crate::args::{CompareArgs, ReadingArgs};
 use crate::commands::print_text;
 use crate::error::CliError;
 use crate::files;
@@ -60,7 +60,7 @@ fn numbers(text: &str) -> Result<Numbers, CliError> {
             })
         }
         "vti" => image(text, &files::read(path)?),
-        _ => Input::open(text, None).map(|input| of_tensors(&input.field)),
+        _ => Input::open(text, &ReadingArgs::default()).map(|input| of_tensors(&input.field)),
     }
 }
 

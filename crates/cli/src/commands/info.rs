@@ -1,15 +1,17 @@
 //! `tigereye info`: what a tensor field holds and how it was read.
 
 use crate::args::InfoArgs;
-use crate::commands::{print_json, print_text};
+use crate::commands::{lattice, print_json, print_text};
 use crate::error::CliError;
 use crate::files;
 use crate::input::Input;
 use crate::interrupt;
+use crate::source::Source;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
 use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Tensor2, is_totally_anisotropic};
+use tigereye_io::volume::lattice_from_image;
 use tigereye_io::{DataArray, PROVENANCE, vti};
 
 /// Relative difference of the half-axes below which a tensor counts as degenerate.
@@ -26,13 +28,34 @@ pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
         }
         return Ok(0);
     }
-    let input = Input::open(&args.input, args.array.as_deref())?;
-    let facts = facts(&input);
+    let source = Source::open(&args.input, &args.reading)?;
+    let volume = match &source {
+        Source::Field(_) => None,
+        Source::Volume(file) => Some(lattice::facts(file)),
+        Source::Scalars(file) => Some(lattice::scalar_facts(file)),
+    };
     interrupt::check()?;
-    if args.json {
-        print_json(&facts)?;
-    } else {
-        print_text(&as_text(&facts))?;
+    // A volume without a chosen plane is described as a whole.
+    let plane = source.has_plane(&args.reading).then(|| Input::of(source, &args.reading)).transpose()?;
+    if !args.json {
+        let text = match (&volume, &plane) {
+            (_, Some(plane)) => as_text(&facts(plane)),
+            (Some(volume), None) => lattice::as_text(volume),
+            (None, None) => String::new(),
+        };
+        print_text(&text)?;
+        return Ok(0);
+    }
+    match (volume, plane) {
+        (volume, Some(p)) => {
+            let mut all = facts(&p);
+            if let (Some(volume), Some(all)) = (volume, all.as_object_mut()) {
+                all.insert("volume".to_owned(), volume);
+            }
+            print_json(&all)?;
+        }
+        (Some(volume), None) => print_json(&volume)?,
+        (None, None) => {}
     }
     Ok(0)
 }
@@ -40,11 +63,11 @@ pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
 /// Image data without tensors, such as a gradient volume or a light distribution: its arrays and its provenance.
 fn facts_of_result(args: &InfoArgs) -> Result<Option<Value>, CliError> {
     let path = Path::new(&args.input);
-    if files::extension(path) != "vti" || args.array.is_some() {
+    if files::extension(path) != "vti" || args.reading.array.is_some() {
         return Ok(None);
     }
     let image = vti::read(&files::read(path)?).map_err(|e| CliError::input(&args.input, e))?;
-    if image.text(PROVENANCE).is_none() || tigereye_io::tensors_from_image(&image, None).is_ok() {
+    if image.text(PROVENANCE).is_none() || lattice_from_image(&image, None).is_ok() {
         return Ok(None);
     }
     let arrays: Vec<Value> = image.point_arrays.iter().map(array_facts).collect();
@@ -95,12 +118,14 @@ fn facts(input: &Input) -> Value {
         "kind": input.kind,
         "width": grid.width(),
         "height": grid.height(),
+        "dimensions": [grid.width(), grid.height()],
         "cells": grid.cells(),
         "origin": input.origin,
         "spacing": input.spacing,
         "component_order": "xx,xy,yx,yy",
         "frame": "x right, y up, row 0 on top",
         "assumptions": input.assumptions,
+        "remarks": input.remarks,
         "input_blake3": input.blake3,
         "components": {
             "xx": range(field, Tensor2::xx), "xy": range(field, Tensor2::xy),
@@ -108,11 +133,15 @@ fn facts(input: &Input) -> Value {
         },
         "singular_values": { "s1": range(field, |t| Svd::of(t).s[0]), "s2": range(field, |t| Svd::of(t).s[1]) },
         "fractional_anisotropy": range(field, |t| Anisotropy::of(t).fractional),
+        "fractional_anisotropy_histogram": lattice::histogram(
+            field.values().iter().map(|t| Anisotropy::of(t).fractional)
+        ),
         "shares": {
             "zero": share(&Tensor2::is_zero),
             "degenerate": share(&is_degenerate),
             "asymmetric": share(&|t| t.asymmetry() > ASYMMETRIC_ABOVE * t.max_abs()),
             "indefinite": share(&|t| Eigenvalues::of(t).is_indefinite()),
+            "negative": share(&|t| Eigenvalues::of(t).real_parts()[1] < -lattice::ROUNDING * t.max_abs()),
             "total_anisotropy": share(&|t| !t.is_zero() && is_totally_anisotropic(t)),
         },
     })
@@ -167,9 +196,9 @@ fn as_text(facts: &Value) -> String {
             number(&r["mean"])
         );
     }
-    for (name, share) in facts["shares"].as_object().into_iter().flatten() {
-        let percent = share.as_f64().unwrap_or(0.0) * 100.0;
-        let _ = writeln!(text, "  {:<18} {percent:.2} %", name.replace('_', " "));
+    text += &lattice::shares_as_text(facts);
+    for remark in facts["remarks"].as_array().into_iter().flatten() {
+        let _ = writeln!(text, "  {}", remark.as_str().unwrap_or_default());
     }
     text
 }

@@ -5,7 +5,7 @@ use crate::checkpoint::Checkpoint;
 use crate::commands::propagate::{check_outputs, stop_name, stopping_of};
 use crate::commands::{command_line, print_json, print_text, volume};
 use crate::error::CliError;
-use crate::input::Input;
+use crate::input::{Input, insert_reading};
 use crate::part_file::{self, Costs, Identity};
 use crate::watch::Watch;
 use crate::{files, interrupt, system};
@@ -23,7 +23,7 @@ use tigereye_transport::{Scattering, Scheme, SharedWeights};
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     check_places(args)?;
     let start = Instant::now();
-    let input = Input::open(&args.input, args.scheme.array.as_deref())?;
+    let input = Input::open(&args.input, &args.scheme.reading)?;
     let settings = settings_of(args)?;
     let normalization = input.normalization(args.scheme.normalization);
     let parameters = parameters(args, &settings, normalization);
@@ -165,8 +165,6 @@ fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: Normalizati
         "threads": args.resources.threads.unwrap_or_else(rayon::current_num_threads),
         "memory": settings.memory_bytes,
     });
-    if let (Some(array), Some(all)) = (&args.scheme.array, parameters.as_object_mut()) {
-        all.insert("array".to_owned(), json!(array));
-    }
+    insert_reading(&mut parameters, &args.scheme.reading);
     parameters
 }

@@ -3,8 +3,10 @@
 pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod compare;
+pub(crate) mod convert;
 pub(crate) mod field;
 pub(crate) mod info;
+pub(crate) mod lattice;
 pub(crate) mod ltg;
 pub(crate) mod merge;
 pub(crate) mod propagate;

@@ -3,7 +3,7 @@
 use crate::args::{Picture, PropagateArgs, SchemeArgs, StopRule};
 use crate::commands::{command_line, counted, print_json, print_text};
 use crate::error::CliError;
-use crate::input::Input;
+use crate::input::{Input, insert_reading};
 use crate::{files, interrupt, system};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
@@ -27,7 +27,7 @@ pub(super) const PNG_SCALE: f64 = 2.0;
 pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     check_outputs(&args.outputs)?;
     let start = Instant::now();
-    let input = Input::open(&args.input, args.scheme.array.as_deref())?;
+    let input = Input::open(&args.input, &args.scheme.reading)?;
     let normalization = input.normalization(args.scheme.normalization);
     let lights = args.lights.iter().map(|l| light(l, args)).collect::<Result<Vec<_>, _>>()?;
     let transmission = TransmissionField::from_tensors(&input.field, args.scheme.directions, normalization)
@@ -111,7 +111,7 @@ pub(crate) const fn stop_name(rule: StopRule) -> &'static str {
 }
 
 fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: Normalization) -> Value {
-    json!({
+    let mut parameters = json!({
         "input": args.input,
         "light": args.lights,
         "impulse": args.impulse,
@@ -121,7 +121,9 @@ fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: Normaliz
         "max_iterations": stopping.max_iterations,
         "stop": stop_name(args.scheme.stop),
         "normalization": normalization_name(normalization),
-    })
+    });
+    insert_reading(&mut parameters, &args.scheme.reading);
+    parameters
 }
 
 fn encoded(

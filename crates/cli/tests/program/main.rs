@@ -12,3 +12,4 @@ mod parts;
 mod results;
 mod streams;
 mod support;
+mod volumes;

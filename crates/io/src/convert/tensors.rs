@@ -64,10 +64,7 @@ impl fmt::Display for TensorImage {
 /// [`IoError::NeedsPlane`], [`IoError::NoArray`], [`IoError::AmbiguousArray`], [`IoError::Components`],
 /// [`IoError::RotatedAxes`].
 pub fn tensors_from_image(image: &ImageData, array: Option<&str>) -> Result<TensorImage, IoError> {
-    let (association, array) = match array {
-        Some(name) => named(image, name)?,
-        None => only_tensors(image)?,
-    };
+    let (association, array) = choose_tensors(image, array)?;
     let components = array.components;
     let order = ComponentOrder::of(array)
         .ok_or_else(|| IoError::Components { array: array.name.clone(), components })?;
@@ -120,6 +117,14 @@ pub fn image_from_tensors(field: &Field<Tensor2>, origin: [f64; 2], spacing: [f6
     image.point_active.tensors = Some(TENSOR_ARRAY.to_owned());
     image.point_arrays.push(array);
     image
+}
+
+/// The named array, or the active tensors, or the only array that may be tensors.
+pub(crate) fn choose_tensors<'a>(image: &'a ImageData, array: Option<&str>) -> Result<Found<'a>, IoError> {
+    match array {
+        Some(name) => named(image, name),
+        None => only_tensors(image),
+    }
 }
 
 type Found<'a> = (Association, &'a DataArray);

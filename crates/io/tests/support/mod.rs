@@ -62,3 +62,37 @@ pub(crate) fn bomb(root: &str, size: usize) -> Vec<u8> {
     }
     encoder.finish().expect("a Vec takes everything")
 }
+
+/// A NIfTI-1 file: lengths of the axes, datatype and bits, intent and its first parameters, data in the byte order given.
+pub(crate) fn nifti_file(
+    big: bool,
+    shape: &[i16],
+    datatype: i16,
+    bits: i16,
+    intent: i16,
+    p1: f32,
+    data: &[u8],
+) -> Vec<u8> {
+    let mut head = vec![0; 352];
+    let mut put = |at: usize, bytes: &[u8]| {
+        let mut bytes = bytes.to_vec();
+        if big {
+            bytes.reverse();
+        }
+        head[at..at + bytes.len()].copy_from_slice(&bytes);
+    };
+    put(0, &348_i32.to_le_bytes());
+    put(40, &i16::try_from(shape.len()).unwrap().to_le_bytes());
+    for (i, n) in shape.iter().enumerate() {
+        put(42 + 2 * i, &n.to_le_bytes());
+    }
+    put(56, &p1.to_le_bytes());
+    // A general matrix states both of its sides.
+    put(60, &p1.to_le_bytes());
+    put(68, &intent.to_le_bytes());
+    put(70, &datatype.to_le_bytes());
+    put(72, &bits.to_le_bytes());
+    put(108, &352_f32.to_le_bytes());
+    head[344..348].copy_from_slice(b"n+1\0");
+    [&head[..], data].concat()
+}

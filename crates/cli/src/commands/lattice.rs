@@ -1,0 +1,190 @@
+//! What a volume holds, for `info`.
+
+use crate::source::{ScalarFile, VolumeFile};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use tigereye_core::{fractional_anisotropy3, symmetric_eigenvalues3};
+use tigereye_io::volume::Lattice;
+
+/// An eigenvalue below this times the largest component counts as negative: files hold single precision.
+pub(super) const ROUNDING: f64 = 1e-6;
+/// Relative difference of two eigenvalues below which a tensor counts as degenerate.
+const DEGENERATE_BELOW: f64 = 1e-9;
+/// `|xy - yx|` and its like over the largest component above which a tensor counts as asymmetric.
+const ASYMMETRIC_ABOVE: f64 = 1e-9;
+/// Bars of a histogram over 0 to 1.
+const BARS: usize = 10;
+
+/// Smallest, largest and mean value.
+struct Range {
+    min: f64,
+    max: f64,
+    sum: f64,
+    count: usize,
+}
+
+impl Range {
+    const EMPTY: Self = Self { min: f64::INFINITY, max: f64::NEG_INFINITY, sum: 0.0, count: 0 };
+
+    fn add(&mut self, value: f64) {
+        self.min = self.min.min(value);
+        self.max = self.max.max(value);
+        self.sum += value;
+        self.count += 1;
+    }
+
+    fn json(&self) -> Value {
+        json!({ "min": self.min, "max": self.max, "mean": self.sum / self.count.max(1) as f64 })
+    }
+}
+
+/// Counts of values from 0 to 1 in ten bars; what is no number or outside is left out.
+pub(super) fn histogram(values: impl Iterator<Item = f64>) -> Vec<usize> {
+    let mut bars = vec![0; BARS];
+    for v in values.filter(|v| (-1e-9..=1.0 + 1e-9).contains(v)) {
+        bars[((v * BARS as f64) as usize).min(BARS - 1)] += 1;
+    }
+    bars
+}
+
+/// Everything about a volume of tensors.
+pub(super) fn facts(file: &VolumeFile) -> Value {
+    let (volume, lattice) = (&file.volume, file.volume.lattice());
+    let (order, frame) = (volume.order(), volume.frame());
+    let (mut numbers, mut trace) = (Range::EMPTY, Range::EMPTY);
+    let mut eigenvalues = [Range::EMPTY, Range::EMPTY, Range::EMPTY];
+    let mut anisotropy = Vec::with_capacity(lattice.voxels());
+    let [mut zero, mut strange, mut degenerate, mut asymmetric, mut indefinite, mut negative] = [0_usize; 6];
+    for t in volume.tensors() {
+        if !t.iter().all(|v| v.is_finite()) {
+            strange += 1;
+            continue;
+        }
+        let largest = t.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        t.iter().for_each(|&v| numbers.add(v));
+        trace.add(t[0] + t[4] + t[8]);
+        let l = symmetric_eigenvalues3(&t);
+        eigenvalues.iter_mut().zip(l).for_each(|(range, v)| range.add(v));
+        anisotropy.push(fractional_anisotropy3(l));
+        let off = (t[1] - t[3]).abs().max((t[2] - t[6]).abs()).max((t[5] - t[7]).abs());
+        zero += usize::from(largest == 0.0);
+        let close = (l[0] - l[1]).min(l[1] - l[2]) <= DEGENERATE_BELOW * largest;
+        degenerate += usize::from(largest > 0.0 && close);
+        asymmetric += usize::from(off > ASYMMETRIC_ABOVE * largest);
+        negative += usize::from(l[2] < -ROUNDING * largest);
+        indefinite += usize::from(l[2] < -ROUNDING * largest && l[0] > ROUNDING * largest);
+    }
+    let share = |n: usize| n as f64 / lattice.voxels() as f64;
+    let mut fa = Range::EMPTY;
+    anisotropy.iter().for_each(|&v| fa.add(v));
+    let mut facts = about(&file.name, file.kind, &file.blake3, lattice);
+    let more = json!({
+        "component_order": order.0.to_string(),
+        "component_order_is": order.1.words(),
+        "frame": frame.0.name(),
+        "frame_is": frame.1.words(),
+        "assumptions": volume.story(),
+        "range": { "min": numbers.min, "max": numbers.max },
+        "mean_trace": trace.sum / trace.count.max(1) as f64,
+        "zero_tensors": zero,
+        "masked": volume.masked_out(),
+        "eigenvalues": eigenvalues.each_ref().map(Range::json),
+        "fractional_anisotropy": fa.json(),
+        "fractional_anisotropy_histogram": histogram(anisotropy.into_iter()),
+        "shares": {
+            "zero": share(zero),
+            "not_finite": share(strange),
+            "degenerate": share(degenerate),
+            "asymmetric": share(asymmetric),
+            "indefinite": share(indefinite),
+            "negative": share(negative),
+        },
+        "warning": file.warning(),
+    });
+    merge(&mut facts, more);
+    facts
+}
+
+/// Everything about an image of one number a voxel.
+pub(super) fn scalar_facts(file: &ScalarFile) -> Value {
+    let mut range = Range::EMPTY;
+    file.lattice.values.iter().for_each(|&v| range.add(v));
+    let mut facts = about(&file.name, file.kind, &file.blake3, &file.lattice);
+    let more = json!({
+        "assumptions": [format!("{}: one number a voxel, no tensors", file.lattice.array)],
+        "range": range.json(),
+    });
+    merge(&mut facts, more);
+    facts
+}
+
+fn about(name: &str, kind: &str, blake3: &str, lattice: &Lattice) -> Value {
+    json!({
+        "input": name,
+        "kind": kind,
+        "dimensions": lattice.size,
+        "cells": lattice.voxels(),
+        "components": lattice.components,
+        "origin": lattice.origin,
+        "spacing": lattice.spacing(),
+        "directions": lattice.directions(),
+        "input_blake3": blake3,
+    })
+}
+
+fn merge(facts: &mut Value, more: Value) {
+    if let (Some(all), Value::Object(more)) = (facts.as_object_mut(), more) {
+        all.extend(more);
+    }
+}
+
+/// The facts for people.
+pub(super) fn as_text(facts: &Value) -> String {
+    let size = |i: usize| facts["dimensions"][i].as_u64().unwrap_or(0);
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "{} ({}): {} x {} x {} voxels, spacing {}",
+        facts["input"].as_str().unwrap_or_default(),
+        facts["kind"].as_str().unwrap_or_default(),
+        size(0),
+        size(1),
+        size(2),
+        facts["spacing"]
+    );
+    for line in facts["assumptions"].as_array().into_iter().flatten() {
+        let _ = writeln!(text, "  {}", line.as_str().unwrap_or_default());
+    }
+    let number = |v: &Value| v.as_f64().map_or_else(|| "-".to_owned(), |x| format!("{x:.6e}"));
+    let rows = [
+        ("components", &facts["range"]),
+        ("l1", &facts["eigenvalues"][0]),
+        ("l2", &facts["eigenvalues"][1]),
+        ("l3", &facts["eigenvalues"][2]),
+        ("FA", &facts["fractional_anisotropy"]),
+    ];
+    for (name, r) in rows.into_iter().filter(|(_, r)| r.is_object()) {
+        let (min, max, mean) = (number(&r["min"]), number(&r["max"]), number(&r["mean"]));
+        let _ = writeln!(text, "  {name:<10}  min {min:>14}  max {max:>14}  mean {mean:>14}");
+    }
+    text += &shares_as_text(facts);
+    if let Some(warning) = facts["warning"].as_str() {
+        let _ = writeln!(text, "  WARNING: {warning}");
+    }
+    text
+}
+
+/// The histogram and the shares, a line each.
+pub(super) fn shares_as_text(facts: &Value) -> String {
+    let mut text = String::new();
+    if let Some(bars) = facts["fractional_anisotropy_histogram"].as_array() {
+        let counts: Vec<String> = bars.iter().map(Value::to_string).collect();
+        let _ = writeln!(text, "  FA from 0 to 1 in steps of 0.1: {}", counts.join(" "));
+    }
+    for (name, share) in facts["shares"].as_object().into_iter().flatten() {
+        let percent = share.as_f64().unwrap_or(0.0) * 100.0;
+        let _ = writeln!(text, "  {:<18} {percent:.2} %", name.replace('_', " "));
+    }
+    text
+}

@@ -1,0 +1,194 @@
+//! Volumes of other tools: what is read, what is assumed, planes, conversion.
+
+use crate::support::{Place, has_keys, unit_text};
+use serde_json::Value;
+use std::path::PathBuf;
+use tigereye_core::{Cell, Tensor2};
+use tigereye_io::{matrices, npy, tensors_from_image};
+
+/// 3 x 2 x 2 voxels of diagonal tensors: xx counts voxels from 1, yy = 20, zz = 30; xz = 0.5.
+fn nrrd() -> String {
+    let head = "NRRD0004\ntype: double\ndimension: 4\nsizes: 6 3 2 2\nkinds: 3D-symmetric-matrix space space space\n\
+                space: left-posterior-superior\nspace directions: none (2,0,0) (0,3,0) (0,0,4)\nencoding: ascii\n\n";
+    let tuples: String = (1..=12).map(|v| format!("{v} 0 0.5 20 0 30\n")).collect();
+    head.to_owned() + &tuples
+}
+
+/// Example files of other tools, where they are.
+fn data() -> Option<PathBuf> {
+    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
+    let folder = std::env::var_os("TIGEREYE_DATA").map_or_else(beside, PathBuf::from);
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    println!("skipped: no folder {} (set TIGEREYE_DATA)", folder.display());
+    None
+}
+
+#[test]
+fn slices_become_fields_with_up_on_top() {
+    let place = Place::new();
+    place.write("v.nrrd", nrrd());
+    let run = place.tigereye(&["convert", "v.nrrd", "xy.npy", "--slice", "z=1"]);
+    assert_eq!(run.code, 0);
+    assert_eq!(run.stderr, "v.nrrd: assumed components along the world axes (--frame)\n");
+    let xy = npy::read_tensors(&place.read("xy.npy")).unwrap();
+    assert_eq!((xy.grid().width(), xy.grid().height()), (3, 2));
+    // Voxel (2, 1, 1) is the last of all and lies at the top right.
+    assert_eq!(*xy.at(Cell::new(2, 0)), Tensor2::symmetric(12.0, 0.0, 20.0));
+    assert_eq!(*xy.at(Cell::new(0, 1)), Tensor2::symmetric(7.0, 0.0, 20.0));
+    place.succeeds(&["convert", "v.nrrd", "xz.vti", "--plane", "xz", "--slice", "y=0", "--frame", "voxel"]);
+    let xz = tensors_from_image(&place.image("xz.vti"), None).unwrap();
+    assert_eq!(xz.field.values()[0], Tensor2::symmetric(7.0, 0.5, 30.0));
+    assert_eq!(xz.spacing[..2], [2.0, 4.0]);
+    assert!(place.image("xz.vti").text("tigereye").unwrap().contains("\"slice\":\"y=0\""));
+    place.succeeds(&["convert", "xz.vti", "part.txt", "--crop", "1:3,1:2"]);
+    let part = matrices::read(&place.read("part.txt")).unwrap();
+    assert_eq!(part.values()[0], Tensor2::symmetric(2.0, 0.5, 30.0));
+    assert_eq!(part.grid().cells(), 2);
+}
+
+#[test]
+fn whole_volumes_are_written_as_images() {
+    let place = Place::new();
+    place.write("v.nrrd", nrrd());
+    place.succeeds(&["convert", "v.nrrd", "v.vti", "--frame", "world"]);
+    let image = place.image("v.vti");
+    assert_eq!((image.dimensions, image.spacing), ([3, 2, 2], [2.0, 3.0, 4.0]));
+    assert_eq!(image.point_arrays[0].values[..9], [1.0, 0.0, 0.5, 0.0, 20.0, 0.0, 0.5, 0.0, 30.0]);
+    let facts = place.succeeds(&["info", "v.vti", "--json"]).json();
+    assert_eq!(facts["dimensions"], serde_json::json!([3, 2, 2]));
+    for output in ["v.npy", "v.txt"] {
+        place.refuses(&["convert", "v.nrrd", output], &["3 x 2 x 2 voxels", "--slice"]);
+    }
+    place.refuses(&["convert", "v.nrrd", "w.vti", "--crop", "0:1,0:1"], &["--crop", "--slice"]);
+}
+
+#[test]
+fn outputs_are_replaced_only_by_force() {
+    let place = Place::new();
+    place.write("field.txt", unit_text(3, 2));
+    place.write("kept.npy", "an earlier result");
+    place.refuses(&["convert", "field.txt", "kept.npy"], &["kept.npy", "exists", "--force"]);
+    place.refuses(&["convert", "field.txt", "f.png"], &[".vti, .npy or .txt"]);
+    place.succeeds(&["convert", "field.txt", "kept.npy", "--force"]);
+    assert_eq!(npy::read_tensors(&place.read("kept.npy")).unwrap().grid().width(), 3);
+    place.succeeds(&["convert", "inverse:size=5", "generated.vti"]);
+    place.succeeds(&["compare", "inverse:size=5", "generated.vti", "--tolerance", "0"]);
+}
+
+#[test]
+fn planes_and_options_that_do_not_fit_are_refused() {
+    let place = Place::new();
+    place.write("v.nrrd", nrrd());
+    place.write("flat.txt", unit_text(3, 2));
+    let refuses = |input: &str, options: &[&str], words: &[&str]| {
+        for command in [&["info", input][..], &["ltg", input, "-o", "o.vti"]] {
+            if command[0] == "ltg" || !options.is_empty() {
+                place.refuses(&[command, options].concat(), words);
+            }
+        }
+    };
+    refuses("v.nrrd", &[], &["3 x 2 x 2 voxels", "a plane is needed", "--slice AXIS=INDEX"]);
+    refuses("v.nrrd", &["--plane", "xz"], &["plane xz needs a slice y=I", "0 to 1"]);
+    refuses("v.nrrd", &["--plane", "xz", "--slice", "z=0"], &["plane xz", "expected a slice along y"]);
+    refuses("v.nrrd", &["--slice", "x=3"], &["slice x=3", "0 to 2"]);
+    refuses("v.nrrd", &["--slice", "z=0", "--crop", "0:4,0:1"], &["crop 0:4,0:1", "0:3,0:2"]);
+    refuses("v.nrrd", &["--slice", "z=0", "--order", "afni"], &["`afni`", "expected vtk, nrrd"]);
+    refuses("v.nrrd", &["--slice", "z=0", "--frame", "measurement"], &["no measurement frame"]);
+    refuses("v.nrrd", &["--slice", "w=0"], &["z=INDEX"]);
+    refuses("v.nrrd", &["--crop", "3:1,0:1"], &["X0 < X1"]);
+    refuses("flat.txt", &["--plane", "yz"], &["flat.txt"]);
+    refuses("flat.txt", &["--order", "vtk"], &["expected no --order"]);
+    refuses("flat.txt", &["--crop", "0:9,0:1"], &["0:3,0:2"]);
+    place.succeeds(&["info", "flat.txt", "--plane", "xy", "--slice", "z=0", "--crop", "1:3,0:1"]);
+}
+
+#[test]
+fn detached_data_lie_beside_their_header() {
+    let place = Place::new();
+    let (head, data) = nrrd().split_once("\n\n").map(|(h, d)| (h.to_owned(), d.to_owned())).unwrap();
+    place.write("folder/v.nhdr", format!("{head}\ndata file: numbers.txt\n"));
+    place.refuses(&["info", "folder/v.nhdr"], &["numbers.txt", "reading"]);
+    place.write("folder/numbers.txt", &data);
+    let facts = place.succeeds(&["info", "folder/v.nhdr", "--json"]).json();
+    assert_eq!(facts["range"]["max"], 30.0);
+    place.write("folder/numbers.txt", "1 2 3");
+    place.refuses(&["info", "folder/v.nhdr"], &["v.nhdr", "numbers.txt", "byte 5"]);
+}
+
+#[test]
+fn info_describes_whole_volumes() {
+    let place = Place::new();
+    place.write("v.nrrd", nrrd());
+    let facts = place.succeeds(&["info", "v.nrrd", "--json"]).json();
+    has_keys(
+        &facts,
+        &["dimensions", "spacing", "component_order", "frame", "range", "shares", "assumptions"],
+    );
+    assert_eq!(facts["component_order"], "xx,xy,xz,yy,yz,zz");
+    assert_eq!(facts["mean_trace"], 56.5);
+    let bars = facts["fractional_anisotropy_histogram"].as_array().unwrap();
+    assert_eq!(bars.iter().map(|b| b.as_u64().unwrap()).sum::<u64>(), 12);
+    let text = place.succeeds(&["info", "v.nrrd"]).stdout;
+    assert!(text.contains("stated by the file") && text.contains("ASSUMED"), "{text}");
+}
+
+/// Every example file is read, and converted where it holds tensors.
+#[test]
+fn example_files_work_with_every_command() {
+    let Some(data) = data() else { return };
+    let place = Place::new();
+    let expected: Value =
+        serde_json::from_slice(&std::fs::read(data.join("expected.json")).unwrap()).unwrap();
+    for entry in expected["files"].as_array().unwrap() {
+        let file = entry["file"].as_str().unwrap();
+        let input = data.join(file).display().to_string();
+        let order = ["dipy", "fsl", "mrtrix"].into_iter().find(|tool| file.contains(tool));
+        let order: Vec<&str> = order.iter().flat_map(|o| ["--order", o, "--frame", "voxel"]).collect();
+        let facts = place.succeeds(&[&["info", &input, "--json"], &order[..]].concat()).json();
+        if entry["scalar"] == true {
+            assert_eq!(facts["range"]["max"], entry["max"], "{file}");
+            continue;
+        }
+        let volume = if facts["volume"].is_object() { &facts["volume"] } else { &facts };
+        if entry["rank"] == 3 {
+            let near = |found: &Value, key: &str| {
+                let (found, expected) = (found.as_f64().unwrap(), entry[key].as_f64().unwrap());
+                let scale = entry["max"].as_f64().unwrap() - entry["min"].as_f64().unwrap();
+                assert!((found - expected).abs() < 1e-6 * scale, "{file} {key}: {found}");
+            };
+            near(&volume["range"]["min"], "min");
+            near(&volume["range"]["max"], "max");
+            near(&volume["mean_trace"], "mean_trace");
+            assert_eq!(volume["zero_tensors"], entry["zero_tensors"], "{file}");
+            assert_eq!(volume["dimensions"], entry["shape_xyz"], "{file}");
+            assert!(volume["warning"].is_null(), "{file}");
+        }
+        let thick = entry["shape_xyz"][2].as_u64().is_some_and(|n| n > 1);
+        let slice: Vec<&str> = if thick { vec!["--slice", "y=4"] } else { vec![] };
+        let run =
+            place.tigereye(&[&["convert", &input, "o.vti", "--force"], &order[..], &slice[..]].concat());
+        assert_eq!(run.code, 0, "{file}: {}", run.stderr);
+        let crop = ["--crop", "2:7,1:8", "--directions", "8", "--steps", "3"];
+        let light = ["propagate", &input, "--light", "2,3", "-o", "o.npy"];
+        let run = place.tigereye(&[&light, &order[..], &slice[..], &crop[..]].concat());
+        assert_eq!(run.code, 0, "{file}: {}", run.stderr);
+    }
+}
+
+#[test]
+fn wrong_orders_are_warned_of() {
+    let Some(data) = data() else { return };
+    let place = Place::new();
+    let input = data.join("small_64D_tensor_fsl.nii.gz").display().to_string();
+    let facts = place.succeeds(&["info", &input, "--json"]).json();
+    assert!(facts["warning"].as_str().unwrap().contains("nrrd, fsl"), "{facts:#}");
+    let run = place.tigereye(&["convert", &input, "o.npy", "--slice", "z=3"]);
+    assert!(
+        run.stderr.contains("assumed component order") && run.stderr.contains("WARNING"),
+        "{}",
+        run.stderr
+    );
+    place.succeeds(&["convert", &input, "p.npy", "--slice", "z=3", "--order", "fsl", "--frame", "voxel"]);
+}

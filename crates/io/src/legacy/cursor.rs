@@ -1,0 +1,182 @@
+//! Words, lines and numbers of a legacy file.
+
+use crate::error::shortened;
+use crate::words::{Words, numbers};
+use crate::{ByteOrder, IoError, Limits, ScalarType};
+
+/// Longest line of text.
+const MAX_LINE: usize = 4096;
+
+/// A place in the file.
+pub(super) struct Cursor<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    binary: bool,
+    limits: Limits,
+    values_left: u64,
+    /// Major and minor version, at least 1 and 0.
+    version: (u32, u32),
+}
+
+impl<'a> Cursor<'a> {
+    /// Reads the three lines that head every file.
+    pub(super) fn open(bytes: &'a [u8], limits: Limits) -> Result<Self, IoError> {
+        let mut cursor =
+            Self { bytes, at: 0, binary: false, limits, values_left: limits.values, version: (1, 0) };
+        let first = cursor.line()?;
+        let version = first.strip_prefix(b"# vtk DataFile Version ").and_then(version);
+        let expected = "`# vtk DataFile Version` 1.0 to 5.1";
+        cursor.version =
+            version.filter(|v| (1..=5).contains(&v.0)).ok_or_else(|| fault(0, first, expected))?;
+        cursor.line()?;
+        let (byte, word) = cursor.word("ASCII or BINARY")?;
+        cursor.binary = match word {
+            b"ASCII" => false,
+            b"BINARY" => true,
+            _ => return Err(fault(byte, word, "ASCII or BINARY")),
+        };
+        Ok(cursor)
+    }
+
+    pub(super) const fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    /// The rest of the line, without its end.
+    pub(super) fn line(&mut self) -> Result<&'a [u8], IoError> {
+        let rest = &self.bytes[self.at..];
+        let window = &rest[..rest.len().min(MAX_LINE)];
+        let length = window.iter().position(|&b| b == b'\n').unwrap_or(window.len());
+        if length == MAX_LINE {
+            return Err(fault(self.at, window, "a line of at most 4096 bytes"));
+        }
+        self.at += (length + 1).min(rest.len());
+        Ok(window[..length].strip_suffix(b"\r").unwrap_or(&window[..length]))
+    }
+
+    /// The next word with its place.
+    pub(super) fn word(&mut self, expected: &'static str) -> Result<(usize, &'a [u8]), IoError> {
+        self.next().ok_or_else(|| fault(self.bytes.len(), b"", expected))
+    }
+
+    /// The next word; `None` at the end of the file.
+    pub(super) fn next(&mut self) -> Option<(usize, &'a [u8])> {
+        let mut words = Words::new(&self.bytes[self.at..]);
+        let (byte, word) = words.next()?;
+        let start = self.at;
+        self.at += words.at();
+        Some((start + byte, word))
+    }
+
+    /// The next word without moving on.
+    pub(super) fn peek(&self) -> Option<&'a [u8]> {
+        Words::new(&self.bytes[self.at..]).next().map(|(_, word)| word)
+    }
+
+    /// Whether the line has another word.
+    pub(super) fn more_on_line(&self) -> bool {
+        let rest = self.bytes[self.at..].iter();
+        rest.take_while(|&&b| b != b'\n').any(|b| !b.is_ascii_whitespace())
+    }
+
+    pub(super) fn parse<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, IoError> {
+        let (byte, word) = self.word(expected)?;
+        let parsed = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok());
+        parsed.ok_or_else(|| fault(byte, word, expected))
+    }
+
+    pub(super) fn finite(&mut self, expected: &'static str) -> Result<f64, IoError> {
+        let byte = self.at;
+        let number: f64 = self.parse(expected)?;
+        if number.is_finite() {
+            Ok(number)
+        } else {
+            Err(fault(byte, number.to_string().as_bytes(), expected))
+        }
+    }
+
+    /// The name of an array; special characters are written as %HH.
+    pub(super) fn name(&mut self) -> Result<String, IoError> {
+        let (_, word) = self.word("the name of an array")?;
+        let mut name = Vec::with_capacity(word.len());
+        let mut rest = word;
+        while let [first, behind @ ..] = rest {
+            let code = behind.get(..2).filter(|_| *first == b'%').and_then(|h| std::str::from_utf8(h).ok());
+            if let Some(byte) = code.and_then(|h| u8::from_str_radix(h, 16).ok()) {
+                name.push(byte);
+                rest = &behind[2..];
+            } else {
+                name.push(*first);
+                rest = behind;
+            }
+        }
+        Ok(String::from_utf8_lossy(&name).into_owned())
+    }
+
+    /// A number type by its name in these files.
+    pub(super) fn scalar(&mut self) -> Result<ScalarType, IoError> {
+        let expected = "a number type such as float, double or int";
+        let (byte, word) = self.word(expected)?;
+        Ok(match word.to_ascii_lowercase().as_slice() {
+            b"char" | b"signed_char" => ScalarType::Int8,
+            b"unsigned_char" => ScalarType::UInt8,
+            b"short" => ScalarType::Int16,
+            b"unsigned_short" => ScalarType::UInt16,
+            b"int" => ScalarType::Int32,
+            b"unsigned_int" => ScalarType::UInt32,
+            b"long" | b"vtktypeint64" => ScalarType::Int64,
+            b"unsigned_long" | b"vtktypeuint64" => ScalarType::UInt64,
+            b"float" => ScalarType::Float32,
+            b"double" => ScalarType::Float64,
+            // Stored in 32 bits until version 5.1.
+            b"vtkidtype" if self.version < (5, 1) => ScalarType::Int32,
+            b"vtkidtype" => ScalarType::Int64,
+            _ => return Err(fault(byte, word, expected)),
+        })
+    }
+
+    /// `count` numbers of an array: words, or big-endian bytes behind the end of the line.
+    pub(super) fn numbers(
+        &mut self,
+        array: &str,
+        scalar: ScalarType,
+        count: u128,
+    ) -> Result<Vec<f64>, IoError> {
+        let left = u64::try_from(count).ok().and_then(|n| self.values_left.checked_sub(n));
+        let limit = self.limits.values;
+        let many = || IoError::TooManyValues { array: array.to_owned(), byte: self.at, limit };
+        self.values_left = left.ok_or_else(many)?;
+        if !self.binary {
+            let mut words = Words::new(&self.bytes[self.at..]);
+            let values = numbers(&mut words, self.at, scalar, count as u64)?;
+            self.at += words.at();
+            return Ok(values);
+        }
+        self.line()?;
+        let needed = count * scalar.bytes() as u128;
+        let rest = &self.bytes[self.at..];
+        if needed > rest.len() as u128 {
+            let (array, byte, present) = (array.to_owned(), self.at, rest.len());
+            return Err(IoError::ArrayTruncated { array, byte, needed, present });
+        }
+        self.at += needed as usize;
+        Ok(scalar.decode(ByteOrder::Big, &rest[..needed as usize]))
+    }
+
+    pub(super) const fn at(&self) -> usize {
+        self.at
+    }
+
+    pub(super) const fn binary(&self) -> bool {
+        self.binary
+    }
+}
+
+fn version(text: &[u8]) -> Option<(u32, u32)> {
+    let (major, minor) = std::str::from_utf8(text).ok()?.trim().split_once('.')?;
+    Some((major.parse().ok()?, minor.parse().ok()?))
+}
+
+pub(super) fn fault(byte: usize, found: &[u8], expected: &'static str) -> IoError {
+    IoError::LegacyWord { byte, found: shortened(found), expected }
+}

@@ -1,0 +1,174 @@
+//! The points of a legacy data set, as a lattice.
+
+use super::cursor::{Cursor, fault};
+use crate::{ImageData, IoError};
+
+/// Largest distance of a point from its lattice, relative to the step: coordinates have six digits in text.
+const TOLERANCE: f64 = 1e-3;
+
+const SETS: &str = "DATASET STRUCTURED_POINTS, STRUCTURED_GRID or RECTILINEAR_GRID";
+
+/// Reads everything before the attributes.
+pub(super) fn read(cursor: &mut Cursor) -> Result<ImageData, IoError> {
+    let (byte, word) = cursor.word(SETS)?;
+    if word != b"DATASET" {
+        return Err(fault(byte, word, SETS));
+    }
+    let (byte, word) = cursor.word(SETS)?;
+    let mut image = match word {
+        b"STRUCTURED_POINTS" => ImageData::empty([1; 3]),
+        b"STRUCTURED_GRID" | b"RECTILINEAR_GRID" => ImageData::empty([1; 3]),
+        _ => return Err(fault(byte, word, SETS)),
+    };
+    let kind = word;
+    let mut sized = false;
+    let mut placed = kind == b"STRUCTURED_POINTS";
+    while let Some(word) = cursor.peek() {
+        match word {
+            b"FIELD" => super::attributes::read_field_data(cursor, &mut image)?,
+            b"DIMENSIONS" => {
+                image.dimensions = dimensions(cursor)?;
+                sized = true;
+            }
+            b"SPACING" | b"ASPECT_RATIO" => image.spacing = triple(cursor)?,
+            b"ORIGIN" => image.origin = triple(cursor)?,
+            b"POINTS" if sized && kind == b"STRUCTURED_GRID" => {
+                points(cursor, &mut image)?;
+                placed = true;
+            }
+            b"X_COORDINATES" if sized && kind == b"RECTILINEAR_GRID" => {
+                (0..3).try_for_each(|axis| coordinates(cursor, axis, &mut image))?;
+                placed = true;
+            }
+            b"METADATA" => super::attributes::skip_metadata(cursor)?,
+            _ => break,
+        }
+    }
+    let expected = if sized { "the points" } else { "DIMENSIONS" };
+    if sized && placed {
+        return Ok(image);
+    }
+    let (byte, word) = cursor.word(expected)?;
+    Err(fault(byte, word, expected))
+}
+
+fn dimensions(cursor: &mut Cursor) -> Result<[usize; 3], IoError> {
+    let expected = "three positive integers";
+    let (byte, _) = cursor.word(expected)?;
+    let mut n = [0_u64; 3];
+    for axis in &mut n {
+        let at = cursor.at();
+        *axis = cursor.parse(expected)?;
+        if *axis == 0 {
+            return Err(fault(at, b"0", expected));
+        }
+    }
+    let cells = n.iter().fold(1_u128, |p, &d| p.saturating_mul(u128::from(d)));
+    let limit = cursor.limits().cells;
+    if cells > u128::from(limit) {
+        return Err(IoError::TooManyCells { byte, cells, limit });
+    }
+    Ok(n.map(|d| d as usize))
+}
+
+fn triple(cursor: &mut Cursor) -> Result<[f64; 3], IoError> {
+    let expected = "three finite numbers";
+    cursor.word(expected)?;
+    Ok([cursor.finite(expected)?, cursor.finite(expected)?, cursor.finite(expected)?])
+}
+
+/// Explicit points, which must be those of a lattice, possibly turned.
+fn points(cursor: &mut Cursor, image: &mut ImageData) -> Result<(), IoError> {
+    let (byte, _) = cursor.word("POINTS")?;
+    let at = cursor.at();
+    let count: u64 = cursor.parse("the number of points")?;
+    let [nx, ny, nz] = image.dimensions;
+    if u128::from(count) != nx as u128 * ny as u128 * nz as u128 {
+        return Err(fault(at, count.to_string().as_bytes(), "as many points as the DIMENSIONS declare"));
+    }
+    let scalar = cursor.scalar()?;
+    let values = cursor.numbers("POINTS", scalar, 3 * u128::from(count))?;
+    let points = values.as_chunks::<3>().0;
+    let strides = [1, nx, nx * ny];
+    let first = points.first().copied().unwrap_or_default();
+    let mut axes = [[0.0; 3]; 3];
+    for a in 0..3 {
+        let steps = image.dimensions[a] - 1;
+        if steps > 0 {
+            let last = points[strides[a] * steps];
+            axes[a] = [0, 1, 2].map(|i| (last[i] - first[i]) / steps as f64);
+        }
+    }
+    let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    let spacing = axes.map(length);
+    let least = spacing.iter().copied().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
+    for (point, p) in points.iter().enumerate() {
+        let at = [point % nx, point / nx % ny, point / (nx * ny)];
+        let off = [0, 1, 2].map(|i| {
+            let expected: f64 = (0..3).map(|a| at[a] as f64 * axes[a][i]).sum();
+            p[i] - first[i] - expected
+        });
+        let moves = (0..3).all(|a| image.dimensions[a] == 1 || spacing[a] > 0.0);
+        let near = length(off) <= TOLERANCE * least;
+        if !(near || points.len() == 1) || !moves {
+            return Err(IoError::NoLattice { byte, point });
+        }
+    }
+    place(image, axes, first);
+    Ok(())
+}
+
+/// Spacing, directions and origin from steps; axes of one point get the directions that are left.
+fn place(image: &mut ImageData, axes: [[f64; 3]; 3], origin: [f64; 3]) {
+    let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    let mut units = [None; 3];
+    for a in 0..3 {
+        let spacing = length(axes[a]);
+        if spacing > 0.0 {
+            image.spacing[a] = spacing;
+            units[a] = Some(axes[a].map(|v| v / spacing));
+        }
+    }
+    for a in 0..3 {
+        if units[a].is_some() {
+            continue;
+        }
+        units[a] = match (units[(a + 1) % 3], units[(a + 2) % 3]) {
+            (Some(u), Some(v)) => {
+                Some([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+            }
+            _ => Some([0, 1, 2].map(|i| if i == a { 1.0 } else { 0.0 })),
+        };
+    }
+    let direction: [f64; 9] = std::array::from_fn(|i| units[i % 3].unwrap_or_default()[i / 3]);
+    image.origin = origin;
+    let turned = (0..9).any(|i| direction[i] != if i % 4 == 0 { 1.0 } else { 0.0 });
+    image.direction = turned.then_some(direction);
+}
+
+/// Coordinates along one axis of a rectilinear grid, which must be equally spaced.
+fn coordinates(cursor: &mut Cursor, axis: usize, image: &mut ImageData) -> Result<(), IoError> {
+    const NAMES: [&str; 3] = ["X_COORDINATES", "Y_COORDINATES", "Z_COORDINATES"];
+    let (byte, word) = cursor.word(NAMES[axis])?;
+    if word != NAMES[axis].as_bytes() {
+        return Err(fault(byte, word, NAMES[axis]));
+    }
+    let at = cursor.at();
+    let count: usize = cursor.parse("the number of coordinates")?;
+    if count != image.dimensions[axis] {
+        return Err(fault(at, count.to_string().as_bytes(), "as many coordinates as the DIMENSIONS declare"));
+    }
+    let scalar = cursor.scalar()?;
+    let values = cursor.numbers(NAMES[axis], scalar, count as u128)?;
+    let (first, last) = (values[0], values[count - 1]);
+    let step = if count > 1 { (last - first) / (count - 1) as f64 } else { 1.0 };
+    let off = |(i, v): (usize, &f64)| {
+        let near = (v - first - i as f64 * step).abs() <= TOLERANCE * step.abs();
+        (!near || step == 0.0).then_some(i)
+    };
+    if let Some(point) = values.iter().enumerate().find_map(off).filter(|_| count > 1) {
+        return Err(IoError::NoLattice { byte, point });
+    }
+    (image.origin[axis], image.spacing[axis]) = (first, step);
+    Ok(())
+}

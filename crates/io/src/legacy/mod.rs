@@ -1,0 +1,33 @@
+//! Legacy VTK files, `.vtk`, to [`ImageData`].
+//!
+//! Read: versions 1 to 5.1, ASCII and BINARY (big-endian); STRUCTURED_POINTS, and STRUCTURED_GRID or RECTILINEAR_GRID whose
+//! points form a lattice; all attributes of points and cells, arrays in FIELD, METADATA. Refused by name: other data sets,
+//! bits and strings.
+//!
+//! Format: "VTK File Formats", The VTK User's Guide.
+
+mod attributes;
+mod cursor;
+mod geometry;
+
+use crate::{ImageData, IoError, Limits};
+use cursor::Cursor;
+
+/// Reads a file with the default [`Limits`].
+///
+/// # Errors
+/// See [`read_with_limits`].
+pub fn read(bytes: &[u8]) -> Result<ImageData, IoError> {
+    read_with_limits(bytes, Limits::default())
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// Names the byte and what was expected there, or the array.
+pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<ImageData, IoError> {
+    let mut cursor = Cursor::open(bytes, limits)?;
+    let mut image = geometry::read(&mut cursor)?;
+    attributes::read(&mut cursor, &mut image)?;
+    Ok(image)
+}

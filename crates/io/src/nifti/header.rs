@@ -1,0 +1,244 @@
+//! The 348 bytes that head a NIfTI-1 file.
+
+use crate::volume::TensorOrder;
+use crate::{ByteOrder, IoError, Limits, ScalarType};
+
+/// Bytes of the header.
+pub(super) const LENGTH: usize = 348;
+/// Extensions before the data are skipped up to here.
+const MAX_OFFSET: f64 = (1_u64 << 26) as f64;
+
+const SYMMETRIC: i16 = 1005;
+const MATRIX: i16 = 1004;
+
+/// Steps along the voxel axes, and the first voxel.
+pub(super) type Position = ([[f64; 3]; 3], [f64; 3]);
+
+/// What the header says, in range.
+#[derive(Clone, Debug)]
+pub(super) struct Header {
+    pub(super) order: ByteOrder,
+    pub(super) scalar: ScalarType,
+    /// First byte of the numbers.
+    pub(super) offset: u64,
+    pub(super) size: [usize; 3],
+    pub(super) components: usize,
+    /// Order of the components, where the intent states it.
+    pub(super) tensor: Option<TensorOrder>,
+    pub(super) kind: &'static str,
+    /// Slope and intercept, where they do something.
+    pub(super) scaling: Option<(f64, f64)>,
+    /// And which part of the header it is from.
+    pub(super) position: (Position, &'static str),
+}
+
+/// Fields by their place.
+struct Bytes<'a> {
+    bytes: &'a [u8],
+    order: ByteOrder,
+}
+
+impl Bytes<'_> {
+    fn get<const N: usize>(&self, at: usize) -> [u8; N] {
+        let mut b = [0; N];
+        // The length was checked.
+        b.copy_from_slice(&self.bytes[at..at + N]);
+        if self.order == ByteOrder::Big {
+            b.reverse();
+        }
+        b
+    }
+
+    fn short(&self, at: usize) -> i16 {
+        i16::from_le_bytes(self.get(at))
+    }
+
+    fn float(&self, at: usize) -> f64 {
+        f64::from(f32::from_le_bytes(self.get(at)))
+    }
+
+    fn floats<const N: usize>(&self, at: usize) -> [f64; N] {
+        std::array::from_fn(|i| self.float(at + 4 * i))
+    }
+}
+
+fn fault(byte: usize, field: &'static str, found: impl ToString, expected: &'static str) -> IoError {
+    IoError::NiftiField { byte, field, found: found.to_string(), expected }
+}
+
+impl Header {
+    pub(super) fn parse(bytes: &[u8], limits: Limits) -> Result<Self, IoError> {
+        let head = bytes.get(..LENGTH).ok_or(IoError::DataTruncated {
+            byte: 0,
+            needed: LENGTH as u128,
+            present: bytes.len() as u64,
+        })?;
+        let fields = Bytes { bytes: head, order: byte_order(head)? };
+        if &head[344..348] != b"n+1\0" {
+            let found = format!("`{}`", crate::error::shortened(&head[344..347]));
+            return Err(fault(344, "magic", found, "`n+1`: one file with header and data"));
+        }
+        let dim: [i16; 8] = std::array::from_fn(|i| fields.short(40 + 2 * i));
+        let shape = shape(dim)?;
+        let scalar = scalar(&fields)?;
+        let (components, tensor, kind) = meaning(&fields, dim[0], shape)?;
+        let cells = shape[..3].iter().map(|&n| n as u128).product::<u128>();
+        if cells > u128::from(limits.cells) {
+            return Err(IoError::TooManyCells { byte: 40, cells, limit: limits.cells });
+        }
+        if cells * components as u128 > u128::from(limits.values) {
+            return Err(IoError::TooManyValues { array: kind.to_owned(), byte: 40, limit: limits.values });
+        }
+        let offset = fields.float(108);
+        if !((352.0..=MAX_OFFSET).contains(&offset) && offset.fract() == 0.0) {
+            return Err(fault(108, "vox_offset", offset, "a whole number from 352 to 67108864"));
+        }
+        let (slope, intercept) = (fields.float(112), fields.float(116));
+        let scales = slope != 0.0 && slope.is_finite() && intercept.is_finite();
+        Ok(Self {
+            order: fields.order,
+            scalar,
+            offset: offset as u64,
+            size: [shape[0], shape[1], shape[2]],
+            components,
+            tensor,
+            kind,
+            scaling: (scales && (slope, intercept) != (1.0, 0.0)).then_some((slope, intercept)),
+            position: position(&fields)?,
+        })
+    }
+
+    /// Numbers in all; within the limits.
+    pub(super) fn values(&self) -> u64 {
+        self.size.iter().map(|&n| n as u64).product::<u64>() * self.components as u64
+    }
+}
+
+fn byte_order(head: &[u8]) -> Result<ByteOrder, IoError> {
+    let size = [head[0], head[1], head[2], head[3]];
+    let (little, big) = (i32::from_le_bytes(size), i32::from_be_bytes(size));
+    match (little, big) {
+        (348, _) => Ok(ByteOrder::Little),
+        (_, 348) => Ok(ByteOrder::Big),
+        (540, _) | (_, 540) => Err(fault(0, "sizeof_hdr", "540 (NIfTI-2)", "348 (NIfTI-1)")),
+        _ => Err(fault(0, "sizeof_hdr", little, "348 in either byte order")),
+    }
+}
+
+/// Lengths of seven axes; those beyond the declared number are 1.
+fn shape(dim: [i16; 8]) -> Result<[usize; 7], IoError> {
+    if !(1..=7).contains(&dim[0]) {
+        return Err(fault(40, "dim[0]", dim[0], "a number of axes from 1 to 7"));
+    }
+    let mut shape = [1; 7];
+    for axis in 0..dim[0] as usize {
+        let length = dim[axis + 1];
+        shape[axis] = usize::try_from(length).ok().filter(|&n| n > 0).ok_or_else(|| {
+            const NAMES: [&str; 7] = ["dim[1]", "dim[2]", "dim[3]", "dim[4]", "dim[5]", "dim[6]", "dim[7]"];
+            fault(42 + 2 * axis, NAMES[axis], length, "a length from 1")
+        })?;
+    }
+    Ok(shape)
+}
+
+fn scalar(fields: &Bytes) -> Result<ScalarType, IoError> {
+    let code = fields.short(70);
+    let scalar = match code {
+        2 => ScalarType::UInt8,
+        4 => ScalarType::Int16,
+        8 => ScalarType::Int32,
+        16 => ScalarType::Float32,
+        64 => ScalarType::Float64,
+        256 => ScalarType::Int8,
+        512 => ScalarType::UInt16,
+        768 => ScalarType::UInt32,
+        1024 => ScalarType::Int64,
+        1280 => ScalarType::UInt64,
+        _ => {
+            let expected = "a real number type: 2, 4, 8, 16, 64, 256, 512, 768, 1024 or 1280";
+            return Err(fault(70, "datatype", code, expected));
+        }
+    };
+    let bits = fields.short(72);
+    if bits as i64 == 8 * scalar.bytes() as i64 {
+        Ok(scalar)
+    } else {
+        Err(fault(72, "bitpix", bits, "the bits of the datatype"))
+    }
+}
+
+/// Components, their order where the intent states it, and a name.
+fn meaning(
+    fields: &Bytes,
+    axes: i16,
+    shape: [usize; 7],
+) -> Result<(usize, Option<TensorOrder>, &'static str), IoError> {
+    let (intent, p1, p2) = (fields.short(68), fields.float(56), fields.float(60));
+    if shape[5] != 1 || shape[6] != 1 || (shape[3] != 1 && shape[4] != 1) {
+        let found = format!("{shape:?}");
+        return Err(fault(
+            40,
+            "dim",
+            found,
+            "components along the fourth or the fifth axis, and nothing else",
+        ));
+    }
+    let components = shape[3] * shape[4];
+    let stated = |order: TensorOrder, kind| {
+        if components == order.components() && shape[4] == components {
+            Ok((components, Some(order), kind))
+        } else {
+            Err(fault(50, "dim[5]", shape[4], "as many components as the intent's matrix has"))
+        }
+    };
+    match intent {
+        SYMMETRIC if p1 == 3.0 => stated(TensorOrder::LOWER, "symmetric matrix (intent 1005)"),
+        SYMMETRIC if p1 == 2.0 => stated(TensorOrder::UPPER2, "symmetric matrix (intent 1005)"),
+        SYMMETRIC => Err(fault(56, "intent_p1", p1, "2 or 3, the size of the symmetric matrix")),
+        MATRIX if (p1, p2) == (3.0, 3.0) => stated(TensorOrder::ROWS3, "matrix (intent 1004)"),
+        MATRIX if (p1, p2) == (2.0, 2.0) => stated(TensorOrder::ROWS2, "matrix (intent 1004)"),
+        MATRIX => Err(fault(56, "intent_p1", p1, "2 x 2 or 3 x 3, the size of the matrix")),
+        _ if components == 1 => Ok((1, None, "scalar image")),
+        _ if axes <= 4 => Ok((components, None, "components along the fourth axis")),
+        _ => Ok((components, None, "components along the fifth axis")),
+    }
+}
+
+/// The sform where there is one, else the qform, else the voxel sizes.
+fn position(fields: &Bytes) -> Result<(Position, &'static str), IoError> {
+    let pixdim: [f64; 8] = fields.floats(76);
+    let (qform, sform) = (fields.short(252), fields.short(254));
+    let finite = |values: &[f64]| values.iter().all(|v| v.is_finite());
+    if sform > 0 {
+        let m: [f64; 12] = fields.floats(280);
+        if !finite(&m) {
+            return Err(fault(280, "srow_x", "a number that is not finite", "a finite matrix"));
+        }
+        let axes = [0, 1, 2].map(|a| [m[a], m[4 + a], m[8 + a]]);
+        return Ok(((axes, [m[3], m[7], m[11]]), "the sform"));
+    }
+    let steps = [1, 2, 3].map(|i| if pixdim[i] > 0.0 && pixdim[i].is_finite() { pixdim[i] } else { 1.0 });
+    if qform > 0 {
+        let q: [f64; 6] = fields.floats(256);
+        if !finite(&q) {
+            return Err(fault(256, "quatern_b", "a number that is not finite", "finite numbers"));
+        }
+        let flip = if pixdim[0] < 0.0 { -1.0 } else { 1.0 };
+        return Ok(((rotated([q[0], q[1], q[2]], steps, flip), [q[3], q[4], q[5]]), "the qform"));
+    }
+    let axes = [[steps[0], 0.0, 0.0], [0.0, steps[1], 0.0], [0.0, 0.0, steps[2]]];
+    Ok(((axes, [0.0; 3]), "the voxel sizes alone (no sform, no qform)"))
+}
+
+/// Axes from the three imaginary parts of a unit quaternion; the third axis may be reversed.
+fn rotated([b, c, d]: [f64; 3], steps: [f64; 3], flip: f64) -> [[f64; 3]; 3] {
+    let square = b * b + c * c + d * d;
+    // Single precision may leave a little more than 1.
+    let shrink = if square > 1.0 { 1.0 / square.sqrt() } else { 1.0 };
+    let [b, c, d] = [b, c, d].map(|v| v * shrink);
+    let a = (1.0 - (b * b + c * c + d * d)).max(0.0).sqrt();
+    let first = [a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)];
+    let second = [2.0 * (b * c - a * d), a * a + c * c - b * b - d * d, 2.0 * (c * d + a * b)];
+    let third = [2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a + d * d - c * c - b * b];
+    [first.map(|v| v * steps[0]), second.map(|v| v * steps[1]), third.map(|v| v * steps[2] * flip)]
+}

@@ -1,0 +1,82 @@
+//! NIfTI-1 in one file, `.nii` and `.nii.gz`.
+//!
+//! Read: both byte orders, all integer and floating-point types of up to 64 bits, scaling, sform and qform; symmetric and
+//! general matrices as the standard has them (5-D, intents 1005 and 1004), and 4-D or 5-D images of several components, whose
+//! order the file does not state. Refused by name: NIfTI-2, ANALYZE and `.hdr`/`.img` pairs, complex and colour numbers,
+//! time series.
+//!
+//! Standard: nifti1.h of the NIfTI Data Format Working Group, 2003.
+
+mod header;
+
+use crate::inflate::{gunzip, is_gzip};
+use crate::volume::{Frame, Known, Lattice, World};
+use crate::{IoError, Limits};
+use header::{Header, LENGTH};
+
+/// Reads a file with the default [`Limits`].
+///
+/// # Errors
+/// See [`read_with_limits`].
+pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
+    read_with_limits(bytes, Limits::default())
+}
+
+/// Reads a file, compressed or not.
+///
+/// # Errors
+/// Names the byte, in the unpacked file, and the header's field.
+pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<Lattice, IoError> {
+    let packed = is_gzip(bytes);
+    let unpacked;
+    let head = if packed {
+        unpacked = gunzip(bytes, 0, LENGTH as u64)?;
+        &unpacked
+    } else {
+        bytes
+    };
+    let header = Header::parse(head, limits)?;
+    let needed = header.offset + header.values() * header.scalar.bytes() as u64;
+    let whole;
+    let all = if packed {
+        whole = gunzip(bytes, 0, needed)?;
+        &whole
+    } else {
+        bytes
+    };
+    if (all.len() as u64) < needed {
+        let (byte, present) = (header.offset as usize, (all.len() as u64).saturating_sub(header.offset));
+        return Err(IoError::DataTruncated { byte, needed: u128::from(needed - header.offset), present });
+    }
+    let data = &all[header.offset as usize..needed as usize];
+    let mut stored = header.scalar.decode(header.order, data);
+    let mut notes = vec![format!("position by {}", header.position.1)];
+    if let Some((slope, intercept)) = header.scaling {
+        stored.iter_mut().for_each(|v| *v = *v * slope + intercept);
+        notes.push(format!("numbers scaled by {slope} and shifted by {intercept}"));
+    }
+    let (axes, origin) = header.position.0;
+    Ok(Lattice {
+        size: header.size,
+        components: header.components,
+        values: by_voxel(&stored, header.components),
+        scalar: header.scalar,
+        axes,
+        origin,
+        world: World::Scanner("right-anterior-superior".to_owned()),
+        measurement: None,
+        mask: None,
+        order: header.tensor,
+        // The standard leaves the axes open; dipy and FSL write voxel axes.
+        frame: (Frame::Voxel, Known::Assumed),
+        array: header.kind.to_owned(),
+        notes,
+    })
+}
+
+/// From component by component to voxel by voxel.
+fn by_voxel(stored: &[f64], components: usize) -> Vec<f64> {
+    let voxels = stored.len() / components.max(1);
+    let tuple = |voxel: usize| (0..components).map(move |c| stored[c * voxels + voxel]);
+    (0..voxels).flat_map(tuple).collect()
+}

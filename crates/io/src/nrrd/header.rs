@@ -1,0 +1,432 @@
+//! The text header of an NRRD file.
+
+use super::{KINDS, Kind, Layout};
+use crate::error::shortened;
+use crate::{ByteOrder, IoError, Limits, ScalarType};
+
+/// Most axes of an array, as in teem.
+const MAX_AXES: usize = 16;
+/// Longest header; fields are short.
+const MAX_HEADER: usize = 1 << 20;
+
+/// How the numbers are encoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
+    Raw,
+    Gzip,
+    Text,
+}
+
+/// What the header says, in range.
+#[derive(Clone, Debug)]
+pub(super) struct Header {
+    pub(super) scalar: ScalarType,
+    pub(super) order: ByteOrder,
+    pub(super) encoding: Encoding,
+    /// Numbers in all; within the limits.
+    pub(super) count: u64,
+    pub(super) line_skip: u64,
+    /// `None` where the data are the last bytes of the file.
+    pub(super) byte_skip: Option<u64>,
+    pub(super) data_file: Option<String>,
+    /// First byte behind the header.
+    pub(super) end: usize,
+    pub(super) space: Option<String>,
+    pub(super) measurement: Option<[f64; 9]>,
+    sizes: Vec<u64>,
+    kinds: Vec<String>,
+    kinds_line: usize,
+    directions: Vec<Option<[f64; 3]>>,
+    spacings: Vec<f64>,
+    origin: Option<[f64; 3]>,
+    limits: Limits,
+    /// Lines of the header.
+    lines: usize,
+}
+
+/// One `field: value` line.
+struct Entry<'a> {
+    line: usize,
+    name: String,
+    value: &'a str,
+}
+
+/// All lines, and where the data begin.
+struct Fields<'a> {
+    entries: Vec<Entry<'a>>,
+    lines: usize,
+    end: usize,
+}
+
+impl<'a> Fields<'a> {
+    fn parse(bytes: &'a [u8]) -> Result<Self, IoError> {
+        let fault = |line, field, found: &[u8], expected| IoError::NrrdField {
+            line,
+            field,
+            found: shortened(found),
+            expected,
+        };
+        let magic = bytes.strip_prefix(b"NRRD000").and_then(|rest| rest.first());
+        if !magic.is_some_and(|v| (b'1'..=b'6').contains(v)) {
+            return Err(fault(1, "magic", bytes.get(..8).unwrap_or(bytes), "NRRD0001 to NRRD0006"));
+        }
+        let (mut at, mut line) = (0, 0);
+        let mut entries: Vec<Entry> = Vec::new();
+        loop {
+            let rest = &bytes[at..];
+            line += 1;
+            let Some(length) = rest.iter().take(MAX_HEADER.saturating_sub(at)).position(|&b| b == b'\n')
+            else {
+                // A header of its own may end without a blank line.
+                if bytes.len() > MAX_HEADER {
+                    return Err(fault(line, "end of the header", b"", "a blank line within a megabyte"));
+                }
+                if !rest.is_empty() {
+                    entries.extend(Self::entry(rest, line)?);
+                }
+                return Ok(Self { entries, lines: line, end: bytes.len() });
+            };
+            let text = rest[..length].strip_suffix(b"\r").unwrap_or(&rest[..length]);
+            at += length + 1;
+            if text.is_empty() {
+                return Ok(Self { entries, lines: line, end: at });
+            }
+            if line > 1 {
+                entries.extend(Self::entry(text, line)?);
+            }
+        }
+    }
+
+    /// A field; `None` for comments and for the key/value pairs of applications.
+    fn entry(text: &'a [u8], line: usize) -> Result<Option<Entry<'a>>, IoError> {
+        let fault = |expected| IoError::NrrdField { line, field: "line", found: shortened(text), expected };
+        if text.starts_with(b"#") {
+            return Ok(None);
+        }
+        let words = std::str::from_utf8(text).map_err(|_| fault("UTF-8 text"))?;
+        // `key:=value` belongs to applications.
+        match words.split_once(':') {
+            Some((_, value)) if value.starts_with('=') => Ok(None),
+            Some((name, value)) => {
+                let name: String = name.trim().to_ascii_lowercase().split_whitespace().collect();
+                Ok(Some(Entry { line, name, value: value.trim() }))
+            }
+            None => Err(fault("`field: value`, `key:=value`, a comment or a blank line")),
+        }
+    }
+
+    /// The value of a field by its name without blanks.
+    fn get(&self, names: &[&str]) -> Option<&Entry<'a>> {
+        self.entries.iter().find(|e| names.contains(&e.name.as_str()))
+    }
+
+    fn required(
+        &self,
+        names: &[&str],
+        field: &'static str,
+        expected: &'static str,
+    ) -> Result<&Entry<'a>, IoError> {
+        let missing = || IoError::NrrdField { line: self.lines, field, found: String::new(), expected };
+        self.get(names).ok_or_else(missing)
+    }
+}
+
+impl Entry<'_> {
+    fn fault(&self, field: &'static str, expected: &'static str) -> IoError {
+        IoError::NrrdField { line: self.line, field, found: shortened(self.value.as_bytes()), expected }
+    }
+
+    fn integer(&self, field: &'static str, expected: &'static str) -> Result<i64, IoError> {
+        self.value.parse().map_err(|_| self.fault(field, expected))
+    }
+}
+
+impl Header {
+    pub(super) fn parse(bytes: &[u8], limits: Limits) -> Result<Self, IoError> {
+        let fields = Fields::parse(bytes)?;
+        let scalar = scalar(fields.required(&["type"], "type", TYPES)?)?;
+        let encoding = encoding(fields.required(&["encoding"], "encoding", ENCODINGS)?)?;
+        let sizes = sizes(&fields)?;
+        let count = sizes.iter().fold(1_u128, |n, &s| n.saturating_mul(u128::from(s)));
+        let count = match u64::try_from(count) {
+            Ok(n) if n <= limits.values => n,
+            _ => {
+                let line = fields.get(&["sizes"]).map_or(1, |e| e.line);
+                return Err(too_large(bytes, line, count, limits.values));
+            }
+        };
+        let order = byte_order(&fields, scalar, encoding)?;
+        if let Some(e) = fields.get(&["blocksize"]) {
+            return Err(e.fault("block size", "numbers, not blocks"));
+        }
+        let line_skip = match fields.get(&["lineskip"]) {
+            Some(e) => u64::try_from(e.integer("line skip", "a count from 0")?)
+                .map_err(|_| e.fault("line skip", "a count from 0"))?,
+            None => 0,
+        };
+        let byte_skip = match fields.get(&["byteskip"]) {
+            None => Some(0),
+            Some(e) => match e.integer("byte skip", "a count from 0, or -1 with raw data")? {
+                -1 if encoding == Encoding::Raw => None,
+                n => Some(
+                    u64::try_from(n)
+                        .map_err(|_| e.fault("byte skip", "a count from 0, or -1 with raw data"))?,
+                ),
+            },
+        };
+        let kinds = fields.get(&["kinds"]);
+        let axes = sizes.len();
+        let (directions, directions_line) = match fields.get(&["spacedirections"]) {
+            Some(e) => (vectors(e, "space directions", axes)?, e.line),
+            None => (Vec::new(), 0),
+        };
+        if !directions.is_empty() && directions.len() != axes {
+            let (found, expected) = (directions.len().to_string(), "a vector or `none` for every axis");
+            return Err(IoError::NrrdField {
+                line: directions_line,
+                field: "space directions",
+                found,
+                expected,
+            });
+        }
+        Ok(Self {
+            scalar,
+            order,
+            encoding,
+            count,
+            line_skip,
+            byte_skip,
+            data_file: data_file(&fields)?,
+            end: fields.end,
+            space: fields.get(&["space"]).map(|e| shortened(e.value.as_bytes())),
+            measurement: fields.get(&["measurementframe"]).map(measurement).transpose()?.flatten(),
+            sizes,
+            kinds: kinds.map_or_else(Vec::new, |e| e.value.split_whitespace().map(str::to_owned).collect()),
+            kinds_line: kinds.map_or(fields.lines, |e| e.line),
+            directions,
+            spacings: fields.get(&["spacings"]).map_or(Ok(Vec::new()), |e| spacings(e, axes))?,
+            origin: fields.get(&["spaceorigin"]).map(origin).transpose()?.flatten(),
+            limits,
+            lines: fields.lines,
+        })
+    }
+
+    pub(super) fn fault(&self, field: &'static str, found: &str, expected: &'static str) -> IoError {
+        IoError::NrrdField { line: self.lines, field, found: shortened(found.as_bytes()), expected }
+    }
+
+    pub(super) const fn has_directions(&self) -> bool {
+        !self.directions.is_empty()
+    }
+
+    /// Finds the tensor's axis: by its kind, or else the first axis of 6, 7 or 9 numbers.
+    pub(super) fn layout(&self) -> Result<Layout, IoError> {
+        let fault = |found: &str, expected| IoError::NrrdField {
+            line: self.kinds_line,
+            field: "kinds",
+            found: shortened(found.as_bytes()),
+            expected,
+        };
+        if !self.kinds.is_empty() && self.kinds.len() != self.sizes.len() {
+            return Err(fault(&self.kinds.join(" "), "a kind for every axis"));
+        }
+        let kind = |name: &String| KINDS.into_iter().find(|k| k.name.eq_ignore_ascii_case(name));
+        let tensors: Vec<(usize, Kind)> =
+            self.kinds.iter().enumerate().filter_map(|(i, k)| Some((i, kind(k)?))).collect();
+        let (axis, kind) = match tensors[..] {
+            [(axis, kind)] => (axis, Some(kind)),
+            [] => match self.sizes.iter().position(|s| matches!(s, 6 | 7 | 9)) {
+                Some(0) if self.sizes.len() > 2 => (0, None),
+                _ => return Err(fault(&self.kinds.join(" "), KIND_NAMES)),
+            },
+            _ => return Err(fault(&self.kinds.join(" "), "one tensor axis")),
+        };
+        let tuple = kind.map_or(self.sizes[axis], |k| k.tuple() as u64);
+        if tuple != self.sizes[axis] {
+            return Err(fault(
+                &format!("{} of size {}", self.kinds[axis], self.sizes[axis]),
+                "the size of that kind",
+            ));
+        }
+        let lattice: Vec<usize> = (0..self.sizes.len()).filter(|&a| a != axis).collect();
+        if !(1..=3).contains(&lattice.len()) {
+            return Err(fault(
+                &format!("{} axes", self.sizes.len()),
+                "one to three axes besides the tensor's",
+            ));
+        }
+        let cells = u128::from(self.count) / u128::from(tuple);
+        if cells > u128::from(self.limits.cells) {
+            return Err(IoError::TooManyCells { byte: 0, cells, limit: self.limits.cells });
+        }
+        let mut size = [1; 3];
+        // The product of all sizes is within the limits.
+        lattice.iter().enumerate().for_each(|(i, &a)| size[i] = self.sizes[a] as usize);
+        let inner = self.sizes[..axis].iter().product::<u64>() as usize;
+        let masked = kind.map_or(tuple == 7, |k| k.masked);
+        Ok(Layout { kind, masked, axis, tuple: tuple as usize, lattice, size, inner })
+    }
+
+    /// Steps along the lattice's axes, and the first voxel.
+    pub(super) fn geometry(&self, layout: &Layout) -> ([[f64; 3]; 3], [f64; 3]) {
+        let mut axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        for (i, &a) in layout.lattice.iter().enumerate() {
+            if let Some(Some(direction)) = self.directions.get(a) {
+                axes[i] = *direction;
+            } else if let Some(s) = self.spacings.get(a).filter(|s| s.is_finite() && **s != 0.0) {
+                axes[i][i] = *s;
+            }
+        }
+        if layout.lattice.len() < 3 && self.has_directions() {
+            // A plane gets the normal of its axes, so that turning stays possible.
+            axes[2] = normal(axes[0], axes[1]).unwrap_or(axes[2]);
+        }
+        (axes, self.origin.unwrap_or([0.0; 3]))
+    }
+}
+
+const TYPES: &str = "a number type such as float, double, short or uint8";
+const ENCODINGS: &str = "raw, gzip or ascii";
+const KIND_NAMES: &str =
+    "a tensor kind such as 3D-symmetric-matrix for one axis, or 6, 7 or 9 numbers on the first";
+
+fn too_large(bytes: &[u8], line: usize, count: u128, limit: u64) -> IoError {
+    let before = bytes.split(|&b| b == b'\n').take(line - 1).map(|l| l.len() + 1).sum();
+    IoError::TooManyCells { byte: before, cells: count, limit }
+}
+
+fn scalar(e: &Entry) -> Result<ScalarType, IoError> {
+    Ok(match e.value.to_ascii_lowercase().as_str() {
+        "signed char" | "int8" | "int8_t" => ScalarType::Int8,
+        "uchar" | "unsigned char" | "uint8" | "uint8_t" => ScalarType::UInt8,
+        "short" | "short int" | "signed short" | "signed short int" | "int16" | "int16_t" => {
+            ScalarType::Int16
+        }
+        "ushort" | "unsigned short" | "unsigned short int" | "uint16" | "uint16_t" => ScalarType::UInt16,
+        "int" | "signed int" | "int32" | "int32_t" => ScalarType::Int32,
+        "uint" | "unsigned int" | "uint32" | "uint32_t" => ScalarType::UInt32,
+        "longlong"
+        | "long long"
+        | "long long int"
+        | "signed long long"
+        | "signed long long int"
+        | "int64"
+        | "int64_t" => ScalarType::Int64,
+        "ulonglong" | "unsigned long long" | "unsigned long long int" | "uint64" | "uint64_t" => {
+            ScalarType::UInt64
+        }
+        "float" => ScalarType::Float32,
+        "double" => ScalarType::Float64,
+        _ => return Err(e.fault("type", TYPES)),
+    })
+}
+
+fn encoding(e: &Entry) -> Result<Encoding, IoError> {
+    match e.value.to_ascii_lowercase().as_str() {
+        "raw" => Ok(Encoding::Raw),
+        "gzip" | "gz" => Ok(Encoding::Gzip),
+        "ascii" | "text" | "txt" => Ok(Encoding::Text),
+        _ => Err(e.fault("encoding", ENCODINGS)),
+    }
+}
+
+fn byte_order(fields: &Fields, scalar: ScalarType, encoding: Encoding) -> Result<ByteOrder, IoError> {
+    if encoding == Encoding::Text || scalar.bytes() == 1 {
+        return Ok(ByteOrder::Little);
+    }
+    let e = fields.required(&["endian"], "endian", "little or big")?;
+    match e.value.to_ascii_lowercase().as_str() {
+        "little" => Ok(ByteOrder::Little),
+        "big" => Ok(ByteOrder::Big),
+        _ => Err(e.fault("endian", "little or big")),
+    }
+}
+
+fn sizes(fields: &Fields) -> Result<Vec<u64>, IoError> {
+    let d = fields.required(&["dimension"], "dimension", "a number of axes from 1 to 16")?;
+    let axes = d.integer("dimension", "a number of axes from 1 to 16")?;
+    if !(1..=MAX_AXES as i64).contains(&axes) {
+        return Err(d.fault("dimension", "a number of axes from 1 to 16"));
+    }
+    let expected = "a positive integer for every axis";
+    let e = fields.required(&["sizes"], "sizes", expected)?;
+    let sizes: Option<Vec<u64>> =
+        e.value.split_whitespace().take(MAX_AXES + 1).map(|w| w.parse().ok().filter(|&n| n > 0)).collect();
+    sizes.filter(|s| s.len() as i64 == axes).ok_or_else(|| e.fault("sizes", expected))
+}
+
+/// The data file: a plain name, so that a header cannot point anywhere else.
+fn data_file(fields: &Fields) -> Result<Option<String>, IoError> {
+    let Some(e) = fields.get(&["datafile"]) else { return Ok(None) };
+    let several =
+        e.value.starts_with("LIST") || e.value.split_whitespace().count() > 1 && e.value.contains('%');
+    if several || e.value.is_empty() {
+        return Err(e.fault("data file", "the name of one file"));
+    }
+    if e.value.starts_with(['/', '\\'])
+        || e.value.contains(':')
+        || e.value.split(['/', '\\']).any(|p| p == "..")
+    {
+        return Err(e.fault("data file", "a name in the folder of the header or below it"));
+    }
+    Ok(Some(e.value.to_owned()))
+}
+
+/// Vectors in parentheses, `none` where an axis has none. Two components get a third of 0.
+fn vectors(e: &Entry, field: &'static str, most: usize) -> Result<Vec<Option<[f64; 3]>>, IoError> {
+    let expected = "vectors (x,y,z), or none";
+    let fault = || e.fault(field, expected);
+    let (mut rest, mut found) = (e.value.trim_start(), Vec::new());
+    while !rest.is_empty() {
+        if found.len() >= most {
+            return Err(fault());
+        }
+        if let Some(behind) = rest.strip_prefix('(') {
+            let (inside, behind) = behind.split_once(')').ok_or_else(fault)?;
+            let numbers: Option<Vec<f64>> = inside.split(',').take(4).map(finite).collect();
+            found.push(Some(match numbers.as_deref() {
+                Some(&[x, y, z]) => [x, y, z],
+                Some(&[x, y]) => [x, y, 0.0],
+                _ => return Err(fault()),
+            }));
+            rest = behind.trim_start();
+        } else {
+            rest = rest.strip_prefix("none").ok_or_else(fault)?.trim_start();
+            found.push(None);
+        }
+    }
+    Ok(found)
+}
+
+fn finite(word: &str) -> Option<f64> {
+    word.trim().parse().ok().filter(|v: &f64| v.is_finite())
+}
+
+fn origin(e: &Entry) -> Result<Option<[f64; 3]>, IoError> {
+    Ok(vectors(e, "space origin", 1)?.first().copied().flatten())
+}
+
+/// Vectors of the file are the columns of the matrix. Two vectors of a plane are completed by z.
+fn measurement(e: &Entry) -> Result<Option<[f64; 9]>, IoError> {
+    let found = vectors(e, "measurement frame", 3)?;
+    let columns = match found[..] {
+        [Some(a), Some(b), Some(c)] => [a, b, c],
+        [Some(a), Some(b)] => [a, b, [0.0, 0.0, 1.0]],
+        _ if found.iter().all(Option::is_none) => return Ok(None),
+        _ => return Err(e.fault("measurement frame", "a vector for every axis of the space")),
+    };
+    let at = |i: usize| columns[i % 3][i / 3];
+    Ok(Some([at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8)]))
+}
+
+fn spacings(e: &Entry, axes: usize) -> Result<Vec<f64>, IoError> {
+    let numbers: Option<Vec<f64>> = e.value.split_whitespace().map(|w| w.parse().ok()).collect();
+    numbers.filter(|n| n.len() == axes).ok_or_else(|| e.fault("spacings", "a number or nan for every axis"))
+}
+
+/// The unit vector at right angles to two others.
+fn normal(a: [f64; 3], b: [f64; 3]) -> Option<[f64; 3]> {
+    let n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
+    (length > 0.0 && length.is_finite()).then(|| n.map(|v| v / length))
+}

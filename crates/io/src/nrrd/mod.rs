@@ -1,0 +1,139 @@
+//! NRRD, "nearly raw raster data": `.nrrd`, and `.nhdr` whose data are in a file beside it.
+//!
+//! Read: raw, gzip and text data of all number types of up to 64 bits, both byte orders; the tensor kinds of the format
+//! (2D and 3D, symmetric or not, with or without mask); space directions, origin, measurement frame. Refused by name: hex
+//! and bzip2, blocks, data spread over several files.
+//!
+//! Format: <http://teem.sourceforge.net/nrrd/format.html>.
+
+mod data;
+mod header;
+
+use crate::volume::{Frame, Known, Lattice, TensorOrder, World};
+use crate::{IoError, Limits};
+use header::Header;
+
+/// The name of the file that holds the data, relative to the header; `None` where they follow the header.
+///
+/// # Errors
+/// As [`read`], for the header alone.
+pub fn data_file(bytes: &[u8]) -> Result<Option<String>, IoError> {
+    Ok(Header::parse(bytes, Limits::default())?.data_file)
+}
+
+/// Reads a file with the default [`Limits`]; `detached` are the bytes of its data file, where it names one.
+///
+/// # Errors
+/// See [`read_with_limits`].
+pub fn read(bytes: &[u8], detached: Option<&[u8]>) -> Result<Lattice, IoError> {
+    read_with_limits(bytes, detached, Limits::default())
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// Names the line of the header, or the byte of the data (of the data file, where there is one).
+pub fn read_with_limits(bytes: &[u8], detached: Option<&[u8]>, limits: Limits) -> Result<Lattice, IoError> {
+    let header = Header::parse(bytes, limits)?;
+    let layout = header.layout()?;
+    let values = match (&header.data_file, detached) {
+        (None, _) => data::read(&header, &bytes[header.end..], header.end)?,
+        (Some(_), Some(data)) => data::read(&header, data, 0)?,
+        (Some(name), None) => {
+            let expected = "the bytes of that file";
+            return Err(header.fault("data file", name, expected));
+        }
+    };
+    let (values, mask) = layout.tuples(values);
+    let mut notes = Vec::new();
+    if layout.kind.is_none() {
+        notes.push(format!("no kind names a tensor: axis {} of size {} taken", layout.axis, layout.tuple));
+    }
+    let world = header.space.clone().unwrap_or_else(|| "unnamed".to_owned());
+    let frame = match header.measurement {
+        Some(_) => (Frame::Measurement, Known::Stated),
+        None if header.has_directions() => (Frame::World, Known::Assumed),
+        None => (Frame::Voxel, Known::Assumed),
+    };
+    let (axes, origin) = header.geometry(&layout);
+    Ok(Lattice {
+        size: layout.size,
+        components: layout.tuple - usize::from(layout.masked),
+        values,
+        scalar: header.scalar,
+        axes,
+        origin,
+        world: World::Scanner(world),
+        measurement: header.measurement,
+        mask,
+        order: layout.kind.map(|k| k.order),
+        frame,
+        array: layout.kind.map_or("tuples", |k| k.name).to_owned(),
+        notes,
+    })
+}
+
+/// A tensor kind of the format.
+#[derive(Clone, Copy, Debug)]
+struct Kind {
+    name: &'static str,
+    order: TensorOrder,
+    masked: bool,
+}
+
+/// All of them: kinds 24 to 31 of the format's list.
+const KINDS: [Kind; 8] = [
+    Kind { name: "2D-symmetric-matrix", order: TensorOrder::UPPER2, masked: false },
+    Kind { name: "2D-masked-symmetric-matrix", order: TensorOrder::UPPER2, masked: true },
+    Kind { name: "2D-matrix", order: TensorOrder::ROWS2, masked: false },
+    Kind { name: "2D-masked-matrix", order: TensorOrder::ROWS2, masked: true },
+    Kind { name: "3D-symmetric-matrix", order: TensorOrder::UPPER, masked: false },
+    Kind { name: "3D-masked-symmetric-matrix", order: TensorOrder::UPPER, masked: true },
+    Kind { name: "3D-matrix", order: TensorOrder::ROWS3, masked: false },
+    Kind { name: "3D-masked-matrix", order: TensorOrder::ROWS3, masked: true },
+];
+
+impl Kind {
+    /// Numbers per tuple, the mask among them.
+    const fn tuple(&self) -> usize {
+        self.order.components() + self.masked as usize
+    }
+}
+
+/// Which axis of the array is the tensor's, and which are the lattice's.
+#[derive(Clone, Debug)]
+struct Layout {
+    kind: Option<Kind>,
+    masked: bool,
+    /// The tensor's axis.
+    axis: usize,
+    /// Its size.
+    tuple: usize,
+    /// The lattice's axes, fastest first.
+    lattice: Vec<usize>,
+    size: [usize; 3],
+    /// Numbers before the tensor's axis: voxels that come in one run per component.
+    inner: usize,
+}
+
+impl Layout {
+    /// Tuples voxel by voxel and the mask apart.
+    fn tuples(&self, stored: Vec<f64>) -> (Vec<f64>, Option<Vec<f64>>) {
+        if self.inner == 1 && !self.masked {
+            return (stored, None);
+        }
+        let voxels = stored.len() / self.tuple;
+        let skip = usize::from(self.masked);
+        let mut values = Vec::with_capacity(voxels * (self.tuple - skip));
+        let mut mask = Vec::with_capacity(if self.masked { voxels } else { 0 });
+        for voxel in 0..voxels {
+            let first = (voxel / self.inner) * self.inner * self.tuple + voxel % self.inner;
+            let number = |c: usize| stored[first + c * self.inner];
+            if self.masked {
+                mask.push(number(0));
+            }
+            values.extend((skip..self.tuple).map(number));
+        }
+        (values, self.masked.then_some(mask))
+    }
+}

@@ -1,0 +1,312 @@
+//! Tensors on a 3D lattice as files have them, and what was read or assumed to know what they mean.
+//!
+//! A reader gives a [`Lattice`]: tuples of numbers with what the file states about them. [`Lattice::tensors`] adds what the
+//! user says ([`Reading`]) and assumes the rest, visibly; the [`TensorVolume`] it gives is cut to a plane by
+//! [`TensorVolume::slice`].
+//!
+//! Frames. Every voxel axis has a direction in the world of the file (`axes`). Components are along the voxel axes, along
+//! the world's axes, or along those of NRRD's measurement frame.
+
+mod image;
+mod order;
+mod plane;
+mod suspicion;
+
+pub use image::{image_from_volume, lattice_from_image};
+pub use order::TensorOrder;
+pub use plane::{Axis, Crop, Plane, PlaneChoice, TensorSlice};
+pub use suspicion::{Suspicion, negative_share};
+
+use crate::{IoError, ScalarType};
+
+/// Largest cosine between two axes that are still taken as orthogonal: files hold them in single precision.
+const ORTHOGONAL: f64 = 1e-3;
+
+/// The axes that the components of a tensor are along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// The voxel axes.
+    Voxel,
+    /// The axes of the file's world: VTK's x, y, z; the patient's or scanner's axes.
+    World,
+    /// NRRD's measurement frame.
+    Measurement,
+}
+
+impl Frame {
+    /// The name the command line uses.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Voxel => "voxel",
+            Self::World => "world",
+            Self::Measurement => "measurement",
+        }
+    }
+}
+
+/// How something about a file is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Known {
+    /// The file says so.
+    Stated,
+    /// The user says so.
+    Given,
+    /// Nobody says so; it is usual.
+    Assumed,
+}
+
+impl Known {
+    /// `stated by the file`, `as given` or `assumed`.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Stated => "stated by the file",
+            Self::Given => "as given",
+            Self::Assumed => "ASSUMED: the file does not say",
+        }
+    }
+}
+
+/// What the axes of the world are.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum World {
+    /// A viewer's own: x right, y up.
+    Viewer,
+    /// The patient's or scanner's, by its name in the file.
+    Scanner(String),
+}
+
+/// Tuples of numbers on a lattice, as a file has them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lattice {
+    /// Voxels along the three axes, each at least 1. The first runs fastest.
+    pub size: [usize; 3],
+    /// Numbers per tuple, a mask left out.
+    pub components: usize,
+    /// All numbers, tuple by tuple.
+    pub values: Vec<f64>,
+    /// Type in the file.
+    pub scalar: ScalarType,
+    /// Step along each voxel axis, in the world's axes and unit.
+    pub axes: [[f64; 3]; 3],
+    /// Position of the first voxel in the world.
+    pub origin: [f64; 3],
+    /// What the world is.
+    pub world: World,
+    /// Columns: axes of the measurement frame in the world, row by row.
+    pub measurement: Option<[f64; 9]>,
+    /// Confidence of each voxel; 0 where nothing was measured.
+    pub mask: Option<Vec<f64>>,
+    /// Order of the components, where the file states it.
+    pub order: Option<TensorOrder>,
+    /// The frame of the components, stated or usual for the format.
+    pub frame: (Frame, Known),
+    /// Name of the array, or the words by which the format calls it.
+    pub array: String,
+    /// What else was read or assumed, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// What the user says about components.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Reading<'a> {
+    /// An alias or component names, see [`TensorOrder::parse`].
+    pub order: Option<&'a str>,
+    /// The frame of the components.
+    pub frame: Option<Frame>,
+}
+
+/// Tensors on a lattice, with what was read and what was assumed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TensorVolume {
+    lattice: Lattice,
+    order: (TensorOrder, Known),
+    frame: (Frame, Known),
+}
+
+impl Lattice {
+    /// The tensors, with the user's words before the file's, and the file's before what is usual: six components
+    /// are the lower triangle (dipy, NIfTI), other numbers as [`TensorOrder::usual`]; order `mrtrix` means the frame world.
+    ///
+    /// # Errors
+    /// [`IoError::NoTensor`], [`IoError::Order`], [`IoError::NoMeasurementFrame`].
+    pub fn tensors(self, reading: Reading) -> Result<TensorVolume, IoError> {
+        let order = match (reading.order, self.order) {
+            (Some(text), _) => (TensorOrder::parse(text, self.components)?, Known::Given),
+            (None, Some(order)) => (order, Known::Stated),
+            (None, None) => (self.assumed_order()?, Known::Assumed),
+        };
+        let by_mrtrix = reading.order.is_some_and(|o| o.trim().eq_ignore_ascii_case("mrtrix"));
+        let frame = match reading.frame {
+            Some(frame) => (frame, Known::Given),
+            None if by_mrtrix && self.frame.1 == Known::Assumed => (Frame::World, Known::Assumed),
+            None => self.frame,
+        };
+        if frame.0 == Frame::Measurement && self.measurement.is_none() {
+            return Err(IoError::NoMeasurementFrame);
+        }
+        Ok(TensorVolume { lattice: self, order, frame })
+    }
+
+    fn assumed_order(&self) -> Result<TensorOrder, IoError> {
+        let usual =
+            if self.components == 6 { Some(TensorOrder::LOWER) } else { TensorOrder::usual(self.components) };
+        usual.ok_or_else(|| IoError::NoTensor { array: self.array.clone(), components: self.components })
+    }
+
+    /// Voxels in all.
+    #[must_use]
+    pub fn voxels(&self) -> usize {
+        self.size.iter().product()
+    }
+
+    /// Distance of the voxels along each axis, in the world's unit; 1 for an axis without length.
+    #[must_use]
+    pub fn spacing(&self) -> [f64; 3] {
+        self.axes.map(|a| {
+            let length = tigereye_core::math::hypot(tigereye_core::math::hypot(a[0], a[1]), a[2]);
+            if length > 0.0 && length.is_finite() { length } else { 1.0 }
+        })
+    }
+
+    /// Directions of the voxel axes in the world, one a column, row by row.
+    #[must_use]
+    pub fn directions(&self) -> [f64; 9] {
+        let spacing = self.spacing();
+        let mut columns = [0, 1, 2].map(|a| self.axes[a].map(|v| v / spacing[a]));
+        for (a, column) in columns.iter_mut().enumerate() {
+            if *column == [0.0; 3] {
+                column[a] = 1.0;
+            }
+        }
+        let at = |i: usize| columns[i % 3][i / 3];
+        [at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8)]
+    }
+}
+
+impl TensorVolume {
+    /// What the file holds.
+    #[must_use]
+    pub const fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// Order of the components, and how it is known.
+    #[must_use]
+    pub const fn order(&self) -> (TensorOrder, Known) {
+        self.order
+    }
+
+    /// Frame of the components, and how it is known.
+    #[must_use]
+    pub const fn frame(&self) -> (Frame, Known) {
+        self.frame
+    }
+
+    /// The tensor of a voxel as stored, row by row, in [`Self::frame`]; index `(k * ny + j) * nx + i`.
+    #[must_use]
+    pub fn stored(&self, voxel: usize) -> [f64; 9] {
+        let n = self.lattice.components;
+        self.order.0.tensor(self.lattice.values.get(voxel * n..(voxel + 1) * n).unwrap_or_default())
+    }
+
+    /// All tensors as stored, the first axis fastest.
+    pub fn tensors(&self) -> impl ExactSizeIterator<Item = [f64; 9]> + '_ {
+        (0..self.lattice.voxels()).map(|voxel| self.stored(voxel))
+    }
+
+    /// Voxels whose mask is zero.
+    #[must_use]
+    pub fn masked_out(&self) -> usize {
+        self.lattice.mask.as_ref().map_or(0, |mask| mask.iter().filter(|&&m| m == 0.0).count())
+    }
+
+    /// What was read and what was assumed, a sentence each.
+    #[must_use]
+    pub fn story(&self) -> Vec<String> {
+        let lattice = &self.lattice;
+        let (order, frame) = (self.order, self.frame);
+        let mut story = vec![
+            format!("`{}`: {} components, {}", lattice.array, lattice.components, lattice.scalar.name()),
+            format!("component order {} ({})", order.0, order.1.words()),
+            format!("components along the {} axes ({})", frame.0.name(), frame.1.words()),
+        ];
+        if let World::Scanner(name) = &lattice.world {
+            story.push(format!("world: {name}"));
+        }
+        if lattice.mask.is_some() {
+            story.push(format!("{} voxels with mask 0, taken as zero tensors", self.masked_out()));
+        }
+        story.extend(lattice.notes.iter().cloned());
+        story
+    }
+
+    /// What turns stored components into components along the voxel axes: `T = K D K^T`; `None` where nothing does.
+    pub(crate) fn to_voxel(&self) -> Result<Option<[f64; 9]>, IoError> {
+        let measured = match (self.frame.0, self.lattice.measurement) {
+            (Frame::Voxel, _) => return Ok(None),
+            (Frame::Measurement, Some(m)) => m,
+            _ => IDENTITY,
+        };
+        let directions = self.orthogonal_directions()?;
+        if directions == measured {
+            return Ok(None);
+        }
+        inverse(&directions).map(|r| Some(product(&r, &measured))).ok_or(IoError::SkewedAxes { off: 1.0 })
+    }
+
+    /// What turns stored components into components along the world's axes.
+    pub(crate) fn to_world(&self) -> Result<Option<[f64; 9]>, IoError> {
+        let turn = match (self.frame.0, self.lattice.measurement) {
+            (Frame::World, _) => return Ok(None),
+            (Frame::Measurement, Some(m)) => m,
+            _ => self.orthogonal_directions()?,
+        };
+        Ok((turn != IDENTITY).then_some(turn))
+    }
+
+    fn orthogonal_directions(&self) -> Result<[f64; 9], IoError> {
+        let d = self.lattice.directions();
+        let cosine = |a: usize, b: usize| (d[a] * d[b] + d[a + 3] * d[b + 3] + d[a + 6] * d[b + 6]).abs();
+        let off = cosine(0, 1).max(cosine(0, 2)).max(cosine(1, 2));
+        if off <= ORTHOGONAL { Ok(d) } else { Err(IoError::SkewedAxes { off }) }
+    }
+}
+
+/// The unit matrix, row by row.
+pub(crate) const IDENTITY: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+
+/// `a b` of 3x3 matrices row by row.
+fn product(a: &[f64; 9], b: &[f64; 9]) -> [f64; 9] {
+    let mut c = [0.0; 9];
+    for i in 0..3 {
+        for j in 0..3 {
+            c[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+        }
+    }
+    c
+}
+
+/// `k t k^T`.
+fn turned(k: &[f64; 9], t: &[f64; 9]) -> [f64; 9] {
+    let transposed = [k[0], k[3], k[6], k[1], k[4], k[7], k[2], k[5], k[8]];
+    product(&product(k, t), &transposed)
+}
+
+fn inverse(m: &[f64; 9]) -> Option<[f64; 9]> {
+    let minor = |a: usize, b: usize, c: usize, d: usize| m[a] * m[d] - m[b] * m[c];
+    let adjugate = [
+        minor(4, 5, 7, 8),
+        minor(2, 1, 8, 7),
+        minor(1, 2, 4, 5),
+        minor(5, 3, 8, 6),
+        minor(0, 2, 6, 8),
+        minor(2, 0, 5, 3),
+        minor(3, 4, 6, 7),
+        minor(1, 0, 7, 6),
+        minor(0, 1, 3, 4),
+    ];
+    let determinant = m[0] * adjugate[0] + m[1] * adjugate[3] + m[2] * adjugate[6];
+    (determinant != 0.0 && determinant.is_finite()).then(|| adjugate.map(|a| a / determinant))
+}

@@ -78,6 +78,7 @@ const GOOD: &str = r#"// Claim: this file is in order.
         ),
     ],
     checks: [
+        (name: "calm", quantity: OfPulses(runs: ["rest"], number: Settled, over: Least), expect: AtLeast(1), basis: "Basis."),
         (
             name: "steps",
             quantity: Steps(run: "glow"),
@@ -88,12 +89,6 @@ const GOOD: &str = r#"// Claim: this file is in order.
             name: "axis",
             quantity: MajorAxisError(field: "formula", phi_deg: "theta"),
             expect: AtMost(360),
-            basis: "Basis.",
-        ),
-        (
-            name: "calm",
-            quantity: OfPulses(runs: ["rest"], number: Settled, over: Least),
-            expect: AtLeast(1),
             basis: "Basis.",
         ),
     ],

@@ -184,7 +184,7 @@ fn a_finished_checkpoint_just_writes_the_output() {
     let args = with(&SHORT, &["--checkpoint", "state/deep", "--json", "-o", "a.vti"]);
     place.succeeds(&args);
     let first = place.files();
-    assert_eq!(first.len(), 2, "the output and the checkpoint");
+    assert_eq!(first.len(), 3, "the output, the checkpoint and its lock");
     let again = place.succeeds(&args).json();
     place.same_files(&first);
     for key in ["sources", "iterations_total", "cell_updates", "max", "mean"] {
@@ -253,7 +253,7 @@ fn what_killed_runs_left_is_removed() {
     place.write("c/mine", "something else");
     place.succeeds(&with(&SHORT, &["--checkpoint", "c", "-o", "a.vti"]));
     let names: Vec<_> = place.files().keys().map(|p| p.file_name().unwrap().to_owned()).collect();
-    assert_eq!(names, ["a.vti", "checkpoint.part", "mine"]);
+    assert_eq!(names, ["a.vti", "checkpoint.part", "lock", "mine"]);
 }
 
 fn wait_for(path: &Path, child: &mut Child) {
@@ -293,7 +293,7 @@ fn killed_at_any_moment_a_sweep_goes_on_to_the_same_bytes() {
     }
     place.succeeds(&args);
     assert_eq!(place.read("a.vti"), undisturbed(&args));
-    assert_eq!(place.files().len(), 2, "the output and the checkpoint");
+    assert_eq!(place.files().len(), 3, "the output, the checkpoint and its lock");
 }
 
 #[test]
@@ -309,7 +309,7 @@ fn an_interrupted_sweep_completes_its_checkpoint_and_goes_on_from_there() {
     let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(130), "{stderr}");
     assert!(stderr.contains("tigereye: interrupted; c/checkpoint.part is complete"), "{stderr}");
-    assert_eq!(place.files().len(), 1, "the checkpoint, no output");
+    assert_eq!(place.files().len(), 2, "the checkpoint and its lock, no output");
     assert_ne!(place.read("c/checkpoint.part"), first, "what was finished meanwhile is in it");
     // The interrupted run's work is not done again.
     let done = tigereye_io::part::read(&place.read("c/checkpoint.part")).unwrap();

@@ -205,7 +205,7 @@ pub(crate) enum StopRule {
 
 #[derive(Debug, Args)]
 pub(crate) struct PropagateArgs {
-    /// A file (.txt .npy .vti .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
     /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1).
     #[arg(long = "light", value_name = "X,Y[,PROFILE]", required = true, allow_hyphen_values = true)]
@@ -240,7 +240,7 @@ pub(crate) enum Picture {
 
 #[derive(Debug, Args)]
 pub(crate) struct LtgArgs {
-    /// A file (.txt .npy .vti .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
     /// Outputs by their endings: .vti, .npy; .png, .svg show the only slice, or the mean over the slices. With --shard
     /// one .part.
@@ -294,7 +294,7 @@ pub(crate) enum Precision {
 
 #[derive(Debug, Args)]
 pub(crate) struct InfoArgs {
-    /// A file (.txt .npy .vti .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
@@ -305,9 +305,10 @@ pub(crate) struct InfoArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ConvertArgs {
-    /// A file (.txt .npy .vti .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
-    /// The output by its ending: .vti, .npy or .txt. A volume without a plane is written whole, as .vti only.
+    /// The output by its ending: .vti, .vtp, .vtk, .nrrd, .nii, .nii.gz, .npy or .txt. A volume without a plane is written
+    /// whole, which .npy and .txt cannot hold.
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,

@@ -164,3 +164,13 @@ pub(crate) fn place_of(path: &Path) -> PathBuf {
 pub(crate) fn extension(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
 }
+
+/// The ending that tells the format: [`extension`], or `nii.gz`.
+pub(crate) fn format(path: &Path) -> String {
+    match extension(path).as_str() {
+        "gz" if path.file_stem().is_some_and(|stem| extension(Path::new(stem)) == "nii") => {
+            "nii.gz".to_owned()
+        }
+        other => other.to_owned(),
+    }
+}

@@ -66,7 +66,7 @@ impl Input {
             "npy" => Self::numpy(text, path),
             _ if looks_like_a_path(text) => Err(CliError::input(
                 text,
-                "its ending is not readable: expected .txt, .npy, .vti, .vtk, .nrrd, .nhdr, .nii, .nii.gz or a \
+                "its ending is not readable: expected .txt, .npy, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz or a \
                  generator NAME:key=value,key=value",
             )),
             _ => Self::generated(text),

@@ -7,8 +7,10 @@ use crate::input::Input;
 use crate::interrupt;
 use std::path::Path;
 use tigereye_experiments::provenance::hash_of_bytes;
-use tigereye_io::volume::{Known, Lattice, PlaneChoice, Reading, TensorVolume, lattice_from_image};
-use tigereye_io::{IoError, legacy, nifti, nrrd, vti};
+use tigereye_io::volume::{
+    Known, Lattice, PlaneChoice, Reading, TensorVolume, lattice_from_image, lattice_from_points,
+};
+use tigereye_io::{IoError, legacy, nifti, nrrd, vti, vtp};
 
 /// What INPUT holds.
 #[derive(Debug)]
@@ -46,14 +48,17 @@ impl Source {
     /// Reads INPUT: a path with a known ending, or a generator.
     pub(crate) fn open(text: &str, reading: &ReadingArgs) -> Result<Self, CliError> {
         let path = Path::new(text);
-        let (kind, read): (_, Reader) = match format(path).as_str() {
+        let (kind, read): (_, Reader) = match files::format(path).as_str() {
             "vti" => ("VTK image data", |bytes, _, array| {
                 vti::read(bytes).and_then(|image| lattice_from_image(&image, array))
+            }),
+            "vtp" => ("VTK poly data", |bytes, _, array| {
+                vtp::read(bytes).and_then(|data| lattice_from_points(data, array))
             }),
             "vtk" => ("legacy VTK", |bytes, _, array| {
                 legacy::read(bytes).and_then(|image| lattice_from_image(&image, array))
             }),
-            "nii" => ("NIfTI-1", |bytes, _, _| nifti::read(bytes)),
+            "nii" | "nii.gz" => ("NIfTI-1", |bytes, _, _| nifti::read(bytes)),
             "nrrd" | "nhdr" => ("NRRD", |bytes, data, _| nrrd::read(bytes, data)),
             _ => return Input::of_plane(text, path).map(Self::Field),
         };
@@ -92,16 +97,6 @@ impl Source {
 }
 
 type Reader = fn(&[u8], Option<&[u8]>, Option<&str>) -> Result<Lattice, IoError>;
-
-/// The ending of a path; `.nii.gz` is `nii`.
-fn format(path: &Path) -> String {
-    match files::extension(path).as_str() {
-        "gz" if path.file_stem().is_some_and(|stem| files::extension(Path::new(stem)) == "nii") => {
-            "nii".to_owned()
-        }
-        other => other.to_owned(),
-    }
-}
 
 /// What the options say about the plane.
 pub(crate) fn choice(reading: &ReadingArgs) -> PlaneChoice {

@@ -4,6 +4,8 @@
 //! `inverse:size=51,anisotropy=4`, [`generate`] makes the field. [`ExpressionField`] makes one from formulas a user
 //! writes, with the parser in [`expression`].
 //!
+//! [`images`] has the tensor fields of images: gradients of vectors, Hessians and structure tensors of scalars.
+//!
 //! All tensors live in core's frame, x right and y up, row 0 on top. Nothing here reads files, draws or propagates;
 //! every field is the same bits on every platform.
 
@@ -14,6 +16,7 @@ mod expression_field;
 mod generator;
 mod generators;
 mod geometry;
+pub mod images;
 mod nearest;
 mod parameter;
 mod settings;

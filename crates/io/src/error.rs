@@ -384,11 +384,9 @@ pub enum IoError {
     },
     /// Points that do not lie on a regular lattice.
     #[error(
-        "byte {byte}: the points form no lattice: expected equal steps along each axis, point {point} is off"
+        "the points form no lattice: expected equal steps along each axis, x fastest; point {point} (from 0) is off"
     )]
     NoLattice {
-        /// Where the points are declared.
-        byte: usize,
         /// The first point that is off, from 0.
         point: usize,
     },
@@ -531,6 +529,15 @@ pub enum IoError {
     EmptyImage {
         /// Points along x, y and z.
         dimensions: [usize; 3],
+    },
+    /// More voxels along an axis than the format can say.
+    #[error(
+        "{} x {} x {} voxels do not fit into NIfTI-1: expected at most 32767 along each axis",
+        size[0], size[1], size[2]
+    )]
+    NiftiSize {
+        /// Voxels along each axis.
+        size: [usize; 3],
     },
     /// A name or text that the format cannot hold.
     #[error("`{name}` cannot be written: expected text without control characters")]

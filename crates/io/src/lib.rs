@@ -24,9 +24,12 @@ pub mod nifti;
 pub mod npy;
 pub mod nrrd;
 pub mod part;
+mod points;
+mod polydata;
 mod scalar;
 pub mod volume;
 pub mod vti;
+pub mod vtp;
 mod words;
 mod xml;
 
@@ -37,4 +40,5 @@ pub use convert::{
 pub use error::IoError;
 pub use image::{ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData};
 pub use limits::Limits;
+pub use polydata::{Cells, PolyData};
 pub use scalar::{ByteOrder, ScalarType};

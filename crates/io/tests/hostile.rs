@@ -7,9 +7,12 @@ use proptest::prelude::*;
 use std::io::Write as _;
 use support::{ARRAY, LZ4, ZLIB, bomb, declaring, nifti_file, npy_file, words};
 use tigereye_core::{Cell, Field, Grid, Tensor2};
-use tigereye_io::volume::{Axis, Frame, PlaneChoice, Reading, image_from_volume, lattice_from_image};
+use tigereye_io::volume::{
+    Axis, Frame, PlaneChoice, Reading, image_from_volume, lattice_from_image, lattice_from_points,
+    points_from_image,
+};
 use tigereye_io::{
-    DataArray, ImageData, IoError, Limits, image_from_tensors, legacy, matrices, nifti, npy, nrrd, vti,
+    DataArray, ImageData, IoError, Limits, image_from_tensors, legacy, matrices, nifti, npy, nrrd, vti, vtp,
 };
 
 #[test]
@@ -217,6 +220,10 @@ fn tensor_arrays_have_one_of_three_shapes() {
     assert!(matches!(read(&[0, 2, 2, 2]), Err(IoError::Core { .. })));
 }
 
+fn small_vtp() -> Vec<u8> {
+    vtp::write(&points_from_image(small_image())).unwrap()
+}
+
 fn small_volumes() -> [Vec<u8>; 3] {
     let tensors = "1 2 3 4 5 6 ".repeat(4);
     let nrrd = format!(
@@ -328,12 +335,16 @@ fn read_as_everything(bytes: &[u8]) {
         nifti::read_with_limits(bytes, limits),
         legacy::read_with_limits(bytes, limits).and_then(|image| lattice_from_image(&image, None)),
         vti::read(bytes).and_then(|image| lattice_from_image(&image, None)),
+        vtp::read_with_limits(bytes, limits).and_then(|data| lattice_from_points(data, None)),
     ];
     for lattice in volumes.into_iter().flatten() {
         if let Ok(volume) = lattice.tensors(Reading::default()) {
             let choice = PlaneChoice { plane: None, slice: Some((Axis::Z, 0)) };
             let _ = (volume.slice(choice), volume.story(), volume.suspicion());
-            let _ = image_from_volume(&volume, Frame::World);
+            if let Ok(image) = image_from_volume(&volume, Frame::World) {
+                let _ = (legacy::write(&image, ""), vtp::write(&points_from_image(image)));
+            }
+            let _ = (nrrd::write(&volume, ""), nifti::write(&volume, ""));
         }
     }
     if let Ok(image) = &vti::read(bytes) {
@@ -347,10 +358,10 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 3000, ..ProptestConfig::default() })]
 
     #[test]
-    fn changed_files_never_panic(which in 0..6_usize,
+    fn changed_files_never_panic(which in 0..7_usize,
                                  changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 1..6)) {
         let [nrrd, nifti, vtk] = small_volumes();
-        let images = [vti::write(&small_image()).unwrap(), small_text_image(), small_npy(), nrrd, nifti, vtk];
+        let images = [vti::write(&small_image()).unwrap(), small_text_image(), small_npy(), nrrd, nifti, vtk, small_vtp()];
         let mut file = images[which].clone();
         for (at, byte, kind) in changes {
             let at = at.index(file.len());

@@ -6,9 +6,11 @@ mod support;
 use serde_json::Value;
 use support::{bytes, folder, json};
 use tigereye_core::{Cell, Field, Tensor2};
-use tigereye_io::volume::{Frame, Lattice, Plane, PlaneChoice, Reading, TensorVolume, lattice_from_image};
+use tigereye_io::volume::{
+    Frame, Lattice, Plane, PlaneChoice, Reading, TensorVolume, lattice_from_image, lattice_from_points,
+};
 use tigereye_io::{
-    DataArray, ImageData, legacy, ltg_from_image, matrices, nifti, npy, nrrd, tensors_from_image, vti,
+    DataArray, ImageData, legacy, ltg_from_image, matrices, nifti, npy, nrrd, tensors_from_image, vti, vtp,
 };
 
 /// Relative to the range: the files hold f32, text files fewer digits.
@@ -283,5 +285,32 @@ fn text_fields_have_their_published_counts() {
         let count = |holds: fn(&Tensor2) -> bool| field.values().iter().filter(|&t| holds(t)).count();
         assert_eq!(count(Tensor2::is_zero), index(&entry["zero"]), "{name}");
         assert_eq!(matrices::read(&matrices::write(&field).unwrap()).unwrap(), field, "{name}");
+    }
+}
+
+/// Measured tensors on poly data: size, range, probes, and the crop that the thesis takes (its first row is the file's).
+#[test]
+fn measured_slices_have_their_published_values() {
+    let Some(reference) = folder("TIGEREYE_REFERENCE", "reference") else { return };
+    let manifest = json(&reference, "manifest.json");
+    for entry in list(&manifest["real"]) {
+        let file = entry["file"].as_str().unwrap();
+        let lattice = lattice_from_points(vtp::read(&bytes(&reference, file)).unwrap(), None).unwrap();
+        let (w, h) = (index(&entry["width"]), index(&entry["height"]));
+        assert_eq!((lattice.size, lattice.array.as_str()), ([w, h, 1], entry["array"].as_str().unwrap()));
+        let volume = lattice.tensors(Reading::default()).unwrap();
+        let field = volume.slice(PlaneChoice::default()).unwrap().field;
+        let zero = volume.tensors().filter(|t| *t == [0.0; 9]).count();
+        assert_eq!(zero, index(&entry["zero_tensors"]), "{file}");
+        let range = |f: fn(f64, f64) -> f64, start| volume.tensors().flatten().fold(start, f);
+        same(file, range(f64::min, f64::INFINITY), &entry["min"]);
+        same(file, range(f64::max, f64::NEG_INFINITY), &entry["max"]);
+        for probe in list(&entry["probes"]) {
+            let (x, y) = (index(&probe["x"]), index(&probe["y"]));
+            let stored = volume.stored(y * w + x);
+            stored.iter().zip(list(&probe["tensor"])).for_each(|(v, e)| same(file, *v, e));
+            let crop = field.at(Cell::new(x, h - 1 - y)).components();
+            assert_eq!(crop, [stored[0], stored[1], stored[3], stored[4]], "{file} ({x}, {y})");
+        }
     }
 }

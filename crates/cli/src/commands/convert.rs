@@ -4,71 +4,110 @@ use crate::args::ConvertArgs;
 use crate::commands::command_line;
 use crate::error::CliError;
 use crate::input::{Input, insert_reading};
-use crate::source::{Source, VolumeFile};
+use crate::source::Source;
 use crate::{files, interrupt};
 use serde_json::json;
 use tigereye_experiments::provenance::provenance;
-use tigereye_io::volume::{Frame, image_from_volume};
-use tigereye_io::{ImageData, image_from_tensors, matrices, npy, vti};
+use tigereye_io::volume::{Frame, TensorVolume, image_from_volume, points_from_image};
+use tigereye_io::{ImageData, IoError, legacy, matrices, nifti, npy, nrrd, vti, vtp};
+
+/// What can be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Matrices,
+    Numpy,
+    ImageData,
+    PolyData,
+    Legacy,
+    Nrrd,
+    Nifti,
+    NiftiPacked,
+}
+
+impl Format {
+    fn of(path: &std::path::Path) -> Option<Self> {
+        Some(match files::format(path).as_str() {
+            "txt" => Self::Matrices,
+            "npy" => Self::Numpy,
+            "vti" => Self::ImageData,
+            "vtp" => Self::PolyData,
+            "vtk" => Self::Legacy,
+            "nrrd" => Self::Nrrd,
+            "nii" => Self::Nifti,
+            "nii.gz" => Self::NiftiPacked,
+            _ => return None,
+        })
+    }
+
+    /// Whether only a plane fits.
+    const fn is_flat(self) -> bool {
+        matches!(self, Self::Matrices | Self::Numpy)
+    }
+}
 
 pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
     let name = args.output.display().to_string();
-    let format = files::extension(&args.output);
-    if !matches!(format.as_str(), "vti" | "npy" | "txt") {
-        return Err(CliError::input(&name, "the ending tells the format: expected .vti, .npy or .txt"));
-    }
+    let Some(format) = Format::of(&args.output) else {
+        let problem =
+            "the ending tells the format: expected .vti, .vtp, .vtk, .nrrd, .nii, .nii.gz, .npy or .txt";
+        return Err(CliError::input(&name, problem));
+    };
     files::check_writable(&args.output)?;
     if args.output.exists() && !args.force {
         return Err(CliError::input(&name, "exists already: expected another name, or --force"));
     }
-    let source = Source::open(&args.input, &args.reading)?;
-    let bytes = match source {
-        Source::Volume(file) if format == "vti" && !file.has_plane(&args.reading) => {
+    let bytes = match Source::open(&args.input, &args.reading)? {
+        Source::Volume(file) if !format.is_flat() && !file.has_plane(&args.reading) => {
             if args.reading.crop.is_some() {
                 return Err(CliError::input("--crop", "a part of a plane: expected --slice too"));
             }
             file.tell();
-            let frame = args.reading.frame.map_or(Frame::World, Frame::from);
-            let image =
-                image_from_volume(&file.volume, frame).map_err(|e| CliError::input(&args.input, e))?;
-            encoded(image, args, &file)?
+            encoded(format, &file.volume, args, &file.blake3)
         }
         source => {
             let input = Input::of(source, &args.reading)?;
             input.tell();
-            match format.as_str() {
-                "npy" => npy::write_tensors(&input.field),
-                "txt" => matrices::write(&input.field).map_err(|e| CliError::input(&name, e))?,
-                _ => encoded(image_from_tensors(&input.field, input.origin, input.spacing), args, &input)?,
+            match format {
+                Format::Numpy => Ok(npy::write_tensors(&input.field)),
+                Format::Matrices => matrices::write(&input.field),
+                _ => {
+                    let volume = TensorVolume::from_field(&input.field, input.origin, input.spacing);
+                    encoded(format, &volume, args, &input.blake3)
+                }
             }
         }
     };
+    let bytes = bytes.map_err(|e| CliError::input(&name, e))?;
     interrupt::check()?;
     files::write(&args.output, &bytes)?;
     Ok(0)
 }
 
-/// What an output's provenance names.
-trait Hashed {
-    fn blake3(&self) -> &str;
-}
-
-impl Hashed for Input {
-    fn blake3(&self) -> &str {
-        &self.blake3
-    }
-}
-
-impl Hashed for VolumeFile {
-    fn blake3(&self) -> &str {
-        &self.blake3
-    }
-}
-
-fn encoded(mut image: ImageData, args: &ConvertArgs, input: &impl Hashed) -> Result<Vec<u8>, CliError> {
+/// A volume in one of the formats that hold volumes.
+fn encoded(
+    format: Format,
+    volume: &TensorVolume,
+    args: &ConvertArgs,
+    blake3: &str,
+) -> Result<Vec<u8>, IoError> {
     let mut parameters = json!({ "input": args.input });
     insert_reading(&mut parameters, &args.reading);
-    let story = provenance(&command_line(), &parameters, input.blake3());
-    image.push_text(tigereye_io::PROVENANCE, &story);
-    vti::write(&image).map_err(|e| CliError::input(&args.output.display().to_string(), e))
+    let story = provenance(&command_line(), &parameters, blake3);
+    let image = || -> Result<ImageData, IoError> {
+        let frame = args.reading.frame.map_or(Frame::World, Frame::from);
+        let mut image = image_from_volume(volume, frame)?;
+        image.push_text(tigereye_io::PROVENANCE, &story);
+        Ok(image)
+    };
+    match format {
+        Format::PolyData => vtp::write(&points_from_image(image()?)),
+        Format::Legacy => {
+            let title = format!("tigereye {}, input blake3 {blake3}", env!("CARGO_PKG_VERSION"));
+            legacy::write(&image()?, &title)
+        }
+        Format::Nrrd => nrrd::write(volume, &story),
+        Format::Nifti => nifti::write(volume, &story),
+        Format::NiftiPacked => nifti::write_packed(volume, &story),
+        Format::ImageData | Format::Matrices | Format::Numpy => vti::write(&image()?),
+    }
 }

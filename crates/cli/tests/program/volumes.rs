@@ -70,7 +70,7 @@ fn outputs_are_replaced_only_by_force() {
     place.write("field.txt", unit_text(3, 2));
     place.write("kept.npy", "an earlier result");
     place.refuses(&["convert", "field.txt", "kept.npy"], &["kept.npy", "exists", "--force"]);
-    place.refuses(&["convert", "field.txt", "f.png"], &[".vti, .npy or .txt"]);
+    place.refuses(&["convert", "field.txt", "f.png"], &[".nii.gz, .npy or .txt"]);
     place.succeeds(&["convert", "field.txt", "kept.npy", "--force"]);
     assert_eq!(npy::read_tensors(&place.read("kept.npy")).unwrap().grid().width(), 3);
     place.succeeds(&["convert", "inverse:size=5", "generated.vti"]);
@@ -170,6 +170,13 @@ fn example_files_work_with_every_command() {
         let run =
             place.tigereye(&[&["convert", &input, "o.vti", "--force"], &order[..], &slice[..]].concat());
         assert_eq!(run.code, 0, "{file}: {}", run.stderr);
+        for output in ["o.vtp", "o.vtk", "o.nrrd", "o.nii", "o.nii.gz"] {
+            let run =
+                place.tigereye(&[&["convert", &input, output, "--force"], &order[..], &slice[..]].concat());
+            assert_eq!(run.code, 0, "{file}: {}", run.stderr);
+            let run = place.tigereye(&["compare", "o.vti", output, "--tolerance", "0"]);
+            assert_eq!(run.code, 0, "{file} as {output}: {}{}", run.stdout, run.stderr);
+        }
         let crop = ["--crop", "2:7,1:8", "--directions", "8", "--steps", "3"];
         let light = ["propagate", &input, "--light", "2,3", "-o", "o.npy"];
         let run = place.tigereye(&[&light, &order[..], &slice[..], &crop[..]].concat());

@@ -3,6 +3,7 @@
 mod arguments;
 mod expression;
 mod flow;
+mod images;
 mod stress;
 mod thesis;
 mod topology;

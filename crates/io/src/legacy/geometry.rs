@@ -1,10 +1,8 @@
 //! The points of a legacy data set, as a lattice.
 
 use super::cursor::{Cursor, fault};
+use crate::points::{PointLattice, TOLERANCE};
 use crate::{ImageData, IoError};
-
-/// Largest distance of a point from its lattice, relative to the step: coordinates have six digits in text.
-const TOLERANCE: f64 = 1e-3;
 
 const SETS: &str = "DATASET STRUCTURED_POINTS, STRUCTURED_GRID or RECTILINEAR_GRID";
 
@@ -79,7 +77,7 @@ fn triple(cursor: &mut Cursor) -> Result<[f64; 3], IoError> {
 
 /// Explicit points, which must be those of a lattice, possibly turned.
 fn points(cursor: &mut Cursor, image: &mut ImageData) -> Result<(), IoError> {
-    let (byte, _) = cursor.word("POINTS")?;
+    cursor.word("POINTS")?;
     let at = cursor.at();
     let count: u64 = cursor.parse("the number of points")?;
     let [nx, ny, nz] = image.dimensions;
@@ -89,61 +87,9 @@ fn points(cursor: &mut Cursor, image: &mut ImageData) -> Result<(), IoError> {
     let scalar = cursor.scalar()?;
     let values = cursor.numbers("POINTS", scalar, 3 * u128::from(count))?;
     let points = values.as_chunks::<3>().0;
-    let strides = [1, nx, nx * ny];
-    let first = points.first().copied().unwrap_or_default();
-    let mut axes = [[0.0; 3]; 3];
-    for a in 0..3 {
-        let steps = image.dimensions[a] - 1;
-        if steps > 0 {
-            let last = points[strides[a] * steps];
-            axes[a] = [0, 1, 2].map(|i| (last[i] - first[i]) / steps as f64);
-        }
-    }
-    let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-    let spacing = axes.map(length);
-    let least = spacing.iter().copied().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
-    for (point, p) in points.iter().enumerate() {
-        let at = [point % nx, point / nx % ny, point / (nx * ny)];
-        let off = [0, 1, 2].map(|i| {
-            let expected: f64 = (0..3).map(|a| at[a] as f64 * axes[a][i]).sum();
-            p[i] - first[i] - expected
-        });
-        let moves = (0..3).all(|a| image.dimensions[a] == 1 || spacing[a] > 0.0);
-        let near = length(off) <= TOLERANCE * least;
-        if !(near || points.len() == 1) || !moves {
-            return Err(IoError::NoLattice { byte, point });
-        }
-    }
-    place(image, axes, first);
+    let lattice = PointLattice::of(points, image.dimensions);
+    lattice.map_err(|point| IoError::NoLattice { point })?.place(image);
     Ok(())
-}
-
-/// Spacing, directions and origin from steps; axes of one point get the directions that are left.
-fn place(image: &mut ImageData, axes: [[f64; 3]; 3], origin: [f64; 3]) {
-    let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-    let mut units = [None; 3];
-    for a in 0..3 {
-        let spacing = length(axes[a]);
-        if spacing > 0.0 {
-            image.spacing[a] = spacing;
-            units[a] = Some(axes[a].map(|v| v / spacing));
-        }
-    }
-    for a in 0..3 {
-        if units[a].is_some() {
-            continue;
-        }
-        units[a] = match (units[(a + 1) % 3], units[(a + 2) % 3]) {
-            (Some(u), Some(v)) => {
-                Some([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
-            }
-            _ => Some([0, 1, 2].map(|i| if i == a { 1.0 } else { 0.0 })),
-        };
-    }
-    let direction: [f64; 9] = std::array::from_fn(|i| units[i % 3].unwrap_or_default()[i / 3]);
-    image.origin = origin;
-    let turned = (0..9).any(|i| direction[i] != if i % 4 == 0 { 1.0 } else { 0.0 });
-    image.direction = turned.then_some(direction);
 }
 
 /// Coordinates along one axis of a rectilinear grid, which must be equally spaced.
@@ -167,7 +113,7 @@ fn coordinates(cursor: &mut Cursor, axis: usize, image: &mut ImageData) -> Resul
         (!near || step == 0.0).then_some(i)
     };
     if let Some(point) = values.iter().enumerate().find_map(off).filter(|_| count > 1) {
-        return Err(IoError::NoLattice { byte, point });
+        return Err(IoError::NoLattice { point });
     }
     (image.origin[axis], image.spacing[axis]) = (first, step);
     Ok(())

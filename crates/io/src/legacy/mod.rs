@@ -1,14 +1,19 @@
-//! Legacy VTK files, `.vtk`, to [`ImageData`].
+//! Legacy VTK files, `.vtk`, to [`ImageData`] and back.
 //!
 //! Read: versions 1 to 5.1, ASCII and BINARY (big-endian); STRUCTURED_POINTS, and STRUCTURED_GRID or RECTILINEAR_GRID whose
 //! points form a lattice; all attributes of points and cells, arrays in FIELD, METADATA. Refused by name: other data sets,
 //! bits and strings.
+//!
+//! Written: version 3.0, BINARY, as STRUCTURED_POINTS, or as STRUCTURED_GRID where the axes are turned.
 //!
 //! Format: "VTK File Formats", The VTK User's Guide.
 
 mod attributes;
 mod cursor;
 mod geometry;
+mod write;
+
+pub use write::write;
 
 use crate::{ImageData, IoError, Limits};
 use cursor::Cursor;

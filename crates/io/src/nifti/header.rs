@@ -8,8 +8,9 @@ pub(super) const LENGTH: usize = 348;
 /// Extensions before the data are skipped up to here.
 const MAX_OFFSET: f64 = (1_u64 << 26) as f64;
 
-const SYMMETRIC: i16 = 1005;
-const MATRIX: i16 = 1004;
+/// Intents.
+pub(super) const SYMMETRIC: i16 = 1005;
+pub(super) const MATRIX: i16 = 1004;
 
 /// Steps along the voxel axes, and the first voxel.
 pub(super) type Position = ([[f64; 3]; 3], [f64; 3]);

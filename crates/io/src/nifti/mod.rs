@@ -5,9 +5,15 @@
 //! order the file does not state. Refused by name: NIfTI-2, ANALYZE and `.hdr`/`.img` pairs, complex and colour numbers,
 //! time series.
 //!
+//! Written: symmetric or general matrices (5-D, intents 1005 and 1004) in double precision along the voxel axes, an sform, and
+//! what made the file as an extension of comments.
+//!
 //! Standard: nifti1.h of the NIfTI Data Format Working Group, 2003.
 
 mod header;
+mod write;
+
+pub use write::{write, write_packed};
 
 use crate::inflate::{gunzip, is_gzip};
 use crate::volume::{Frame, Known, Lattice, World};

@@ -4,10 +4,15 @@
 //! (2D and 3D, symmetric or not, with or without mask); space directions, origin, measurement frame. Refused by name: hex
 //! and bzip2, blocks, data spread over several files.
 //!
+//! Written: attached gzip data in double precision, along the world's axes.
+//!
 //! Format: <http://teem.sourceforge.net/nrrd/format.html>.
 
 mod data;
 mod header;
+mod write;
+
+pub use write::write;
 
 use crate::volume::{Frame, Known, Lattice, TensorOrder, World};
 use crate::{IoError, Limits};

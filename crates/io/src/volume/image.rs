@@ -1,11 +1,34 @@
 //! Between VTK image data and volumes.
 
-use super::{Frame, IDENTITY, Known, Lattice, TensorOrder, TensorVolume, World, turned};
+use super::{Frame, IDENTITY, Known, Lattice, TensorOrder, TensorVolume, World};
 use crate::convert::{Association, TENSOR_ARRAY, choose_tensors};
-use crate::{ImageData, IoError};
+use crate::points::PointLattice;
+use crate::{ImageData, IoError, PolyData};
+
+/// The array by which VTK's resampling filters mark points that lay outside their input, with 0.
+const VALID_POINTS: &str = "vtkValidPointMask";
+
+/// Takes the tensor array out of poly data whose points form a lattice, x fastest.
+///
+/// # Errors
+/// [`IoError::NoLattice`], and as [`lattice_from_image`]. Cell arrays belong to polygons and are not looked at.
+pub fn lattice_from_points(data: PolyData, array: Option<&str>) -> Result<Lattice, IoError> {
+    let lattice = PointLattice::find(&data.points).map_err(|point| IoError::NoLattice { point })?;
+    let mut image = ImageData::empty(lattice.size);
+    lattice.place(&mut image);
+    image.point_arrays = data.point_arrays;
+    image.point_active = data.point_active;
+    let mut found = lattice_from_image(&image, array)?;
+    found.notes = vec!["a point array of VTK poly data whose points form a lattice".to_owned()];
+    let left_out: Vec<String> = data.cell_arrays.into_iter().map(|a| format!("`{}`", a.name)).collect();
+    if !left_out.is_empty() {
+        found.notes.push(format!("arrays of polygons left out: {}", left_out.join(", ")));
+    }
+    Ok(found)
+}
 
 /// Takes the tensor array out of an image: the named one, or the active tensors, or the only array that may be tensors.
-/// Cell arrays form a lattice of cell centres.
+/// Cell arrays form a lattice of cell centres. Points that VTK marked as invalid are masked.
 ///
 /// # Errors
 /// [`IoError::NoArray`], [`IoError::AmbiguousArray`], [`IoError::ArraySize`].
@@ -40,6 +63,9 @@ pub fn lattice_from_image(image: &ImageData, array: Option<&str>) -> Result<Latt
     let kind = if association == Association::Points { "point" } else { "cell" };
     let names: Vec<String> = array.component_names.iter().map(|n| n.to_ascii_lowercase()).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let valid = image
+        .point_array(VALID_POINTS)
+        .filter(|m| m.components == 1 && m.values.len() == size.iter().product());
     let named = TensorOrder::by_names(&names, array.components).ok();
     Ok(Lattice {
         size,
@@ -50,7 +76,7 @@ pub fn lattice_from_image(image: &ImageData, array: Option<&str>) -> Result<Latt
         origin,
         world: World::Viewer,
         measurement: None,
-        mask: None,
+        mask: valid.filter(|_| association == Association::Points).map(|m| m.values.clone()),
         order: named.or_else(|| TensorOrder::usual(array.components)).or_else(|| usual6(array.components)),
         frame: (Frame::World, Known::Stated),
         array: array.name.clone(),
@@ -71,25 +97,47 @@ fn usual6(components: usize) -> Option<TensorOrder> {
 /// [`IoError::SkewedAxes`] where components must be turned and cannot be.
 pub fn image_from_volume(volume: &TensorVolume, frame: Frame) -> Result<ImageData, IoError> {
     let lattice = volume.lattice();
-    let turn = if frame == Frame::Voxel { volume.to_voxel()? } else { volume.to_world()? };
-    let mut values = Vec::with_capacity(9 * lattice.voxels());
-    for (voxel, t) in volume.tensors().enumerate() {
-        if lattice.mask.as_ref().is_some_and(|m| m.get(voxel) == Some(&0.0)) {
-            values.extend([0.0; 9]);
-        } else {
-            values.extend(turn.as_ref().map_or(t, |k| turned(k, &t)));
-        }
-    }
+    let values = volume.along(frame)?.into_iter().flatten().collect();
     let mut image = ImageData::empty(lattice.size);
     image.spacing = lattice.spacing();
     if frame != Frame::Voxel {
         image.origin = lattice.origin;
-        let directions = lattice.directions();
-        image.direction = (directions != IDENTITY).then_some(directions);
+        image.direction = volume.turned_directions();
     }
     let array = crate::DataArray::new(TENSOR_ARRAY, 9, values)
         .with_component_names(&["XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"]);
     image.point_active.tensors = Some(TENSOR_ARRAY.to_owned());
     image.point_arrays.push(array);
     Ok(image)
+}
+
+/// Positions of the points of an image.
+pub(crate) fn points_of_image(image: &ImageData) -> impl Iterator<Item = [f64; 3]> {
+    let d = image.direction.unwrap_or(IDENTITY);
+    let ([nx, ny, nz], origin, spacing) = (image.dimensions, image.origin, image.spacing);
+    (0..nx * ny * nz).map(move |i| {
+        let at = [i % nx, i / nx % ny, i / (nx * ny)];
+        let step = [0, 1, 2].map(|a| at[a] as f64 * spacing[a]);
+        [0, 1, 2].map(|k| origin[k] + d[3 * k] * step[0] + d[3 * k + 1] * step[1] + d[3 * k + 2] * step[2])
+    })
+}
+
+/// The points of an image as poly data, with squares between them where it has one layer, else each alone.
+#[must_use]
+pub fn points_from_image(image: ImageData) -> PolyData {
+    let [nx, ny, nz] = image.dimensions;
+    let mut data = PolyData { points: points_of_image(&image).collect(), ..PolyData::default() };
+    if nz == 1 && nx > 1 && ny > 1 {
+        for y in 0..ny - 1 {
+            for i in y * nx..y * nx + nx - 1 {
+                data.polys.push([i, i + 1, i + nx + 1, i + nx]);
+            }
+        }
+    } else {
+        (0..data.points.len()).for_each(|i| data.verts.push([i]));
+    }
+    data.point_arrays = image.point_arrays;
+    data.point_active = image.point_active;
+    data.field_data = image.field_data;
+    data
 }

@@ -9,11 +9,14 @@
 
 mod image;
 mod order;
+mod output;
 mod plane;
 mod suspicion;
 
-pub use image::{image_from_volume, lattice_from_image};
+pub(crate) use image::points_of_image;
+pub use image::{image_from_volume, lattice_from_image, lattice_from_points, points_from_image};
 pub use order::TensorOrder;
+pub(crate) use output::symmetric;
 pub use plane::{Axis, Crop, Plane, PlaneChoice, TensorSlice};
 pub use suspicion::{Suspicion, negative_share};
 

@@ -215,7 +215,7 @@ impl TensorVolume {
             at[right] = if columns_flipped { width - 1 - c.x } else { c.x };
             at[up] = if rows_flipped { height - 1 - c.y } else { c.y };
             let voxel = (at[2] * lattice.size[1] + at[1]) * lattice.size[0] + at[0];
-            if lattice.mask.as_ref().is_some_and(|m| m.get(voxel) == Some(&0.0)) {
+            if self.is_masked(voxel) {
                 return Tensor2::ZERO;
             }
             let t = self.stored(voxel);

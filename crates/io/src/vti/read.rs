@@ -1,7 +1,7 @@
 //! From bytes to [`ImageData`].
 
-use crate::image::{ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData};
-use crate::xml::{ArrayReader, Content, Document, Element};
+use crate::image::ImageData;
+use crate::xml::{ArrayReader, Document, Element, data_set, only_piece, read_arrays, read_field_data};
 use crate::{IoError, Limits};
 
 /// Reads a file with the default [`Limits`].
@@ -18,14 +18,7 @@ pub fn read(bytes: &[u8]) -> Result<ImageData, IoError> {
 /// Anything that is not a complete file of one piece; names byte, element or array.
 pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<ImageData, IoError> {
     let document = Document::parse(bytes)?;
-    let root = &document.root;
-    if root.name != "VTKFile" {
-        return Err(root.unexpected("<VTKFile>"));
-    }
-    if root.required("type", "ImageData")? != "ImageData" {
-        return Err(root.wrong("type", "ImageData"));
-    }
-    let image = only_child(root, "ImageData")?;
+    let image = data_set(&document.root, "ImageData", "<ImageData>")?;
     let piece = only_piece(image)?;
     let mut data = geometry(image, piece, limits)?;
     let mut arrays = ArrayReader::new(&document, limits);
@@ -37,29 +30,6 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<ImageData, IoErr
         }
     }
     Ok(data)
-}
-
-fn only_child<'a>(parent: &'a Element, name: &'static str) -> Result<&'a Element, IoError> {
-    let missing =
-        || IoError::XmlMissingElement { byte: parent.byte, parent: parent.name.clone(), element: name };
-    let mut children = parent.children.iter();
-    let child = children.next().ok_or_else(missing)?;
-    if child.name != name {
-        return Err(child.unexpected("<ImageData>"));
-    }
-    match children.next() {
-        Some(second) => Err(second.unexpected("<AppendedData> or the end")),
-        None => Ok(child),
-    }
-}
-
-fn only_piece(image: &Element) -> Result<&Element, IoError> {
-    let pieces: Vec<&Element> = image.children.iter().filter(|c| c.name == "Piece").collect();
-    match pieces[..] {
-        [piece] => Ok(piece),
-        [] => Err(IoError::Pieces { byte: image.byte, pieces: 0 }),
-        [_, second, ..] => Err(IoError::Pieces { byte: second.byte, pieces: pieces.len() }),
-    }
 }
 
 /// An image without arrays yet.
@@ -139,59 +109,4 @@ fn read_piece(piece: &Element, arrays: &mut ArrayReader, data: &mut ImageData) -
 /// Points or cells; the limit on cells was checked, so nothing overflows.
 fn tuples(dimensions: [usize; 3]) -> u64 {
     dimensions.iter().map(|&n| n as u64).product()
-}
-
-fn read_arrays(
-    element: &Element,
-    arrays: &mut ArrayReader,
-    tuples: u64,
-) -> Result<(ActiveArrays, Vec<DataArray>), IoError> {
-    let active = |kind: &str| element.attribute(kind).filter(|n| !n.is_empty()).map(str::to_owned);
-    let active =
-        ActiveArrays { scalars: active("Scalars"), vectors: active("Vectors"), tensors: active("Tensors") };
-    let mut list = Vec::new();
-    for child in &element.children {
-        if child.name != "DataArray" && child.name != "Array" {
-            return Err(child.unexpected("<DataArray>"));
-        }
-        // With `tuples` given, strings are refused by name.
-        if let Content::Numbers { components, values, scalar } = arrays.read(child, Some(tuples))? {
-            let name = child.attribute("Name").unwrap_or_default().to_owned();
-            let component_names = component_names(child, components);
-            list.push(DataArray { name, components, component_names, values, scalar });
-        }
-    }
-    Ok((active, list))
-}
-
-fn component_names(element: &Element, components: usize) -> Vec<String> {
-    let mut names = Vec::new();
-    for (attribute, value) in &element.attributes {
-        let index = attribute.strip_prefix("ComponentName").and_then(|i| i.parse::<usize>().ok());
-        if let Some(i) = index.filter(|&i| i < components) {
-            names.resize(components, String::new());
-            names[i].clone_from(value);
-        }
-    }
-    names
-}
-
-fn read_field_data(
-    element: &Element,
-    arrays: &mut ArrayReader,
-    list: &mut Vec<FieldEntry>,
-) -> Result<(), IoError> {
-    for child in &element.children {
-        if child.name != "DataArray" && child.name != "Array" {
-            return Err(child.unexpected("<DataArray> or <Array>"));
-        }
-        let values = match arrays.read(child, None)? {
-            Content::Text(strings) => FieldValues::Text(strings),
-            Content::Numbers { components, values, scalar } => {
-                FieldValues::Numbers { components, values, scalar }
-            }
-        };
-        list.push(FieldEntry { name: child.attribute("Name").unwrap_or_default().to_owned(), values });
-    }
-    Ok(())
 }

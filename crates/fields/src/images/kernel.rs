@@ -1,0 +1,152 @@
+//! Gaussians, their derivatives, and correlation along rows and columns.
+
+use tigereye_core::math::exp;
+use tigereye_core::{Cell, Field};
+
+/// Gaussians are cut at this many standard deviations, where they are below 4e-4 of their top.
+const CUT: f64 = 4.0;
+
+/// Weights of the samples -r to r.
+pub(super) struct Kernel {
+    weights: Vec<f64>,
+}
+
+impl Kernel {
+    fn of(sigma: f64, weight: impl Fn(f64) -> f64) -> Self {
+        let radius = (CUT * sigma).ceil() as i32;
+        Self { weights: (-radius..=radius).map(|i| weight(f64::from(i))).collect() }
+    }
+
+    /// A moment of the weights.
+    fn sum(&self, power: i32) -> f64 {
+        let radius = (self.weights.len() / 2) as f64;
+        let raised = |x: f64| (0..power).fold(1.0, |p, _| p * x);
+        self.weights.iter().enumerate().map(|(i, w)| w * raised(i as f64 - radius)).sum()
+    }
+
+    fn scaled(mut self, factor: f64) -> Self {
+        self.weights.iter_mut().for_each(|w| *w *= factor);
+        self
+    }
+
+    /// Weights of sum 1.
+    pub(super) fn gauss(sigma: f64) -> Self {
+        if sigma == 0.0 {
+            return Self { weights: vec![1.0] };
+        }
+        let kernel = Self::of(sigma, |x| exp(-0.5 * (x / sigma) * (x / sigma)));
+        let sum = kernel.sum(0);
+        kernel.scaled(1.0 / sum)
+    }
+
+    /// First derivative, exact for polynomials of degree 2.
+    pub(super) fn first(sigma: f64) -> Self {
+        if sigma == 0.0 {
+            return Self { weights: vec![-0.5, 0.0, 0.5] };
+        }
+        let kernel = Self::of(sigma, |x| x * exp(-0.5 * (x / sigma) * (x / sigma)));
+        let slope = kernel.sum(1);
+        kernel.scaled(1.0 / slope)
+    }
+
+    /// Second derivative, exact for polynomials of degree 3.
+    pub(super) fn second(sigma: f64) -> Self {
+        if sigma == 0.0 {
+            return Self { weights: vec![1.0, -2.0, 1.0] };
+        }
+        let spread = Self::gauss(sigma).sum(2);
+        let kernel = Self::of(sigma, |x| (x * x - spread) * exp(-0.5 * (x / sigma) * (x / sigma)));
+        let bend = kernel.sum(2);
+        kernel.scaled(2.0 / bend)
+    }
+}
+
+/// How a row goes on beyond its ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Beyond {
+    /// `2 f(0) - f(i)` at -i: slopes go on.
+    PointReflection,
+    /// `f(i - 1)` at -i: values go on.
+    Mirror,
+}
+
+impl Beyond {
+    /// The sample at any index of a row that is not empty.
+    fn sample(self, row: &[f64], index: i64) -> f64 {
+        let last = row.len() as i64 - 1;
+        if (0..=last).contains(&index) {
+            return row[index as usize];
+        }
+        if last == 0 {
+            return row[0];
+        }
+        match self {
+            Self::PointReflection if index < 0 => 2.0 * row[0] - self.sample(row, -index),
+            Self::PointReflection => 2.0 * row[last as usize] - self.sample(row, 2 * last - index),
+            Self::Mirror if index < 0 => self.sample(row, -index - 1),
+            Self::Mirror => self.sample(row, 2 * last + 1 - index),
+        }
+    }
+}
+
+fn correlated(row: &[f64], kernel: &Kernel, beyond: Beyond) -> Vec<f64> {
+    let radius = (kernel.weights.len() / 2) as i64;
+    let at = |x: usize| {
+        let samples = (x as i64 - radius..).map(|i| beyond.sample(row, i));
+        kernel.weights.iter().zip(samples).map(|(w, v)| w * v).sum()
+    };
+    (0..row.len()).map(at).collect()
+}
+
+/// Correlation of every row.
+pub(super) fn along_rows(field: &Field<f64>, kernel: &Kernel, beyond: Beyond) -> Field<f64> {
+    let mut out = field.clone();
+    let width = field.grid().width();
+    for (row, to) in field.values().chunks(width).zip(out.values_mut().chunks_mut(width)) {
+        to.copy_from_slice(&correlated(row, kernel, beyond));
+    }
+    out
+}
+
+/// Correlation of every column, downwards.
+pub(super) fn columns_of(field: &Field<f64>, kernel: &Kernel, beyond: Beyond) -> Field<f64> {
+    let turned = |f: &Field<f64>| Field::from_fn(f.grid().transposed(), |c| *f.at(Cell::new(c.y, c.x)));
+    turned(&along_rows(&turned(field), kernel, beyond))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Moments decide what is exact: a Gaussian keeps constants, the first derivative turns x into 1, the second x^2
+    /// into 2, and each leaves the other powers below alone.
+    #[test]
+    fn kernels_are_exact_for_low_polynomials() {
+        for sigma in [0.0, 0.4, 1.0, 2.5] {
+            let near = |k: &Kernel, power, expected: f64| {
+                assert!((k.sum(power) - expected).abs() < 1e-12, "{sigma}: moment {power}");
+            };
+            let (gauss, first, second) = (Kernel::gauss(sigma), Kernel::first(sigma), Kernel::second(sigma));
+            near(&gauss, 0, 1.0);
+            near(&gauss, 1, 0.0);
+            near(&first, 0, 0.0);
+            near(&first, 1, 1.0);
+            near(&first, 2, 0.0);
+            near(&second, 0, 0.0);
+            near(&second, 1, 0.0);
+            near(&second, 2, 2.0);
+            near(&second, 3, 0.0);
+        }
+        assert!((Kernel::gauss(2.5).sum(2) - 6.25).abs() < 0.02, "cut at four standard deviations");
+    }
+
+    #[test]
+    fn rows_go_on_beyond_their_ends() {
+        let row = [1.0, 3.0, 7.0];
+        let at = |beyond: Beyond, i| beyond.sample(&row, i);
+        assert_eq!([-3, -2, -1, 3, 4, 5].map(|i| at(Beyond::Mirror, i)), [7.0, 3.0, 1.0, 7.0, 3.0, 1.0]);
+        assert_eq!([-2, -1, 3, 4].map(|i| at(Beyond::PointReflection, i)), [-5.0, -1.0, 11.0, 13.0]);
+        assert_eq!(Beyond::PointReflection.sample(&[4.0], -3), 4.0);
+        assert_eq!(Beyond::PointReflection.sample(&[0.0, 1.0], -7), -7.0);
+    }
+}

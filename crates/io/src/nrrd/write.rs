@@ -1,0 +1,56 @@
+//! From [`TensorVolume`] to bytes.
+
+use crate::volume::{Frame, TensorVolume, World, symmetric};
+use crate::{IoError, ScalarType};
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use std::fmt::Write as _;
+use std::io::Write as _;
+
+/// Spaces of three axes that the format names, with their abbreviations.
+const SPACES: [&str; 6] =
+    ["right-anterior-superior", "RAS", "left-anterior-superior", "LAS", "left-posterior-superior", "LPS"];
+
+/// Writes a file with attached gzip data. Tensors are along the world's axes (the measurement frame is the unit matrix).
+/// Symmetric ones become `3D-masked-symmetric-matrix`, as teem and Slicer have them, others `3D-masked-matrix`; the mask is
+/// the volume's, or 1. `provenance` becomes the value of the key `tigereye`.
+///
+/// # Errors
+/// [`IoError::SkewedAxes`] where components must be turned and cannot be.
+pub fn write(volume: &TensorVolume, provenance: &str) -> Result<Vec<u8>, IoError> {
+    let lattice = volume.lattice();
+    let tensors = volume.along(Frame::World)?;
+    let (kind, entries): (_, &[usize]) = if symmetric(&tensors) {
+        ("3D-masked-symmetric-matrix", &[0, 1, 2, 4, 5, 8])
+    } else {
+        ("3D-masked-matrix", &[0, 1, 2, 3, 4, 5, 6, 7, 8])
+    };
+    let mut numbers = Vec::with_capacity(tensors.len() * (entries.len() + 1));
+    for (voxel, t) in tensors.iter().enumerate() {
+        numbers.push(lattice.mask.as_ref().and_then(|m| m.get(voxel).copied()).unwrap_or(1.0));
+        numbers.extend(entries.iter().map(|&e| t[e]));
+    }
+    let space = match &lattice.world {
+        World::Scanner(name) if SPACES.iter().any(|s| s.eq_ignore_ascii_case(name)) => {
+            format!("space: {name}")
+        }
+        _ => "space dimension: 3".to_owned(),
+    };
+    let vector = |v: [f64; 3]| format!("({:?},{:?},{:?})", v[0], v[1], v[2]);
+    let [nx, ny, nz] = lattice.size;
+    let (size, [a, b, c]) = (entries.len() + 1, lattice.axes.map(vector));
+    let mut header = String::new();
+    // Writing to a String does not fail.
+    let _ = write!(
+        header,
+        "NRRD0005\ntype: double\ndimension: 4\n{space}\nsizes: {size} {nx} {ny} {nz}\n\
+         space directions: none {a} {b} {c}\nkinds: {kind} space space space\nendian: little\nencoding: gzip\n\
+         space origin: {}\nmeasurement frame: (1,0,0) (0,1,0) (0,0,1)\ntigereye:={}\n\n",
+        vector(lattice.origin),
+        provenance.replace('\\', "\\\\").replace('\n', "\\n")
+    );
+    let mut encoder = GzEncoder::new(header.into_bytes(), Compression::default());
+    // Writing to a Vec does not fail.
+    let _ = encoder.write_all(&ScalarType::Float64.encode(&numbers));
+    Ok(encoder.finish().unwrap_or_default())
+}

@@ -1,0 +1,144 @@
+//! Explicit points that form a lattice.
+
+use crate::ImageData;
+
+/// Largest distance of a point from its lattice, relative to the step: coordinates have six digits in text.
+pub(crate) const TOLERANCE: f64 = 1e-3;
+/// The same while counting, where steps are not yet known to the last digit.
+const COARSE: f64 = 0.25;
+
+/// Points along three axes, the steps along them, and the first point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PointLattice {
+    pub(crate) size: [usize; 3],
+    /// An axis of one point has no length.
+    pub(crate) axes: [[f64; 3]; 3],
+    pub(crate) origin: [f64; 3],
+}
+
+impl PointLattice {
+    /// The lattice of `size`, the first axis fastest; possibly turned.
+    ///
+    /// # Errors
+    /// The first point that is off; 0 where there are not as many points as `size` has.
+    pub(crate) fn of(points: &[[f64; 3]], size: [usize; 3]) -> Result<Self, usize> {
+        let [nx, ny, nz] = size;
+        if points.is_empty() || points.len() as u128 != nx as u128 * ny as u128 * nz as u128 {
+            return Err(0);
+        }
+        let strides = [1, nx, nx * ny];
+        let first = points[0];
+        let mut axes = [[0.0; 3]; 3];
+        for a in 0..3 {
+            let steps = size[a] - 1;
+            if steps > 0 {
+                let last = points[strides[a] * steps];
+                axes[a] = [0, 1, 2].map(|i| (last[i] - first[i]) / steps as f64);
+            }
+        }
+        let spacing = axes.map(length);
+        let least = spacing.iter().copied().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
+        let moves = (0..3).all(|a| size[a] == 1 || spacing[a] > 0.0);
+        for (point, p) in points.iter().enumerate() {
+            let at = [point % nx, point / nx % ny, point / (nx * ny)];
+            let off = [0, 1, 2].map(|i| {
+                let expected: f64 = (0..3).map(|a| at[a] as f64 * axes[a][i]).sum();
+                p[i] - first[i] - expected
+            });
+            let near = length(off) <= TOLERANCE * least;
+            if !(near || points.len() == 1) || !moves {
+                return Err(point);
+            }
+        }
+        Ok(Self { size, axes, origin: first })
+    }
+
+    /// The lattice of points whose numbers along the axes nobody tells: rows are as long as the first step repeats.
+    ///
+    /// # Errors
+    /// As [`Self::of`].
+    pub(crate) fn find(points: &[[f64; 3]]) -> Result<Self, usize> {
+        let row = repeats(points, 1);
+        let layer = row * repeats(points, row);
+        if points.is_empty() || !points.len().is_multiple_of(layer) {
+            return Err(points.len().min(layer));
+        }
+        Self::of(points, [row, layer / row, points.len() / layer])
+    }
+
+    /// Gives an image the lattice's size, spacing, directions and origin; axes of one point get the directions that are
+    /// left.
+    pub(crate) fn place(&self, image: &mut ImageData) {
+        let mut units = [None; 3];
+        for a in 0..3 {
+            let spacing = length(self.axes[a]);
+            if spacing > 0.0 {
+                image.spacing[a] = spacing;
+                units[a] = Some(self.axes[a].map(|v| v / spacing));
+            }
+        }
+        for a in 0..3 {
+            if units[a].is_some() {
+                continue;
+            }
+            units[a] = match (units[(a + 1) % 3], units[(a + 2) % 3]) {
+                (Some(u), Some(v)) => {
+                    Some([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+                }
+                _ => Some([0, 1, 2].map(|i| if i == a { 1.0 } else { 0.0 })),
+            };
+        }
+        let direction: [f64; 9] = std::array::from_fn(|i| units[i % 3].unwrap_or_default()[i / 3]);
+        image.dimensions = self.size;
+        image.origin = self.origin;
+        let turned = (0..9).any(|i| direction[i] != if i % 4 == 0 { 1.0 } else { 0.0 });
+        image.direction = turned.then_some(direction);
+    }
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}
+
+/// How many points, `stride` apart, follow the first in equal steps, the first among them.
+fn repeats(points: &[[f64; 3]], stride: usize) -> usize {
+    let (Some(first), Some(second)) = (points.first(), points.get(stride)) else { return 1 };
+    let step = [0, 1, 2].map(|i| second[i] - first[i]);
+    let follows = |(i, p): (usize, &[f64; 3])| {
+        let off = [0, 1, 2].map(|k| p[k] - first[k] - i as f64 * step[k]);
+        length(off) <= COARSE * length(step)
+    };
+    points.iter().step_by(stride).enumerate().take_while(|&p| follows(p)).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(size: [usize; 3], axes: [[f64; 3]; 3]) -> Vec<[f64; 3]> {
+        let at = |i: usize| [i % size[0], i / size[0] % size[1], i / (size[0] * size[1])];
+        let place = |n: [usize; 3], k: usize| 5.0 + (0..3).map(|a| n[a] as f64 * axes[a][k]).sum::<f64>();
+        (0..size.iter().product()).map(|i| [0, 1, 2].map(|k| place(at(i), k))).collect()
+    }
+
+    #[test]
+    fn lattices_are_found_without_their_size() {
+        let turned = [[0.0, 0.5, 0.1], [-0.5, 0.0, 0.0], [0.0, 0.2, -1.0]];
+        for size in [[4, 3, 2], [1, 1, 1], [5, 1, 1], [7, 2, 1]] {
+            let points = grid(size, turned);
+            let found = PointLattice::find(&points).map(|l| (l.size, l.origin));
+            assert_eq!(found, Ok((size, [5.0; 3])));
+        }
+    }
+
+    #[test]
+    fn points_off_the_lattice_are_named() {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let mut points = grid([4, 3, 1], axes);
+        points[6][1] += 0.1;
+        assert_eq!(PointLattice::find(&points), Err(6));
+        assert_eq!(PointLattice::find(&grid([4, 3, 1], axes)[..11]), Err(11));
+        assert_eq!(PointLattice::find(&[[1.0; 3]; 4]), Err(0));
+        assert_eq!(PointLattice::find(&[]), Err(0));
+    }
+}

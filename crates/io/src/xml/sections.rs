@@ -1,0 +1,96 @@
+//! What the data sets of VTK XML files have in common: one piece, arrays of points and cells, field data.
+
+use super::{ArrayReader, Content, Element};
+use crate::IoError;
+use crate::image::{ActiveArrays, DataArray, FieldEntry, FieldValues};
+
+/// The data set of a file, `<ImageData>` or `<PolyData>`; `tag` is its name in brackets.
+pub(crate) fn data_set<'a>(
+    root: &'a Element,
+    name: &'static str,
+    tag: &'static str,
+) -> Result<&'a Element, IoError> {
+    if root.name != "VTKFile" {
+        return Err(root.unexpected("<VTKFile>"));
+    }
+    if root.required("type", name)? != name {
+        return Err(root.wrong("type", name));
+    }
+    let missing = || IoError::XmlMissingElement { byte: root.byte, parent: root.name.clone(), element: name };
+    let mut children = root.children.iter();
+    let child = children.next().ok_or_else(missing)?;
+    if child.name != name {
+        return Err(child.unexpected(tag));
+    }
+    match children.next() {
+        Some(second) => Err(second.unexpected("<AppendedData> or the end")),
+        None => Ok(child),
+    }
+}
+
+/// The only `<Piece>` of a data set.
+pub(crate) fn only_piece(set: &Element) -> Result<&Element, IoError> {
+    let pieces: Vec<&Element> = set.children.iter().filter(|c| c.name == "Piece").collect();
+    match pieces[..] {
+        [piece] => Ok(piece),
+        [] => Err(IoError::Pieces { byte: set.byte, pieces: 0 }),
+        [_, second, ..] => Err(IoError::Pieces { byte: second.byte, pieces: pieces.len() }),
+    }
+}
+
+/// The arrays of `<PointData>` or `<CellData>`, and which are active.
+pub(crate) fn read_arrays(
+    element: &Element,
+    arrays: &mut ArrayReader,
+    tuples: u64,
+) -> Result<(ActiveArrays, Vec<DataArray>), IoError> {
+    let active = |kind: &str| element.attribute(kind).filter(|n| !n.is_empty()).map(str::to_owned);
+    let active =
+        ActiveArrays { scalars: active("Scalars"), vectors: active("Vectors"), tensors: active("Tensors") };
+    let mut list = Vec::new();
+    for child in &element.children {
+        if child.name != "DataArray" && child.name != "Array" {
+            return Err(child.unexpected("<DataArray>"));
+        }
+        // With `tuples` given, strings are refused by name.
+        if let Content::Numbers { components, values, scalar } = arrays.read(child, Some(tuples))? {
+            let name = child.attribute("Name").unwrap_or_default().to_owned();
+            let component_names = component_names(child, components);
+            list.push(DataArray { name, components, component_names, values, scalar });
+        }
+    }
+    Ok((active, list))
+}
+
+fn component_names(element: &Element, components: usize) -> Vec<String> {
+    let mut names = Vec::new();
+    for (attribute, value) in &element.attributes {
+        let index = attribute.strip_prefix("ComponentName").and_then(|i| i.parse::<usize>().ok());
+        if let Some(i) = index.filter(|&i| i < components) {
+            names.resize(components, String::new());
+            names[i].clone_from(value);
+        }
+    }
+    names
+}
+
+/// Everything in `<FieldData>`.
+pub(crate) fn read_field_data(
+    element: &Element,
+    arrays: &mut ArrayReader,
+    list: &mut Vec<FieldEntry>,
+) -> Result<(), IoError> {
+    for child in &element.children {
+        if child.name != "DataArray" && child.name != "Array" {
+            return Err(child.unexpected("<DataArray> or <Array>"));
+        }
+        let values = match arrays.read(child, None)? {
+            Content::Text(strings) => FieldValues::Text(strings),
+            Content::Numbers { components, values, scalar } => {
+                FieldValues::Numbers { components, values, scalar }
+            }
+        };
+        list.push(FieldEntry { name: child.attribute("Name").unwrap_or_default().to_owned(), values });
+    }
+    Ok(())
+}

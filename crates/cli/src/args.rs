@@ -3,7 +3,9 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use tigereye_core::{Below, Directions, Normalization};
-use tigereye_io::volume::{Axis, Crop, Frame, Plane};
+use tigereye_experiments::input::{Derivation, Derived, Reading};
+use tigereye_fields::images::MAX_SIGMA;
+use tigereye_io::volume::{Axis, Crop, Frame, Plane, PlaneChoice, parse_slice};
 use tigereye_ltg::Shard;
 
 /// Shows 2D tensor fields by letting light run through them.
@@ -127,27 +129,105 @@ pub(crate) struct SchemeArgs {
     pub(crate) reading: ReadingArgs,
 }
 
-/// What files do not state, and the plane of a volume.
+/// What files do not state, the plane of a volume, and what becomes of its values.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct ReadingArgs {
-    /// Array of a .vti or .vtk to take the tensors from.
+    /// Array of a .vti, .vtp, .vtk or .npz to take the tensors from.
     #[arg(long, value_name = "NAME")]
-    pub(crate) array: Option<String>,
+    array: Option<String>,
     /// Order of the components: vtk, nrrd, dipy, fsl, mrtrix, or names such as xx,xy,xz,yy,yz,zz.
     #[arg(long, value_name = "ORDER")]
-    pub(crate) order: Option<String>,
+    order: Option<String>,
     /// The axes that the components are along.
     #[arg(long, value_enum)]
-    pub(crate) frame: Option<FrameName>,
+    frame: Option<FrameName>,
     /// Slice of a volume: axis and index, from 0 as the file counts, for example z=10.
     #[arg(long, value_name = "AXIS=INDEX", value_parser = parse_slice)]
-    pub(crate) slice: Option<(Axis, usize)>,
+    slice: Option<(Axis, usize)>,
     /// Plane of a volume; the first letter to the right, the second up.
     #[arg(long, value_enum)]
-    pub(crate) plane: Option<PlaneName>,
+    plane: Option<PlaneName>,
     /// Part of the plane: columns X0 to X1-1, rows Y0 to Y1-1, row 0 on top.
-    #[arg(long, value_name = "X0:X1,Y0:Y1", value_parser = parse_crop)]
-    pub(crate) crop: Option<Crop>,
+    #[arg(long, value_name = "X0:X1,Y0:Y1", value_parser = Crop::parse)]
+    crop: Option<Crop>,
+    /// Number of cells wanted, after cropping; tensors are interpolated, or averaged where cells become fewer.
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    resample: Option<[usize; 2]>,
+    /// Tensors of an image: the gradient of vectors, the Hessian or structure tensor of numbers.
+    #[arg(long, value_enum)]
+    derive: Option<DerivedName>,
+    /// Gaussian that derivatives are taken at, cells; 0 for gradients and 1 for images by default.
+    #[arg(long, value_name = "CELLS", value_parser = parse_sigma, requires = "derive")]
+    sigma: Option<f64>,
+    /// Gaussian window that structure tensors are averaged over, cells; 4 by default.
+    #[arg(long, value_name = "CELLS", value_parser = parse_sigma, requires = "derive")]
+    window: Option<f64>,
+    /// File of one number a voxel; tensors become zero where it is not above --mask-above.
+    #[arg(long, value_name = "FILE")]
+    mask: Option<String>,
+    /// What a mask, or the confidence in an NRRD file, must exceed.
+    #[arg(long, value_name = "F", default_value_t = 0.0, value_parser = parse_threshold)]
+    mask_above: f64,
+    /// What becomes of tensors that are infinite or not a number.
+    #[arg(long, value_enum, default_value_t = NotFinite::Refuse)]
+    not_finite: NotFinite,
+}
+
+impl ReadingArgs {
+    /// The options as the readers want them.
+    pub(crate) fn reading(&self) -> Reading {
+        let derive = self.derive.map(|name| {
+            let kind = Derived::from(name);
+            Derivation {
+                kind,
+                sigma: self.sigma.unwrap_or_else(|| kind.usual_sigma()),
+                window: self.window.unwrap_or(Derived::USUAL_WINDOW),
+            }
+        });
+        Reading {
+            array: self.array.clone(),
+            order: self.order.clone(),
+            frame: self.frame.map(Into::into),
+            choice: PlaneChoice { plane: self.plane.map(Into::into), slice: self.slice },
+            crop: self.crop,
+            resample: self.resample,
+            derive,
+            mask: self.mask.clone(),
+            mask_above: self.mask_above,
+            zero_not_finite: self.not_finite == NotFinite::Zero,
+        }
+    }
+}
+
+/// Tensors of images.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DerivedName {
+    /// Gradient of a vector field.
+    Gradient,
+    /// Second derivatives of a scalar field.
+    Hessian,
+    /// Averaged products of a scalar field's derivatives.
+    Structure,
+}
+
+impl From<DerivedName> for Derived {
+    fn from(name: DerivedName) -> Self {
+        match name {
+            DerivedName::Gradient => Self::Gradient,
+            DerivedName::Hessian => Self::Hessian,
+            DerivedName::Structure => Self::Structure,
+        }
+    }
+}
+
+/// What becomes of tensors that are not finite.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum NotFinite {
+    /// The file is refused.
+    #[default]
+    Refuse,
+    /// They become zero tensors, which transmit nothing; how many is said.
+    Zero,
 }
 
 /// Frames of components.
@@ -205,7 +285,7 @@ pub(crate) enum StopRule {
 
 #[derive(Debug, Args)]
 pub(crate) struct PropagateArgs {
-    /// A file (.txt .npy .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
     /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1).
     #[arg(long = "light", value_name = "X,Y[,PROFILE]", required = true, allow_hyphen_values = true)]
@@ -240,7 +320,7 @@ pub(crate) enum Picture {
 
 #[derive(Debug, Args)]
 pub(crate) struct LtgArgs {
-    /// A file (.txt .npy .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
     /// Outputs by their endings: .vti, .npy; .png, .svg show the only slice, or the mean over the slices. With --shard
     /// one .part.
@@ -294,7 +374,7 @@ pub(crate) enum Precision {
 
 #[derive(Debug, Args)]
 pub(crate) struct InfoArgs {
-    /// A file (.txt .npy .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
@@ -305,7 +385,7 @@ pub(crate) struct InfoArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ConvertArgs {
-    /// A file (.txt .npy .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
     /// The output by its ending: .vti, .vtp, .vtk, .nrrd, .nii, .nii.gz, .npy or .txt. A volume without a plane is written
     /// whole, which .npy and .txt cannot hold.
@@ -386,20 +466,16 @@ fn parse_threads(text: &str) -> Result<usize, String> {
     }
 }
 
-fn parse_slice(text: &str) -> Result<(Axis, usize), String> {
-    let parts = text.split_once('=');
-    let slice = parts.and_then(|(axis, i)| Some((Axis::from_name(axis.trim())?, i.trim().parse().ok()?)));
-    slice.ok_or_else(|| "expected x=INDEX, y=INDEX or z=INDEX, for example z=10".to_owned())
+fn parse_size(text: &str) -> Result<[usize; 2], String> {
+    let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    sides.filter(|s| !s.contains(&0)).ok_or_else(|| "expected WIDTHxHEIGHT, for example 64x48".to_owned())
 }
 
-fn parse_crop(text: &str) -> Result<Crop, String> {
-    let range = |t: &str| {
-        let (a, b) = t.split_once(':')?;
-        let (a, b) = (a.trim().parse().ok()?, b.trim().parse().ok()?);
-        (a < b).then_some([a, b])
-    };
-    let crop = text.split_once(',').and_then(|(x, y)| Some(Crop { x: range(x)?, y: range(y)? }));
-    crop.ok_or_else(|| "expected X0:X1,Y0:Y1 with X0 < X1 and Y0 < Y1, for example 10:60,0:40".to_owned())
+fn parse_sigma(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if (0.0..=MAX_SIGMA).contains(&x) => Ok(x),
+        _ => Err(format!("expected a number of cells from 0 to {MAX_SIGMA}")),
+    }
 }
 
 pub(crate) fn parse_shard(text: &str) -> Result<Shard, String> {
@@ -457,12 +533,12 @@ mod tests {
     #[test]
     fn slices_and_crops_are_spelled_as_documented() {
         assert_eq!(parse_slice("z=10"), Ok((Axis::Z, 10)));
-        assert_eq!(parse_crop("1:5,0:4"), Ok(Crop { x: [1, 5], y: [0, 4] }));
+        assert_eq!(Crop::parse("1:5,0:4"), Ok(Crop { x: [1, 5], y: [0, 4] }));
         for wrong in ["", "z", "w=1", "z=-1", "xy=1", "z=1.5"] {
             assert!(parse_slice(wrong).is_err(), "{wrong}");
         }
         for wrong in ["", "1:5", "5:5,0:1", "a:b,c:d", "1:5,4:0", "1,2,3,4"] {
-            assert!(parse_crop(wrong).is_err(), "{wrong}");
+            assert!(Crop::parse(wrong).is_err(), "{wrong}");
         }
     }
 

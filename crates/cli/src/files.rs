@@ -115,11 +115,6 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// A file named by another one, relative to its folder.
-pub(crate) fn beside(path: &Path, name: &str) -> PathBuf {
-    folder_of(path).join(name)
-}
-
 /// Temporary files are private to their owner; results are not.
 #[cfg(unix)]
 fn set_ordinary_permissions(file: &std::fs::File) -> std::io::Result<()> {
@@ -163,14 +158,4 @@ pub(crate) fn place_of(path: &Path) -> PathBuf {
 /// The ending of a path in lower case, without dot.
 pub(crate) fn extension(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
-}
-
-/// The ending that tells the format: [`extension`], or `nii.gz`.
-pub(crate) fn format(path: &Path) -> String {
-    match extension(path).as_str() {
-        "gz" if path.file_stem().is_some_and(|stem| extension(Path::new(stem)) == "nii") => {
-            "nii.gz".to_owned()
-        }
-        other => other.to_owned(),
-    }
 }

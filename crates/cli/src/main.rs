@@ -11,7 +11,6 @@ mod host;
 mod input;
 mod interrupt;
 mod part_file;
-mod source;
 mod system;
 mod watch;
 

@@ -9,6 +9,7 @@ mod digest;
 mod draw;
 mod evaluate;
 mod host;
+pub mod input;
 pub mod library;
 mod measure;
 mod outcome;

@@ -2,13 +2,17 @@
 
 use crate::evaluate::file_name;
 use crate::host::Host;
+use crate::input::{self, Derivation, Derived, Reading};
 use crate::places::{Known, Misplaced};
 use crate::shortened;
-use crate::spec::{self, Experiment, FieldSource, Named, ProfileShape, Run, Scope, SpecError};
+use crate::spec::{
+    self, DeriveRule, Experiment, FieldSource, Named, ProfileShape, Run, Scope, Sigma, SpecError,
+};
 use crate::uses::{self, RunKind};
 use std::collections::BTreeMap;
 use tigereye_core::{Below, Cell, Directions, Field, Grid, Normalization, PolarProfile, Tensor2};
 use tigereye_fields::{Arguments, Expression, ExpressionField, Form};
+use tigereye_io::volume::{Crop, Frame, Plane, PlaneChoice, parse_slice};
 use tigereye_ltg::{omega_step_of_slices, omega_step_of_volumes};
 use tigereye_transport::{Light, SharedWeights, Stopping, StoppingRule, emitter};
 
@@ -544,12 +548,54 @@ fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, S
             let form = Form::Components { xx: xx.clone(), xy: xy.clone(), yx: yx.clone(), yy: yy.clone() };
             ExpressionField { width: *width, height: *height, form }.build().map_err(|e| e.to_string())
         }
-        FieldSource::File { path, array, stride } => {
-            let bytes = host.read(path)?;
-            let field =
-                tensors_from_file(path, &bytes, array.as_deref()).map_err(|e| format!("{path}: {e}"))?;
-            strided(&field, *stride).map_err(|e| format!("{path}: {e}"))
+        FieldSource::File { path, stride, .. } => {
+            let fault = |e: &dyn std::fmt::Display| format!("{path}: {e}");
+            let reading = reading_of(source).map_err(|e| fault(&e))?;
+            let plane = input::open(path, &reading, &mut |name| host.read(name))
+                .and_then(|file| file.plane(&reading))
+                .map_err(|e| fault(&e))?;
+            strided(&plane.field, *stride).map_err(|e| fault(&e))
         }
+    }
+}
+
+/// What an experiment says about a file; nothing for other sources.
+fn reading_of(source: &FieldSource) -> Result<Reading, String> {
+    let FieldSource::File { array, order, frame, slice, plane, crop, resample, derive, mask, .. } = source
+    else {
+        return Ok(Reading::default());
+    };
+    let frame = frame.as_ref().map(|name| {
+        Frame::from_name(name).ok_or_else(|| format!("frame `{name}`: expected voxel, world or measurement"))
+    });
+    let plane = plane
+        .as_ref()
+        .map(|name| Plane::from_name(name).ok_or_else(|| format!("plane `{name}`: expected xy, xz or yz")));
+    let slice = slice.as_ref().map(|text| parse_slice(text).map_err(|e| format!("slice `{text}`: {e}")));
+    let crop = crop.as_ref().map(|text| Crop::parse(text).map_err(|e| format!("crop `{text}`: {e}")));
+    Ok(Reading {
+        array: array.clone(),
+        order: order.clone(),
+        frame: frame.transpose()?,
+        choice: PlaneChoice { plane: plane.transpose()?, slice: slice.transpose()? },
+        crop: crop.transpose()?,
+        resample: resample.map(|(width, height)| [width, height]),
+        derive: derive.map(derivation),
+        mask: mask.clone(),
+        ..Reading::default()
+    })
+}
+
+fn derivation(rule: DeriveRule) -> Derivation {
+    let (kind, sigma, window) = match rule {
+        DeriveRule::Gradient { sigma } => (Derived::Gradient, sigma, None),
+        DeriveRule::Hessian { sigma } => (Derived::Hessian, sigma, None),
+        DeriveRule::Structure { sigma, window } => (Derived::Structure, sigma, window),
+    };
+    Derivation {
+        kind,
+        sigma: sigma.map_or_else(|| kind.usual_sigma(), Sigma::get),
+        window: window.map_or(Derived::USUAL_WINDOW, Sigma::get),
     }
 }
 
@@ -559,23 +605,6 @@ fn arguments_of(parameters: &Named<spec::Parameter>) -> Result<Arguments, String
         arguments.insert(key, &value.0).map_err(|e| e.to_string())?;
     }
     Ok(arguments)
-}
-
-/// Tensors from the bytes of a file whose name tells the format.
-///
-/// # Errors
-/// A sentence with the place in the file.
-pub fn tensors_from_file(path: &str, bytes: &[u8], array: Option<&str>) -> Result<Field<Tensor2>, String> {
-    let extension = path.rsplit('.').next().unwrap_or_default().to_ascii_lowercase();
-    match extension.as_str() {
-        "txt" => tigereye_io::matrices::read(bytes).map_err(|e| e.to_string()),
-        "npy" => tigereye_io::npy::read_tensors(bytes).map_err(|e| e.to_string()),
-        "vti" => tigereye_io::vti::read(bytes)
-            .and_then(|image| tigereye_io::tensors_from_image(&image, array))
-            .map(|image| image.field)
-            .map_err(|e| e.to_string()),
-        other => Err(format!("the ending .{other} is not readable: expected .txt, .npy or .vti")),
-    }
 }
 
 /// Every `stride`-th cell of both directions.

@@ -62,6 +62,14 @@ pub enum FieldError {
     /// A grid core refuses.
     #[error(transparent)]
     Grid(#[from] CoreError),
+    /// Sides that a resampled field may not have.
+    #[error("{width} x {height} cells: expected at most {} along each side", crate::images::MAX_RESAMPLED)]
+    ResampledSize {
+        /// Columns asked for.
+        width: usize,
+        /// Rows asked for.
+        height: usize,
+    },
     /// An expression that cannot be read.
     #[error("expression `{expression}`: {error}")]
     Expression {

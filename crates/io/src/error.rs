@@ -319,6 +319,21 @@ pub enum IoError {
         byte: usize,
     },
 
+    /// A `.npz` archive that cannot be read, or without the array asked for.
+    #[error("{problem}: expected {expected}")]
+    Archive {
+        /// What is wrong, with the arrays that are there.
+        problem: String,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// A picture that cannot be decoded.
+    #[error("expected a PNG picture: {problem}")]
+    Png {
+        /// What the decoder says.
+        problem: String,
+    },
+
     // ---- tensor volumes
     /// A field of an NRRD header that is missing or makes no sense.
     #[error("line {line}: NRRD field `{field}`: found `{found}`, expected {expected}")]
@@ -407,6 +422,16 @@ pub enum IoError {
         array: String,
         /// Numbers per tuple.
         components: usize,
+    },
+    /// Tuples that are not what should be differentiated.
+    #[error("`{array}` has {components} components: expected {expected}")]
+    TupleSize {
+        /// Name of the array or kind.
+        array: String,
+        /// Numbers per tuple.
+        components: usize,
+        /// How many there should be.
+        expected: &'static str,
     },
     /// A frame that the file does not describe.
     #[error("the file has no measurement frame: expected frame voxel or world")]

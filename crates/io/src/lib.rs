@@ -24,6 +24,7 @@ pub mod nifti;
 pub mod npy;
 pub mod nrrd;
 pub mod part;
+pub mod picture;
 mod points;
 mod polydata;
 mod scalar;
@@ -34,7 +35,7 @@ mod words;
 mod xml;
 
 pub use convert::{
-    Association, ComponentOrder, LTG_ARRAY, LtgImage, PROVENANCE, SLICES, TENSOR_ARRAY, TensorImage,
+    Association, ComponentOrder, LTG_ARRAY, LtgImage, PROVENANCE, SLICES, TENSOR_ARRAY, TensorImage, Wanted,
     image_from_light, image_from_ltg, image_from_tensors, ltg_from_image, tensors_from_image,
 };
 pub use error::IoError;

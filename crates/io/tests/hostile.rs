@@ -12,7 +12,8 @@ use tigereye_io::volume::{
     points_from_image,
 };
 use tigereye_io::{
-    DataArray, ImageData, IoError, Limits, image_from_tensors, legacy, matrices, nifti, npy, nrrd, vti, vtp,
+    DataArray, ImageData, IoError, Limits, Wanted, image_from_tensors, legacy, matrices, nifti, npy, nrrd,
+    vti, vtp,
 };
 
 #[test]
@@ -277,7 +278,10 @@ fn small_volumes_with_many_voxels_are_refused_at_once() {
                 "NRRD0004\ntype: double\ndimension: 4\nsizes: 9 {size}\nkinds: 3D-matrix space space space\nencoding: {rest}\n\n1"
             );
             assert!(nrrd::read(file.as_bytes(), None).is_err(), "{size} {rest}");
-            assert!(nrrd::read_with_limits(file.as_bytes(), None, limits).is_err(), "{size} {rest}");
+            assert!(
+                nrrd::read_with_limits(file.as_bytes(), None, Wanted::Tensors, limits).is_err(),
+                "{size} {rest}"
+            );
         }
         for encoding in ["ASCII", "BINARY"] {
             let points = if size.len() < 20 { "1000000000000" } else { "1" };
@@ -331,11 +335,13 @@ fn nrrd_fields_that_are_not_read_are_named() {
 fn read_as_everything(bytes: &[u8]) {
     let limits = Limits { cells: 1 << 16, values: 1 << 20 };
     let volumes = [
-        nrrd::read_with_limits(bytes, Some(bytes), limits),
+        nrrd::read_with_limits(bytes, Some(bytes), Wanted::Tensors, limits),
         nifti::read_with_limits(bytes, limits),
-        legacy::read_with_limits(bytes, limits).and_then(|image| lattice_from_image(&image, None)),
-        vti::read(bytes).and_then(|image| lattice_from_image(&image, None)),
-        vtp::read_with_limits(bytes, limits).and_then(|data| lattice_from_points(data, None)),
+        legacy::read_with_limits(bytes, limits)
+            .and_then(|image| lattice_from_image(&image, None, Wanted::Tensors)),
+        vti::read(bytes).and_then(|image| lattice_from_image(&image, None, Wanted::Tensors)),
+        vtp::read_with_limits(bytes, limits)
+            .and_then(|data| lattice_from_points(data, None, Wanted::Tensors)),
     ];
     for lattice in volumes.into_iter().flatten() {
         if let Ok(volume) = lattice.tensors(Reading::default()) {

@@ -8,7 +8,7 @@ mod support;
 
 use std::io::Write as _;
 use support::{ARRAY, LZ4, ZLIB, bomb, declaring, nifti_file, npy_file, words};
-use tigereye_io::{Limits, legacy, nifti, npy, nrrd, vti};
+use tigereye_io::{Limits, Wanted, legacy, nifti, npy, nrrd, vti};
 
 /// Every file here declares or expands to at least 1 GiB.
 const ALLOWED: u64 = 256 << 20;
@@ -89,7 +89,7 @@ fn allocation_follows_the_bytes_there() {
         }
     }
     for limits in [Limits::default(), Limits { cells: u64::MAX, values: u64::MAX }] {
-        assert!(nrrd_files.iter().all(|f| nrrd::read_with_limits(f, None, limits).is_err()));
+        assert!(nrrd_files.iter().all(|f| nrrd::read_with_limits(f, None, Wanted::Tensors, limits).is_err()));
         assert!(nifti_files.iter().all(|f| nifti::read_with_limits(f, limits).is_err()));
         assert!(legacy_files.iter().all(|f| legacy::read_with_limits(f, limits).is_err()));
     }

@@ -10,7 +10,8 @@ use tigereye_io::volume::{
     Frame, Lattice, Plane, PlaneChoice, Reading, TensorVolume, lattice_from_image, lattice_from_points,
 };
 use tigereye_io::{
-    DataArray, ImageData, legacy, ltg_from_image, matrices, nifti, npy, nrrd, tensors_from_image, vti, vtp,
+    DataArray, ImageData, Wanted, legacy, ltg_from_image, matrices, nifti, npy, nrrd, tensors_from_image,
+    vti, vtp,
 };
 
 /// Relative to the range: the files hold f32, text files fewer digits.
@@ -151,8 +152,10 @@ fn volume(data: &std::path::Path, file: &str, order: Option<&str>) -> TensorVolu
     let lattice: Lattice = match file {
         _ if file.ends_with(".nrrd") => nrrd::read(&bytes, None).unwrap(),
         _ if file.ends_with(".nii.gz") => nifti::read(&bytes).unwrap(),
-        _ if file.ends_with(".vtk") => lattice_from_image(&legacy::read(&bytes).unwrap(), None).unwrap(),
-        _ => lattice_from_image(&vti::read(&bytes).unwrap(), None).unwrap(),
+        _ if file.ends_with(".vtk") => {
+            lattice_from_image(&legacy::read(&bytes).unwrap(), None, Wanted::Tensors).unwrap()
+        }
+        _ => lattice_from_image(&vti::read(&bytes).unwrap(), None, Wanted::Tensors).unwrap(),
     };
     lattice.tensors(Reading { order, frame: None }).unwrap()
 }
@@ -295,7 +298,8 @@ fn measured_slices_have_their_published_values() {
     let manifest = json(&reference, "manifest.json");
     for entry in list(&manifest["real"]) {
         let file = entry["file"].as_str().unwrap();
-        let lattice = lattice_from_points(vtp::read(&bytes(&reference, file)).unwrap(), None).unwrap();
+        let lattice =
+            lattice_from_points(vtp::read(&bytes(&reference, file)).unwrap(), None, Wanted::Tensors).unwrap();
         let (w, h) = (index(&entry["width"]), index(&entry["height"]));
         assert_eq!((lattice.size, lattice.array.as_str()), ([w, h, 1], entry["array"].as_str().unwrap()));
         let volume = lattice.tensors(Reading::default()).unwrap();

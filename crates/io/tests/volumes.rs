@@ -10,7 +10,9 @@ use tigereye_io::volume::{
     Axis, Crop, Frame, Known, Lattice, Plane, PlaneChoice, Reading, TensorOrder, TensorVolume, World,
     image_from_volume, lattice_from_image,
 };
-use tigereye_io::{IoError, ScalarType, image_from_tensors, legacy, nifti, nrrd, tensors_from_image, vti};
+use tigereye_io::{
+    IoError, ScalarType, Wanted, image_from_tensors, legacy, nifti, nrrd, tensors_from_image, vti,
+};
 
 const VOXELS: usize = 2 * 3 * 4;
 
@@ -250,9 +252,12 @@ fn legacy_attributes_are_read_by_name() {
     assert_eq!((image.origin, image.spacing), ([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]));
     let names: Vec<_> = image.point_arrays.iter().map(|a| (a.name.as_str(), a.components)).collect();
     assert_eq!(names, [("s t", 1), ("v", 3), ("six", 6), ("nine", 9), ("ids", 1)]);
-    let six = lattice_from_image(&image, None).unwrap().tensors(Reading::default()).unwrap();
+    let six = lattice_from_image(&image, None, Wanted::Tensors).unwrap().tensors(Reading::default()).unwrap();
     assert_eq!(six.stored(1), [7.0, 10.0, 12.0, 10.0, 8.0, 11.0, 12.0, 11.0, 9.0]);
-    let nine = lattice_from_image(&image, Some("nine")).unwrap().tensors(Reading::default()).unwrap();
+    let nine = lattice_from_image(&image, Some("nine"), Wanted::Tensors)
+        .unwrap()
+        .tensors(Reading::default())
+        .unwrap();
     assert_eq!(nine.stored(1), [9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0, 16.0, 17.0]);
 }
 
@@ -349,18 +354,18 @@ fn slices_show_the_last_voxel_on_top() {
     let xy = slice(Plane::Xy, 1);
     assert_eq!((xy.field.grid().width(), xy.field.grid().height()), (2, 3));
     assert_eq!(*xy.field.at(Cell::new(1, 0)), Tensor2::new(11.0, 101.0, 103.0, 104.0));
-    assert_eq!((xy.origin, xy.spacing), ([10.0, 20.0], [1.0, 2.0]));
+    assert_eq!((xy.cut.origin, xy.cut.spacing), ([10.0, 20.0], [1.0, 2.0]));
     let xz = slice(Plane::Xz, 2);
     assert_eq!(*xz.field.at(Cell::new(0, 3)), Tensor2::new(4.0, 102.0, 106.0, 108.0));
     let yz = slice(Plane::Yz, 1);
     assert_eq!(*yz.field.at(Cell::new(2, 0)), Tensor2::new(104.0, 105.0, 107.0, 108.0));
-    assert_eq!(yz.origin, [20.0, 30.0]);
+    assert_eq!(yz.cut.origin, [20.0, 30.0]);
 }
 
 #[test]
 fn planes_that_do_not_fit_are_refused() {
     let volume = volume();
-    let choose = |plane, slice| volume.slice(PlaneChoice { plane, slice }).map(|s| s.plane);
+    let choose = |plane, slice| volume.slice(PlaneChoice { plane, slice }).map(|s| s.cut.plane);
     assert_eq!(choose(None, None), Err(IoError::PlaneNeeded { size: [2, 3, 4] }));
     assert!(matches!(choose(Some(Plane::Xy), None), Err(IoError::SliceNeeded { last: 3, .. })));
     assert!(matches!(choose(Some(Plane::Xy), Some((Axis::X, 0))), Err(IoError::PlaneConflict { .. })));
@@ -394,11 +399,11 @@ fn flat_images_are_read_alike() {
             let mut image = image_from_tensors(&field, [0.0; 2], [1.0; 2]);
             (image.direction, image.spacing) = (direction, spacing);
             let flat = tensors_from_image(&image, None).unwrap();
-            let lattice = lattice_from_image(&image, None).unwrap();
+            let lattice = lattice_from_image(&image, None, Wanted::Tensors).unwrap();
             let slice = lattice.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap();
             assert_eq!(slice.field, flat.field, "{direction:?} {spacing:?}");
             assert_eq!(
-                (slice.rows_flipped, slice.columns_flipped),
+                (slice.cut.rows_flipped, slice.cut.columns_flipped),
                 (flat.rows_flipped, flat.columns_flipped)
             );
         }
@@ -411,14 +416,16 @@ fn written_volumes_come_back() {
     for frame in [Frame::World, Frame::Voxel] {
         let image = image_from_volume(&volume, frame).unwrap();
         let read = vti::read(&vti::write(&image).unwrap()).unwrap();
-        let back = lattice_from_image(&read, None).unwrap().tensors(Reading::default()).unwrap();
+        let back =
+            lattice_from_image(&read, None, Wanted::Tensors).unwrap().tensors(Reading::default()).unwrap();
         assert_eq!(back.tensors().collect::<Vec<_>>(), volume.tensors().collect::<Vec<_>>());
     }
     let turned = nrrd_one_voxel("space directions: none (0,1,0) (-1,0,0) (0,0,1)")
         .tensors(Reading::default())
         .unwrap();
     let image = image_from_volume(&turned, Frame::World).unwrap();
-    let back = lattice_from_image(&image, None).unwrap().tensors(Reading::default()).unwrap();
+    let back =
+        lattice_from_image(&image, None, Wanted::Tensors).unwrap().tensors(Reading::default()).unwrap();
     let slice = |v: &TensorVolume| v.slice(PlaneChoice::default()).unwrap().field;
     assert_eq!(slice(&back), slice(&turned));
 }

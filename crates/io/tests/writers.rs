@@ -7,7 +7,7 @@ use tigereye_io::volume::{
     Frame, Lattice, PlaneChoice, Reading, TensorVolume, image_from_volume, lattice_from_image,
     lattice_from_points, points_from_image,
 };
-use tigereye_io::{Cells, DataArray, ImageData, IoError, PolyData, legacy, nifti, nrrd, vti, vtp};
+use tigereye_io::{Cells, DataArray, ImageData, IoError, PolyData, Wanted, legacy, nifti, nrrd, vti, vtp};
 
 /// Reads and writes one format.
 struct Format {
@@ -16,14 +16,25 @@ struct Format {
 }
 
 const FORMATS: [Format; 6] = [
-    Format { name: "vti", through: |v| lattice_from_image(&vti::read(&vti::write(&world(v)?)?)?, None) },
+    Format {
+        name: "vti",
+        through: |v| lattice_from_image(&vti::read(&vti::write(&world(v)?)?)?, None, Wanted::Tensors),
+    },
     Format {
         name: "vtp",
-        through: |v| lattice_from_points(vtp::read(&vtp::write(&points_from_image(world(v)?))?)?, None),
+        through: |v| {
+            lattice_from_points(
+                vtp::read(&vtp::write(&points_from_image(world(v)?))?)?,
+                None,
+                Wanted::Tensors,
+            )
+        },
     },
     Format {
         name: "vtk",
-        through: |v| lattice_from_image(&legacy::read(&legacy::write(&world(v)?, "title")?)?, None),
+        through: |v| {
+            lattice_from_image(&legacy::read(&legacy::write(&world(v)?, "title")?)?, None, Wanted::Tensors)
+        },
     },
     Format { name: "nrrd", through: |v| nrrd::read(&nrrd::write(v, "{\"a\\b\":\n1}")?, None) },
     Format { name: "nii", through: |v| nifti::read(&nifti::write(v, "words")?) },
@@ -201,7 +212,7 @@ fn poly_data_that_lies_is_refused() {
     let mut scattered = poly_data();
     scattered.points[3][1] = 0.7;
     scattered.point_arrays = vec![DataArray::new("t", 4, vec![1.0; 24])];
-    let message = lattice_from_points(scattered, None).unwrap_err().to_string();
+    let message = lattice_from_points(scattered, None, Wanted::Tensors).unwrap_err().to_string();
     assert!(message.contains("point 3"), "{message}");
 }
 
@@ -211,7 +222,7 @@ fn invalid_points_are_masked() {
     let mut image = ImageData::empty([2, 1, 1]);
     image.point_arrays =
         vec![DataArray::new("t", 3, vec![1.0; 6]), DataArray::new("vtkValidPointMask", 1, vec![1.0, 0.0])];
-    let lattice = lattice_from_image(&image, None).unwrap();
+    let lattice = lattice_from_image(&image, None, Wanted::Tensors).unwrap();
     let field = slice(&lattice.tensors(Reading::default()).unwrap());
     assert_eq!(field.values(), [Tensor2::symmetric(1.0, 1.0, 1.0), Tensor2::ZERO]);
 }

@@ -3,10 +3,10 @@
 use crate::args::ConvertArgs;
 use crate::commands::command_line;
 use crate::error::CliError;
-use crate::input::{Input, insert_reading};
-use crate::source::Source;
+use crate::input::{Input, Source, insert_reading};
 use crate::{files, interrupt};
 use serde_json::json;
+use tigereye_experiments::input::{Content, TensorFile, format_of};
 use tigereye_experiments::provenance::provenance;
 use tigereye_io::volume::{Frame, TensorVolume, image_from_volume, points_from_image};
 use tigereye_io::{ImageData, IoError, legacy, matrices, nifti, npy, nrrd, vti, vtp};
@@ -25,8 +25,8 @@ enum Format {
 }
 
 impl Format {
-    fn of(path: &std::path::Path) -> Option<Self> {
-        Some(match files::format(path).as_str() {
+    fn of(name: &str) -> Option<Self> {
+        Some(match format_of(name).as_str() {
             "txt" => Self::Matrices,
             "npy" => Self::Numpy,
             "vti" => Self::ImageData,
@@ -47,7 +47,7 @@ impl Format {
 
 pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
     let name = args.output.display().to_string();
-    let Some(format) = Format::of(&args.output) else {
+    let Some(format) = Format::of(&name) else {
         let problem =
             "the ending tells the format: expected .vti, .vtp, .vtk, .nrrd, .nii, .nii.gz, .npy or .txt";
         return Err(CliError::input(&name, problem));
@@ -56,15 +56,19 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
     if args.output.exists() && !args.force {
         return Err(CliError::input(&name, "exists already: expected another name, or --force"));
     }
-    let bytes = match Source::open(&args.input, &args.reading)? {
-        Source::Volume(file) if !format.is_flat() && !file.has_plane(&args.reading) => {
-            if args.reading.crop.is_some() {
-                return Err(CliError::input("--crop", "a part of a plane: expected --slice too"));
+    let reading = args.reading.reading();
+    let source = Source::open(&args.input, &args.reading)?;
+    let bytes = match &source {
+        Source::File(file @ TensorFile { content: Content::Tensors(volume), .. })
+            if !format.is_flat() && !file.has_plane(&reading) =>
+        {
+            if reading.crop.is_some() || reading.resample.is_some() {
+                return Err(CliError::input("--crop, --resample", "work in a plane: expected --slice too"));
             }
-            file.tell();
-            encoded(format, &file.volume, args, &file.blake3)
+            file.remarks().iter().for_each(|line| eprintln!("{}: {line}", file.name));
+            encoded(format, volume, args, &file.blake3)
         }
-        source => {
+        _ => {
             let input = Input::of(source, &args.reading)?;
             input.tell();
             match format {
@@ -94,7 +98,7 @@ fn encoded(
     insert_reading(&mut parameters, &args.reading);
     let story = provenance(&command_line(), &parameters, blake3);
     let image = || -> Result<ImageData, IoError> {
-        let frame = args.reading.frame.map_or(Frame::World, Frame::from);
+        let frame = args.reading.reading().frame.unwrap_or(Frame::World);
         let mut image = image_from_volume(volume, frame)?;
         image.push_text(tigereye_io::PROVENANCE, &story);
         Ok(image)

@@ -4,15 +4,15 @@ use crate::args::InfoArgs;
 use crate::commands::{lattice, print_json, print_text};
 use crate::error::CliError;
 use crate::files;
-use crate::input::Input;
+use crate::input::{Input, Source};
 use crate::interrupt;
-use crate::source::Source;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
 use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Tensor2, is_totally_anisotropic};
+use tigereye_experiments::input::{Content, Reading, TensorFile, suggested_local_above};
 use tigereye_io::volume::lattice_from_image;
-use tigereye_io::{DataArray, PROVENANCE, vti};
+use tigereye_io::{DataArray, PROVENANCE, Wanted, vti};
 
 /// Relative difference of the half-axes below which a tensor counts as degenerate.
 const DEGENERATE_BELOW: f64 = 1e-9;
@@ -30,13 +30,17 @@ pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
     }
     let source = Source::open(&args.input, &args.reading)?;
     let volume = match &source {
-        Source::Field(_) => None,
-        Source::Volume(file) => Some(lattice::facts(file)),
-        Source::Scalars(file) => Some(lattice::scalar_facts(file)),
+        Source::Generated(_) => None,
+        Source::File(file) => Some(match &file.content {
+            Content::Tensors(volume) => lattice::facts(file, volume),
+            Content::Numbers(numbers) => lattice::number_facts(file, numbers),
+        }),
     };
     interrupt::check()?;
-    // A volume without a chosen plane is described as a whole.
-    let plane = source.has_plane(&args.reading).then(|| Input::of(source, &args.reading)).transpose()?;
+    // A volume without a chosen plane is described as a whole, and so are numbers that make no tensors.
+    let numbers = matches!(&source, Source::File(TensorFile { content: Content::Numbers(_), .. }));
+    let is_plane = source.has_plane(&args.reading) && (!numbers || args.reading.reading().derive.is_some());
+    let plane = is_plane.then(|| Input::of(source, &args.reading)).transpose()?;
     if !args.json {
         let text = match (&volume, &plane) {
             (_, Some(plane)) => as_text(&facts(plane)),
@@ -63,11 +67,11 @@ pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
 /// Image data without tensors, such as a gradient volume or a light distribution: its arrays and its provenance.
 fn facts_of_result(args: &InfoArgs) -> Result<Option<Value>, CliError> {
     let path = Path::new(&args.input);
-    if files::extension(path) != "vti" || args.reading.array.is_some() {
+    if files::extension(path) != "vti" || args.reading.reading() != Reading::default() {
         return Ok(None);
     }
     let image = vti::read(&files::read(path)?).map_err(|e| CliError::input(&args.input, e))?;
-    if image.text(PROVENANCE).is_none() || lattice_from_image(&image, None).is_ok() {
+    if image.text(PROVENANCE).is_none() || lattice_from_image(&image, None, Wanted::Tensors).is_ok() {
         return Ok(None);
     }
     let arrays: Vec<Value> = image.point_arrays.iter().map(array_facts).collect();
@@ -136,6 +140,7 @@ fn facts(input: &Input) -> Value {
         "fractional_anisotropy_histogram": lattice::histogram(
             field.values().iter().map(|t| Anisotropy::of(t).fractional)
         ),
+        "suggested_local_above": suggested_local_above(field),
         "shares": {
             "zero": share(&Tensor2::is_zero),
             "degenerate": share(&is_degenerate),
@@ -197,6 +202,12 @@ fn as_text(facts: &Value) -> String {
         );
     }
     text += &lattice::shares_as_text(facts);
+    if let Some(fraction) = facts["suggested_local_above"].as_f64() {
+        let _ = writeln!(
+            text,
+            "  weak and strong cells part at {fraction:.3} of the largest transmission: --normalization local-above:{fraction:.3}"
+        );
+    }
     for remark in facts["remarks"].as_array().into_iter().flatten() {
         let _ = writeln!(text, "  {}", remark.as_str().unwrap_or_default());
     }

@@ -1,10 +1,10 @@
 //! What a volume holds, for `info`.
 
-use crate::source::{ScalarFile, VolumeFile};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use tigereye_core::{fractional_anisotropy3, symmetric_eigenvalues3};
-use tigereye_io::volume::Lattice;
+use tigereye_experiments::input::TensorFile;
+use tigereye_io::volume::{Lattice, TensorVolume};
 
 /// An eigenvalue below this times the largest component counts as negative: files hold single precision.
 pub(super) const ROUNDING: f64 = 1e-6;
@@ -48,8 +48,8 @@ pub(super) fn histogram(values: impl Iterator<Item = f64>) -> Vec<usize> {
 }
 
 /// Everything about a volume of tensors.
-pub(super) fn facts(file: &VolumeFile) -> Value {
-    let (volume, lattice) = (&file.volume, file.volume.lattice());
+pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
+    let lattice = volume.lattice();
     let (order, frame) = (volume.order(), volume.frame());
     let (mut numbers, mut trace) = (Range::EMPTY, Range::EMPTY);
     let mut eigenvalues = [Range::EMPTY, Range::EMPTY, Range::EMPTY];
@@ -105,15 +105,14 @@ pub(super) fn facts(file: &VolumeFile) -> Value {
     facts
 }
 
-/// Everything about an image of one number a voxel.
-pub(super) fn scalar_facts(file: &ScalarFile) -> Value {
+/// Everything about an image of numbers or vectors.
+pub(super) fn number_facts(file: &TensorFile, lattice: &Lattice) -> Value {
     let mut range = Range::EMPTY;
-    file.lattice.values.iter().for_each(|&v| range.add(v));
-    let mut facts = about(&file.name, file.kind, &file.blake3, &file.lattice);
-    let more = json!({
-        "assumptions": [format!("{}: one number a voxel, no tensors", file.lattice.array)],
-        "range": range.json(),
-    });
+    lattice.values.iter().for_each(|&v| range.add(v));
+    let mut facts = about(&file.name, file.kind, &file.blake3, lattice);
+    let mut story = lattice.story();
+    story.push("no tensors; --derive makes some".to_owned());
+    let more = json!({ "assumptions": story, "range": range.json() });
     merge(&mut facts, more);
     facts
 }

@@ -9,6 +9,7 @@ mod machine;
 mod odd_fields;
 #[cfg(unix)]
 mod parts;
+mod reading;
 mod results;
 mod streams;
 mod support;

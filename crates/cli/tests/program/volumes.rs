@@ -99,7 +99,7 @@ fn planes_and_options_that_do_not_fit_are_refused() {
     refuses("v.nrrd", &["--slice", "w=0"], &["z=INDEX"]);
     refuses("v.nrrd", &["--crop", "3:1,0:1"], &["X0 < X1"]);
     refuses("flat.txt", &["--plane", "yz"], &["flat.txt"]);
-    refuses("flat.txt", &["--order", "vtk"], &["expected no --order"]);
+    refuses("flat.txt", &["--order", "xx,xy,yy"], &["a name for every component"]);
     refuses("flat.txt", &["--crop", "0:9,0:1"], &["0:3,0:2"]);
     place.succeeds(&["info", "flat.txt", "--plane", "xy", "--slice", "z=0", "--crop", "1:3,0:1"]);
 }

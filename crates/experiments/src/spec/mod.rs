@@ -15,7 +15,7 @@ pub use figures::{Axis, Curve, Figure, FlatView, GlyphColour, Panel, ProfileSour
 pub(crate) use load::place_after;
 pub use load::{SpecError, load};
 pub use named::Named;
-pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive};
+pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive, Sigma};
 pub use tables::{GradientRow, RuntimeRow, Table, TableRows};
 
 use serde::Deserialize;
@@ -107,17 +107,68 @@ pub enum FieldSource {
         /// Component yy.
         yy: String,
     },
-    /// A file (`.txt`, `.npy` or `.vti`), looked up beside the experiment file, in its parent folders, and among the data
-    /// that the program carries.
+    /// A data file of any format that the program reads, looked up beside the experiment file, in its parent folders, and
+    /// among the data that the program carries. The options are those of the command line.
     File {
         /// Path of the file.
         path: String,
-        /// Array to take from a `.vti`; `None`: its active tensors or its only tensor array.
+        /// Array of a VTK file or archive; `None`: its active tensors or its only tensor array.
         #[serde(default)]
         array: Option<String>,
+        /// Component order: a tool's name or component names.
+        #[serde(default)]
+        order: Option<String>,
+        /// Axes that the components are along: `voxel`, `world` or `measurement`.
+        #[serde(default)]
+        frame: Option<String>,
+        /// Slice of a volume, `z=10`.
+        #[serde(default)]
+        slice: Option<String>,
+        /// Plane of a volume: `xy`, `xz` or `yz`.
+        #[serde(default)]
+        plane: Option<String>,
+        /// Part of the plane, `X0:X1,Y0:Y1`.
+        #[serde(default)]
+        crop: Option<String>,
+        /// Columns and rows to resample to, after cropping.
+        #[serde(default)]
+        resample: Option<(usize, usize)>,
+        /// Tensors of an image.
+        #[serde(default)]
+        derive: Option<DeriveRule>,
+        /// File of one number a voxel; tensors become zero where it is not positive.
+        #[serde(default)]
+        mask: Option<String>,
         /// Every how many cells one is kept, from the upper left.
         #[serde(default = "one")]
         stride: usize,
+    },
+}
+
+/// Tensors made of an image; scales are standard deviations of Gaussians, in cells.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub enum DeriveRule {
+    /// Gradient of a vector field.
+    Gradient {
+        /// Of the field smoothed by this much.
+        #[serde(default)]
+        sigma: Option<Sigma>,
+    },
+    /// Second derivatives of a scalar field.
+    Hessian {
+        /// Of the field smoothed by this much.
+        #[serde(default)]
+        sigma: Option<Sigma>,
+    },
+    /// Averaged products of a scalar field's derivatives.
+    Structure {
+        /// Derivatives of the field smoothed by this much.
+        #[serde(default)]
+        sigma: Option<Sigma>,
+        /// Averaged over this much.
+        #[serde(default)]
+        window: Option<Sigma>,
     },
 }
 

@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 use tigereye_core::Directions;
+use tigereye_fields::images::MAX_SIGMA;
 
 macro_rules! checked_number {
     ($(#[$doc:meta])* $name:ident, $test:expr, $expected:literal) => {
@@ -43,6 +44,11 @@ checked_number!(
 checked_number!(
     /// A number from 0 to 1.
     Fraction, |x| (0.0..=1.0).contains(&x), "a number from 0 to 1"
+);
+
+checked_number!(
+    /// Standard deviation of a Gaussian, cells.
+    Sigma, |x| (0.0..=MAX_SIGMA).contains(&x), "0 to 100 cells"
 );
 
 impl Positive {

@@ -3,17 +3,22 @@
 use crate::FieldError;
 use tigereye_core::{Cell, Field, Grid, Tensor2};
 
+/// Longest side of a resampled field.
+pub const MAX_RESAMPLED: usize = 1 << 14;
+
 /// The same picture with another number of cells, component by component. Every new cell is a mean of the old ones under
 /// a triangle around its centre, as wide as two cells of the coarser of both grids: linear interpolation where the new
 /// grid is finer, an average where it is coarser. The same size gives the same field.
 ///
 /// # Errors
-/// [`FieldError::Core`] for a size that no grid has.
+/// [`FieldError::Grid`] and [`FieldError::ResampledSize`] for sizes that are none, or too large.
 pub fn resampled(field: &Field<Tensor2>, width: usize, height: usize) -> Result<Field<Tensor2>, FieldError> {
+    let (wide, grid) = (Grid::new(width, field.grid().height())?, Grid::new(width, height)?);
+    if width.max(height) > MAX_RESAMPLED {
+        return Err(FieldError::ResampledSize { width, height });
+    }
     let (columns, rows) = (weights(field.grid().width(), width), weights(field.grid().height(), height));
-    let wide = Grid::new(width, field.grid().height())?;
     let wide = Field::from_fn(wide, |c| mean(&columns[c.x], |x| field.at(Cell::new(x, c.y))));
-    let grid = Grid::new(width, height)?;
     Ok(Field::from_fn(grid, |c| mean(&rows[c.y], |y| wide.at(Cell::new(c.x, y)))))
 }
 

@@ -8,8 +8,8 @@ mod tensors;
 pub use light::image_from_light;
 pub use ltg::{LTG_ARRAY, LtgImage, SLICES, image_from_ltg, ltg_from_image};
 pub use order::ComponentOrder;
-pub(crate) use tensors::choose_tensors;
-pub use tensors::{Association, TENSOR_ARRAY, TensorImage, image_from_tensors, tensors_from_image};
+pub(crate) use tensors::choose_array;
+pub use tensors::{Association, TENSOR_ARRAY, TensorImage, Wanted, image_from_tensors, tensors_from_image};
 
 /// Field data entry with the JSON text that says what made a file.
 pub const PROVENANCE: &str = "tigereye";

@@ -1,6 +1,7 @@
 //! Tensor fields in image data.
 
 use super::{ComponentOrder, described};
+use crate::image::ActiveArrays;
 use crate::{DataArray, ImageData, IoError};
 use std::fmt;
 use tigereye_core::{Cell, Field, Grid, Tensor2};
@@ -64,7 +65,7 @@ impl fmt::Display for TensorImage {
 /// [`IoError::NeedsPlane`], [`IoError::NoArray`], [`IoError::AmbiguousArray`], [`IoError::Components`],
 /// [`IoError::RotatedAxes`].
 pub fn tensors_from_image(image: &ImageData, array: Option<&str>) -> Result<TensorImage, IoError> {
-    let (association, array) = choose_tensors(image, array)?;
+    let (association, array) = choose_array(image, array, Wanted::Tensors)?;
     let components = array.components;
     let order = ComponentOrder::of(array)
         .ok_or_else(|| IoError::Components { array: array.name.clone(), components })?;
@@ -119,11 +120,53 @@ pub fn image_from_tensors(field: &Field<Tensor2>, origin: [f64; 2], spacing: [f6
     image
 }
 
-/// The named array, or the active tensors, or the only array that may be tensors.
-pub(crate) fn choose_tensors<'a>(image: &'a ImageData, array: Option<&str>) -> Result<Found<'a>, IoError> {
+/// What the tuples of an array are to be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wanted {
+    /// Tensors.
+    #[default]
+    Tensors,
+    /// Vectors of two or three components.
+    Vectors,
+    /// Single numbers.
+    Scalars,
+}
+
+impl Wanted {
+    const fn fits(self, components: usize) -> bool {
+        match self {
+            Self::Tensors => matches!(components, 9 | 7 | 6 | 4 | 3),
+            Self::Vectors => matches!(components, 3 | 2),
+            Self::Scalars => components == 1,
+        }
+    }
+
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Tensors => "array with 9, 7, 6, 4 or 3 components",
+            Self::Vectors => "array with 3 or 2 components",
+            Self::Scalars => "array with one component",
+        }
+    }
+
+    const fn active(self, names: &ActiveArrays) -> Option<&String> {
+        match self {
+            Self::Tensors => names.tensors.as_ref(),
+            Self::Vectors => names.vectors.as_ref(),
+            Self::Scalars => names.scalars.as_ref(),
+        }
+    }
+}
+
+/// The named array, or the active one, or the only array whose tuples fit.
+pub(crate) fn choose_array<'a>(
+    image: &'a ImageData,
+    array: Option<&str>,
+    wanted: Wanted,
+) -> Result<Found<'a>, IoError> {
     match array {
         Some(name) => named(image, name),
-        None => only_tensors(image),
+        None => only(image, wanted),
     }
 }
 
@@ -138,17 +181,20 @@ fn named<'a>(image: &'a ImageData, name: &str) -> Result<Found<'a>, IoError> {
     all(image).find(|(_, a)| a.name == name).ok_or_else(|| missing(image, &format!("array `{name}`")))
 }
 
-fn only_tensors(image: &ImageData) -> Result<Found<'_>, IoError> {
+fn only(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
     let active = |association| match association {
         Association::Points => &image.point_active,
         Association::Cells => &image.cell_active,
     };
-    if let Some(found) = all(image).find(|(on, a)| active(*on).tensors.as_ref() == Some(&a.name)) {
+    let is_active =
+        |(on, a): &Found| wanted.active(active(*on)) == Some(&a.name) && wanted.fits(a.components);
+    if let Some(found) = all(image).find(is_active) {
         return Ok(found);
     }
     for on in [Association::Points, Association::Cells] {
         let fits = |a: &DataArray| {
-            matches!(a.components, 9 | 6 | 4 | 3) && active(on).vectors.as_ref() != Some(&a.name)
+            let vectors = active(on).vectors.as_ref() == Some(&a.name);
+            wanted.fits(a.components) && (wanted != Wanted::Tensors || !vectors)
         };
         let candidates: Vec<Found> = all(image).filter(|&(o, a)| o == on && fits(a)).collect();
         match candidates[..] {
@@ -160,7 +206,7 @@ fn only_tensors(image: &ImageData) -> Result<Found<'_>, IoError> {
             }
         }
     }
-    Err(missing(image, "array with 9, 6, 4 or 3 components"))
+    Err(missing(image, wanted.words()))
 }
 
 fn missing(image: &ImageData, wanted: &str) -> IoError {

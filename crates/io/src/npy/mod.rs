@@ -1,12 +1,23 @@
-//! NumPy arrays, `.npy` versions 1 to 3.
+//! NumPy arrays, `.npy` versions 1 to 3, and archives of them, `.npz`.
 //!
 //! Tensor fields are arrays (H, W, 2, 2), `[row][column][i][j]`, with row 0 on top and components in the frame x right,
-//! y up: what [`write_tensors`] writes. Read as well: (H, W, 4), the components xx, xy, yx, yy; and (H, W, 3), the
-//! components xx, xy, yy of a symmetric tensor.
+//! y up: what [`write_tensors`] writes. Read as well ([`read_lattice`]):
+//!
+//! | shape | is |
+//! | --- | --- |
+//! | (H, W, 4), (H, W, 3) | xx, xy, yx, yy; xx, xy, yy |
+//! | (H, W, 3, 3), (H, W, 9), (H, W, 6), (H, W, 7) | 3x3 tensors; six or a mask and six of symmetric ones |
+//! | (X, Y, Z, 3, 3), (X, Y, Z, 9), (X, Y, Z, 6), (X, Y, Z, 7) | a volume, indexed `[x][y][z]` as nibabel and dipy have it |
+//! | (H, W), (X, Y, Z) | single numbers, where they are wanted |
+//! | (H, W, 2), (H, W, 3), (X, Y, Z, 3) | vectors, where they are wanted |
 
+mod archive;
 mod header;
+mod lattice;
 mod read;
 mod write;
 
+pub use archive::array_of_archive;
+pub use lattice::read_lattice;
 pub use read::{NpyArray, read_array, read_tensors};
 pub use write::{write_array, write_light, write_ltg, write_tensors};

@@ -13,6 +13,8 @@ pub struct NpyArray {
     pub shape: Vec<usize>,
     /// All numbers. 64-bit integers beyond 2^53 lose their last bits.
     pub values: Vec<f64>,
+    /// Type in the file.
+    pub scalar: ScalarType,
 }
 
 /// Reads an array of f4, f8 or integers in either byte order, C or Fortran order.
@@ -24,7 +26,7 @@ pub fn read_array(bytes: &[u8]) -> Result<NpyArray, IoError> {
     let header = Header::parse(bytes)?;
     let values = with_type!(header.scalar, T => stored::<T>(bytes)?.into_iter().map(|v| v as f64).collect());
     let values = if header.fortran { c_order(&header.shape, values) } else { values };
-    Ok(NpyArray { shape: header.shape, values })
+    Ok(NpyArray { shape: header.shape, values, scalar: header.scalar })
 }
 
 /// Reads a tensor field of shape (H, W, 2, 2), (H, W, 4) or (H, W, 3); see the module for the order of the components.
@@ -33,7 +35,7 @@ pub fn read_array(bytes: &[u8]) -> Result<NpyArray, IoError> {
 /// # Errors
 /// As [`read_array`], and [`IoError::NpyShape`] for another shape.
 pub fn read_tensors(bytes: &[u8]) -> Result<Field<Tensor2>, IoError> {
-    let NpyArray { shape, values } = read_array(bytes)?;
+    let NpyArray { shape, values, .. } = read_array(bytes)?;
     let (height, width, tensors): (usize, usize, Vec<Tensor2>) = match shape[..] {
         [h, w, 2, 2] | [h, w, 4] => {
             let full = values.as_chunks::<4>().0.iter();

@@ -2,12 +2,16 @@
 
 use super::{KINDS, Kind, Layout};
 use crate::error::shortened;
-use crate::{ByteOrder, IoError, Limits, ScalarType};
+use crate::{ByteOrder, IoError, Limits, ScalarType, Wanted};
 
 /// Most axes of an array, as in teem.
 const MAX_AXES: usize = 16;
 /// Longest header; fields are short.
 const MAX_HEADER: usize = 1 << 20;
+
+/// Kinds of axes whose numbers form a vector.
+const VECTOR_KINDS: [&str; 6] =
+    ["vector", "2-vector", "3-vector", "covariant-vector", "3-gradient", "3-normal"];
 
 /// How the numbers are encoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -219,8 +223,8 @@ impl Header {
         !self.directions.is_empty()
     }
 
-    /// Finds the tensor's axis: by its kind, or else the first axis of 6, 7 or 9 numbers.
-    pub(super) fn layout(&self) -> Result<Layout, IoError> {
+    /// Finds the axis of tuples: by its kind, or else the first axis if it has a number of components that fits.
+    pub(super) fn layout(&self, wanted: Wanted) -> Result<Layout, IoError> {
         let fault = |found: &str, expected| IoError::NrrdField {
             line: self.kinds_line,
             field: "kinds",
@@ -233,13 +237,22 @@ impl Header {
         let kind = |name: &String| KINDS.into_iter().find(|k| k.name.eq_ignore_ascii_case(name));
         let tensors: Vec<(usize, Kind)> =
             self.kinds.iter().enumerate().filter_map(|(i, k)| Some((i, kind(k)?))).collect();
-        let (axis, kind) = match tensors[..] {
-            [(axis, kind)] => (axis, Some(kind)),
-            [] => match self.sizes.iter().position(|s| matches!(s, 6 | 7 | 9)) {
+        let is_vector = |k: &String| VECTOR_KINDS.iter().any(|v| k.eq_ignore_ascii_case(v));
+        let (axis, kind) = match (wanted, &tensors[..]) {
+            (Wanted::Scalars, _) => return self.scalar_layout(),
+            (Wanted::Vectors, _) => match self.kinds.iter().position(is_vector) {
+                Some(axis) if matches!(self.sizes[axis], 2 | 3) => (axis, None),
+                None if self.kinds.is_empty() && matches!(self.sizes[0], 2 | 3) => (0, None),
+                _ => {
+                    return Err(fault(&self.kinds.join(" "), "an axis of kind 2-vector, 3-vector or vector"));
+                }
+            },
+            (Wanted::Tensors, [(axis, kind)]) => (*axis, Some(*kind)),
+            (Wanted::Tensors, []) => match self.sizes.iter().position(|s| matches!(s, 6 | 7 | 9)) {
                 Some(0) if self.sizes.len() > 2 => (0, None),
                 _ => return Err(fault(&self.kinds.join(" "), KIND_NAMES)),
             },
-            _ => return Err(fault(&self.kinds.join(" "), "one tensor axis")),
+            (Wanted::Tensors, _) => return Err(fault(&self.kinds.join(" "), "one tensor axis")),
         };
         let tuple = kind.map_or(self.sizes[axis], |k| k.tuple() as u64);
         if tuple != self.sizes[axis] {
@@ -248,23 +261,36 @@ impl Header {
                 "the size of that kind",
             ));
         }
-        let lattice: Vec<usize> = (0..self.sizes.len()).filter(|&a| a != axis).collect();
-        if !(1..=3).contains(&lattice.len()) {
-            return Err(fault(
-                &format!("{} axes", self.sizes.len()),
-                "one to three axes besides the tensor's",
-            ));
+        let masked = kind.map_or(tuple == 7, |k| k.masked);
+        let inner = self.sizes[..axis].iter().product::<u64>() as usize;
+        let lattice = (0..self.sizes.len()).filter(|&a| a != axis).collect();
+        let layout = Layout { kind, masked, axis, tuple: tuple as usize, lattice, size: [1; 3], inner };
+        self.sized(layout)
+    }
+
+    /// Single numbers: every axis is the lattice's.
+    fn scalar_layout(&self) -> Result<Layout, IoError> {
+        let lattice = (0..self.sizes.len()).collect();
+        self.sized(Layout { kind: None, masked: false, axis: 0, tuple: 1, lattice, size: [1; 3], inner: 1 })
+    }
+
+    /// The layout with the size of its lattice.
+    fn sized(&self, mut layout: Layout) -> Result<Layout, IoError> {
+        if !(1..=3).contains(&layout.lattice.len()) {
+            return Err(IoError::NrrdField {
+                line: self.kinds_line,
+                field: "kinds",
+                found: format!("{} axes", self.sizes.len()),
+                expected: "one to three axes besides those of tuples",
+            });
         }
-        let cells = u128::from(self.count) / u128::from(tuple);
+        let cells = u128::from(self.count) / layout.tuple as u128;
         if cells > u128::from(self.limits.cells) {
             return Err(IoError::TooManyCells { byte: 0, cells, limit: self.limits.cells });
         }
-        let mut size = [1; 3];
         // The product of all sizes is within the limits.
-        lattice.iter().enumerate().for_each(|(i, &a)| size[i] = self.sizes[a] as usize);
-        let inner = self.sizes[..axis].iter().product::<u64>() as usize;
-        let masked = kind.map_or(tuple == 7, |k| k.masked);
-        Ok(Layout { kind, masked, axis, tuple: tuple as usize, lattice, size, inner })
+        layout.lattice.iter().enumerate().for_each(|(i, &a)| layout.size[i] = self.sizes[a] as usize);
+        Ok(layout)
     }
 
     /// Steps along the lattice's axes, and the first voxel.

@@ -15,7 +15,7 @@ mod write;
 pub use write::write;
 
 use crate::volume::{Frame, Known, Lattice, TensorOrder, World};
-use crate::{IoError, Limits};
+use crate::{IoError, Limits, Wanted};
 use header::Header;
 
 /// The name of the file that holds the data, relative to the header; `None` where they follow the header.
@@ -26,21 +26,27 @@ pub fn data_file(bytes: &[u8]) -> Result<Option<String>, IoError> {
     Ok(Header::parse(bytes, Limits::default())?.data_file)
 }
 
-/// Reads a file with the default [`Limits`]; `detached` are the bytes of its data file, where it names one.
+/// Reads tensors with the default [`Limits`]; `detached` are the bytes of its data file, where it names one.
 ///
 /// # Errors
 /// See [`read_with_limits`].
 pub fn read(bytes: &[u8], detached: Option<&[u8]>) -> Result<Lattice, IoError> {
-    read_with_limits(bytes, detached, Limits::default())
+    read_with_limits(bytes, detached, Wanted::Tensors, Limits::default())
 }
 
-/// Reads a file.
+/// Reads a file. Vectors are on the axis of a vector kind, or on the first axis of two or three numbers; where single
+/// numbers are wanted, all axes are the lattice's.
 ///
 /// # Errors
 /// Names the line of the header, or the byte of the data (of the data file, where there is one).
-pub fn read_with_limits(bytes: &[u8], detached: Option<&[u8]>, limits: Limits) -> Result<Lattice, IoError> {
+pub fn read_with_limits(
+    bytes: &[u8],
+    detached: Option<&[u8]>,
+    wanted: Wanted,
+    limits: Limits,
+) -> Result<Lattice, IoError> {
     let header = Header::parse(bytes, limits)?;
-    let layout = header.layout()?;
+    let layout = header.layout(wanted)?;
     let values = match (&header.data_file, detached) {
         (None, _) => data::read(&header, &bytes[header.end..], header.end)?,
         (Some(_), Some(data)) => data::read(&header, data, 0)?,
@@ -51,7 +57,7 @@ pub fn read_with_limits(bytes: &[u8], detached: Option<&[u8]>, limits: Limits) -
     };
     let (values, mask) = layout.tuples(values);
     let mut notes = Vec::new();
-    if layout.kind.is_none() {
+    if layout.kind.is_none() && wanted == Wanted::Tensors {
         notes.push(format!("no kind names a tensor: axis {} of size {} taken", layout.axis, layout.tuple));
     }
     let world = header.space.clone().unwrap_or_else(|| "unnamed".to_owned());
@@ -73,7 +79,7 @@ pub fn read_with_limits(bytes: &[u8], detached: Option<&[u8]>, limits: Limits) -
         mask,
         order: layout.kind.map(|k| k.order),
         frame,
-        array: layout.kind.map_or("tuples", |k| k.name).to_owned(),
+        array: layout.kind.map_or("numbers", |k| k.name).to_owned(),
         notes,
     })
 }

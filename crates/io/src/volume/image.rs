@@ -1,24 +1,24 @@
 //! Between VTK image data and volumes.
 
 use super::{Frame, IDENTITY, Known, Lattice, TensorOrder, TensorVolume, World};
-use crate::convert::{Association, TENSOR_ARRAY, choose_tensors};
+use crate::convert::{Association, TENSOR_ARRAY, Wanted, choose_array};
 use crate::points::PointLattice;
 use crate::{ImageData, IoError, PolyData};
 
 /// The array by which VTK's resampling filters mark points that lay outside their input, with 0.
 const VALID_POINTS: &str = "vtkValidPointMask";
 
-/// Takes the tensor array out of poly data whose points form a lattice, x fastest.
+/// Takes an array out of poly data whose points form a lattice, x fastest.
 ///
 /// # Errors
 /// [`IoError::NoLattice`], and as [`lattice_from_image`]. Cell arrays belong to polygons and are not looked at.
-pub fn lattice_from_points(data: PolyData, array: Option<&str>) -> Result<Lattice, IoError> {
+pub fn lattice_from_points(data: PolyData, array: Option<&str>, wanted: Wanted) -> Result<Lattice, IoError> {
     let lattice = PointLattice::find(&data.points).map_err(|point| IoError::NoLattice { point })?;
     let mut image = ImageData::empty(lattice.size);
     lattice.place(&mut image);
     image.point_arrays = data.point_arrays;
     image.point_active = data.point_active;
-    let mut found = lattice_from_image(&image, array)?;
+    let mut found = lattice_from_image(&image, array, wanted)?;
     found.notes = vec!["a point array of VTK poly data whose points form a lattice".to_owned()];
     let left_out: Vec<String> = data.cell_arrays.into_iter().map(|a| format!("`{}`", a.name)).collect();
     if !left_out.is_empty() {
@@ -27,13 +27,17 @@ pub fn lattice_from_points(data: PolyData, array: Option<&str>) -> Result<Lattic
     Ok(found)
 }
 
-/// Takes the tensor array out of an image: the named one, or the active tensors, or the only array that may be tensors.
+/// Takes an array out of an image: the named one, or the active one of the wanted kind, or the only one whose tuples fit.
 /// Cell arrays form a lattice of cell centres. Points that VTK marked as invalid are masked.
 ///
 /// # Errors
 /// [`IoError::NoArray`], [`IoError::AmbiguousArray`], [`IoError::ArraySize`].
-pub fn lattice_from_image(image: &ImageData, array: Option<&str>) -> Result<Lattice, IoError> {
-    let (association, array) = choose_tensors(image, array)?;
+pub fn lattice_from_image(
+    image: &ImageData,
+    array: Option<&str>,
+    wanted: Wanted,
+) -> Result<Lattice, IoError> {
+    let (association, array) = choose_array(image, array, wanted)?;
     let size = match association {
         Association::Points => image.dimensions,
         Association::Cells => image.cell_dimensions(),

@@ -17,7 +17,7 @@ pub(crate) use image::points_of_image;
 pub use image::{image_from_volume, lattice_from_image, lattice_from_points, points_from_image};
 pub use order::TensorOrder;
 pub(crate) use output::symmetric;
-pub use plane::{Axis, Crop, Plane, PlaneChoice, TensorSlice};
+pub use plane::{Axis, Crop, Cut, Plane, PlaneChoice, Slice, parse_slice};
 pub use suspicion::{Suspicion, negative_share};
 
 use crate::{IoError, ScalarType};
@@ -37,6 +37,12 @@ pub enum Frame {
 }
 
 impl Frame {
+    /// The frame of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        [Self::Voxel, Self::World, Self::Measurement].into_iter().find(|f| f.name() == name)
+    }
+
     /// The name the command line uses.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -135,6 +141,25 @@ impl Lattice {
     /// # Errors
     /// [`IoError::NoTensor`], [`IoError::Order`], [`IoError::NoMeasurementFrame`].
     pub fn tensors(self, reading: Reading) -> Result<TensorVolume, IoError> {
+        let this = self.with_mask_apart();
+        this.tensors_of_tuples(reading)
+    }
+
+    /// Seven numbers a voxel are a mask before six others, as NRRD has them: the mask apart.
+    #[must_use]
+    pub fn with_mask_apart(mut self) -> Self {
+        if self.components == 7 {
+            let tuples = self.values.as_chunks::<7>().0;
+            self.mask = Some(tuples.iter().map(|t| t[0]).collect());
+            self.values = tuples.iter().flat_map(|t| t[1..].iter().copied()).collect();
+            self.components = 6;
+            self.order = Some(TensorOrder::UPPER);
+            self.notes.push("seven numbers taken as a mask and xx,xy,xz,yy,yz,zz".to_owned());
+        }
+        self
+    }
+
+    fn tensors_of_tuples(self, reading: Reading) -> Result<TensorVolume, IoError> {
         let order = match (reading.order, self.order) {
             (Some(text), _) => (TensorOrder::parse(text, self.components)?, Known::Given),
             (None, Some(order)) => (order, Known::Stated),
@@ -156,6 +181,22 @@ impl Lattice {
         let usual =
             if self.components == 6 { Some(TensorOrder::LOWER) } else { TensorOrder::usual(self.components) };
         usual.ok_or_else(|| IoError::NoTensor { array: self.array.clone(), components: self.components })
+    }
+
+    /// What was read, a sentence each.
+    #[must_use]
+    pub fn story(&self) -> Vec<String> {
+        let mut story =
+            vec![format!("`{}`: {} components, {}", self.array, self.components, self.scalar.name())];
+        if let World::Scanner(name) = &self.world {
+            story.push(format!("world: {name}"));
+        }
+        if let Some(mask) = &self.mask {
+            let masked = mask.iter().filter(|&&m| m == 0.0).count();
+            story.push(format!("{masked} voxels with mask 0, taken as zero tensors"));
+        }
+        story.extend(self.notes.iter().cloned());
+        story
     }
 
     /// Voxels in all.
@@ -185,6 +226,27 @@ impl Lattice {
         }
         let at = |i: usize| columns[i % 3][i / 3];
         [at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8)]
+    }
+
+    /// What turns components in `frame` into components along the voxel axes, `K v` or `K D K^T`; `None` where nothing does.
+    pub(crate) fn to_voxel(&self, frame: Frame) -> Result<Option<[f64; 9]>, IoError> {
+        let measured = match (frame, self.measurement) {
+            (Frame::Voxel, _) => return Ok(None),
+            (Frame::Measurement, Some(m)) => m,
+            _ => IDENTITY,
+        };
+        let directions = self.orthogonal_directions()?;
+        if directions == measured {
+            return Ok(None);
+        }
+        inverse(&directions).map(|r| Some(product(&r, &measured))).ok_or(IoError::SkewedAxes { off: 1.0 })
+    }
+
+    fn orthogonal_directions(&self) -> Result<[f64; 9], IoError> {
+        let d = self.directions();
+        let cosine = |a: usize, b: usize| (d[a] * d[b] + d[a + 3] * d[b + 3] + d[a + 6] * d[b + 6]).abs();
+        let off = cosine(0, 1).max(cosine(0, 2)).max(cosine(1, 2));
+        if off <= ORTHOGONAL { Ok(d) } else { Err(IoError::SkewedAxes { off }) }
     }
 }
 
@@ -228,35 +290,14 @@ impl TensorVolume {
     /// What was read and what was assumed, a sentence each.
     #[must_use]
     pub fn story(&self) -> Vec<String> {
-        let lattice = &self.lattice;
+        let mut story = self.lattice.story();
         let (order, frame) = (self.order, self.frame);
-        let mut story = vec![
-            format!("`{}`: {} components, {}", lattice.array, lattice.components, lattice.scalar.name()),
+        let words = [
             format!("component order {} ({})", order.0, order.1.words()),
             format!("components along the {} axes ({})", frame.0.name(), frame.1.words()),
         ];
-        if let World::Scanner(name) = &lattice.world {
-            story.push(format!("world: {name}"));
-        }
-        if lattice.mask.is_some() {
-            story.push(format!("{} voxels with mask 0, taken as zero tensors", self.masked_out()));
-        }
-        story.extend(lattice.notes.iter().cloned());
+        story.splice(1..1, words);
         story
-    }
-
-    /// What turns stored components into components along the voxel axes: `T = K D K^T`; `None` where nothing does.
-    pub(crate) fn to_voxel(&self) -> Result<Option<[f64; 9]>, IoError> {
-        let measured = match (self.frame.0, self.lattice.measurement) {
-            (Frame::Voxel, _) => return Ok(None),
-            (Frame::Measurement, Some(m)) => m,
-            _ => IDENTITY,
-        };
-        let directions = self.orthogonal_directions()?;
-        if directions == measured {
-            return Ok(None);
-        }
-        inverse(&directions).map(|r| Some(product(&r, &measured))).ok_or(IoError::SkewedAxes { off: 1.0 })
     }
 
     /// What turns stored components into components along the world's axes.
@@ -264,16 +305,9 @@ impl TensorVolume {
         let turn = match (self.frame.0, self.lattice.measurement) {
             (Frame::World, _) => return Ok(None),
             (Frame::Measurement, Some(m)) => m,
-            _ => self.orthogonal_directions()?,
+            _ => self.lattice.orthogonal_directions()?,
         };
         Ok((turn != IDENTITY).then_some(turn))
-    }
-
-    fn orthogonal_directions(&self) -> Result<[f64; 9], IoError> {
-        let d = self.lattice.directions();
-        let cosine = |a: usize, b: usize| (d[a] * d[b] + d[a + 3] * d[b + 3] + d[a + 6] * d[b + 6]).abs();
-        let off = cosine(0, 1).max(cosine(0, 2)).max(cosine(1, 2));
-        if off <= ORTHOGONAL { Ok(d) } else { Err(IoError::SkewedAxes { off }) }
     }
 }
 

@@ -7,34 +7,42 @@ use tigereye_core::{Field, Tensor2};
 /// Difference of two components that counts as rounding, relative to the largest component of the volume.
 const ROUNDING: f64 = 1e-12;
 
-impl TensorVolume {
-    /// A field of the plane as a volume of one layer: row 0 of the field is the row of the largest y, the third row and
-    /// column are zero. `origin` is the position of the lower left point.
+impl Lattice {
+    /// A field of the plane as a lattice of one layer: row 0 of the field is the row of the largest y. The lower left
+    /// point is at 0, points have distance 1.
     #[must_use]
-    pub fn from_field(field: &Field<Tensor2>, origin: [f64; 2], spacing: [f64; 2]) -> Self {
+    pub fn from_field(field: &Field<Tensor2>) -> Self {
         let grid = field.grid();
         let rows = field.values().chunks(grid.width()).rev();
-        let values = rows.flatten().flat_map(|t| {
-            let [xx, xy, yx, yy] = t.components();
-            [xx, xy, 0.0, yx, yy, 0.0, 0.0, 0.0, 0.0]
-        });
-        let order = TensorOrder::ROWS3;
-        let lattice = Lattice {
+        let order = TensorOrder::ROWS2;
+        Self {
             size: [grid.width(), grid.height(), 1],
             components: order.components(),
-            values: values.collect(),
+            values: rows.flatten().flat_map(Tensor2::components).collect(),
             scalar: ScalarType::Float64,
-            axes: [[spacing[0], 0.0, 0.0], [0.0, spacing[1], 0.0], [0.0, 0.0, 1.0]],
-            origin: [origin[0], origin[1], 0.0],
+            axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            origin: [0.0; 3],
             world: World::Viewer,
             measurement: None,
             mask: None,
             order: Some(order),
             frame: (Frame::World, Known::Stated),
-            array: "field".to_owned(),
-            notes: Vec::new(),
-        };
-        Self { lattice, order: (order, Known::Stated), frame: (Frame::World, Known::Stated) }
+            array: "2x2 blocks".to_owned(),
+            notes: vec!["first row on top, in the frame x right, y up".to_owned()],
+        }
+    }
+}
+
+impl TensorVolume {
+    /// A field of the plane as a volume of one layer, its third row and column zero. `origin` is the position of the
+    /// lower left point.
+    #[must_use]
+    pub fn from_field(field: &Field<Tensor2>, origin: [f64; 2], spacing: [f64; 2]) -> Self {
+        let mut lattice = Lattice::from_field(field);
+        lattice.axes = [[spacing[0], 0.0, 0.0], [0.0, spacing[1], 0.0], [0.0, 0.0, 1.0]];
+        lattice.origin = [origin[0], origin[1], 0.0];
+        let (order, frame) = (TensorOrder::ROWS2, lattice.frame);
+        Self { lattice, order: (order, Known::Stated), frame }
     }
 
     /// All tensors along the axes of `frame` (world or voxel), row by row; those of voxels with mask 0 are zero.
@@ -42,7 +50,8 @@ impl TensorVolume {
     /// # Errors
     /// [`IoError::SkewedAxes`] where components must be turned and cannot be.
     pub(crate) fn along(&self, frame: Frame) -> Result<Vec<[f64; 9]>, IoError> {
-        let turn = if frame == Frame::Voxel { self.to_voxel()? } else { self.to_world()? };
+        let turn =
+            if frame == Frame::Voxel { self.lattice.to_voxel(self.frame.0)? } else { self.to_world()? };
         let tensor = |(voxel, t): (usize, [f64; 9])| {
             if self.is_masked(voxel) { [0.0; 9] } else { turn.as_ref().map_or(t, |k| turned(k, &t)) }
         };

@@ -1,6 +1,6 @@
 //! From a volume to a field in a plane.
 
-use super::{TensorVolume, World, turned};
+use super::{Frame, Lattice, TensorVolume, World, turned};
 use crate::IoError;
 use tigereye_core::{Field, Grid, Tensor2};
 
@@ -67,6 +67,12 @@ impl Plane {
         }
     }
 
+    /// The plane of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        [Self::Xy, Self::Xz, Self::Yz].into_iter().find(|p| p.name() == name)
+    }
+
     /// The plane of a normal.
     #[must_use]
     pub const fn of_normal(axis: Axis) -> Self {
@@ -87,6 +93,16 @@ impl Plane {
     }
 }
 
+/// A slice as people write it: `z=10`.
+///
+/// # Errors
+/// What was expected.
+pub fn parse_slice(text: &str) -> Result<(Axis, usize), String> {
+    let parts = text.split_once('=');
+    let slice = parts.and_then(|(axis, i)| Some((Axis::from_name(axis.trim())?, i.trim().parse().ok()?)));
+    slice.ok_or_else(|| "expected x=INDEX, y=INDEX or z=INDEX, for example z=10".to_owned())
+}
+
 /// A part of a plane: columns and rows as the field has them, row 0 on top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Crop {
@@ -97,6 +113,20 @@ pub struct Crop {
 }
 
 impl Crop {
+    /// A part as people write it: `10:60,0:40`.
+    ///
+    /// # Errors
+    /// What was expected.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let range = |t: &str| {
+            let (a, b) = t.split_once(':')?;
+            let (a, b) = (a.trim().parse().ok()?, b.trim().parse().ok()?);
+            (a < b).then_some([a, b])
+        };
+        let crop = text.split_once(',').and_then(|(x, y)| Some(Self { x: range(x)?, y: range(y)? }));
+        crop.ok_or_else(|| "expected X0:X1,Y0:Y1 with X0 < X1 and Y0 < Y1, for example 10:60,0:40".to_owned())
+    }
+
     /// The part of a field.
     ///
     /// # Errors
@@ -148,11 +178,9 @@ impl PlaneChoice {
     }
 }
 
-/// A field in a plane of a volume, and how it lies there.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TensorSlice {
-    /// The tensors projected into the plane, row 0 on top, in the frame x right, y up of the picture.
-    pub field: Field<Tensor2>,
+/// Which voxels a plane is made of, and how they lie in the picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
     /// The plane.
     pub plane: Plane,
     /// Index of the slice.
@@ -161,22 +189,33 @@ pub struct TensorSlice {
     pub columns_flipped: bool,
     /// Whether row 0 is the last voxel of the upward axis: true unless that axis points down in the viewer's world.
     pub rows_flipped: bool,
-    /// Position of the lower left cell.
+    /// Position of the lower left cell: in the world where the voxel axes are the world's, else 0.
     pub origin: [f64; 2],
     /// Distance of the cells.
     pub spacing: [f64; 2],
+    grid: Grid,
+    size: [usize; 3],
 }
 
-impl TensorSlice {
-    /// How the picture was made, in a sentence.
+/// A field in a plane of a volume, and how it lies there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slice<T> {
+    /// The values, row 0 on top, in the frame x right, y up of the picture.
+    pub field: Field<T>,
+    /// Which voxels they are.
+    pub cut: Cut,
+}
+
+impl Cut {
+    /// How the picture was made, in a sentence; `dropped` is what became of the third direction.
     #[must_use]
-    pub fn story(&self) -> String {
+    pub fn story(&self, dropped: &str) -> String {
         let (right, up) = self.plane.axes();
         let name = |axis: usize, backwards: bool| {
             format!("{}{}", if backwards { "-" } else { "" }, Axis::ALL[axis].name())
         };
         format!(
-            "plane {}, slice {}={}: voxel axis {} to the right, {} up, the third row and column dropped; rows {}",
+            "plane {}, slice {}={}: voxel axis {} to the right, {} up{dropped}; rows {}",
             self.plane.name(),
             self.plane.normal().name(),
             self.index,
@@ -185,36 +224,124 @@ impl TensorSlice {
             if self.rows_flipped { "flipped, the file runs upwards" } else { "as in the file" }
         )
     }
+
+    /// A field of what `value` says of each voxel, by its index `(k * ny + j) * nx + i`.
+    fn field<T>(&self, mut value: impl FnMut(usize) -> T) -> Field<T> {
+        let (right, up) = self.plane.axes();
+        let (width, height) = (self.grid.width(), self.grid.height());
+        Field::from_fn(self.grid, |c| {
+            let mut at = [self.index; 3];
+            at[right] = if self.columns_flipped { width - 1 - c.x } else { c.x };
+            at[up] = if self.rows_flipped { height - 1 - c.y } else { c.y };
+            value((at[2] * self.size[1] + at[1]) * self.size[0] + at[0])
+        })
+    }
 }
 
-impl TensorVolume {
-    /// The field in a plane. Tensors are turned into the voxel axes and lose the third row and column, so that direction
-    /// 90 degrees is up in the picture. Where the world is a viewer's, axes that run left or down are reversed, as the
-    /// viewer shows them. Voxels with mask 0 become zero tensors.
+impl Lattice {
+    /// The voxels of a plane. Where the world is a viewer's, axes that run left or down are reversed, as the viewer
+    /// shows them.
     ///
     /// # Errors
-    /// As [`PlaneChoice::resolve`], and [`IoError::SkewedAxes`].
-    pub fn slice(&self, choice: PlaneChoice) -> Result<TensorSlice, IoError> {
-        let lattice = &self.lattice;
-        let (plane, index) = choice.resolve(lattice.size)?;
+    /// As [`PlaneChoice::resolve`].
+    pub fn cut(&self, choice: PlaneChoice) -> Result<Cut, IoError> {
+        let (plane, index) = choice.resolve(self.size)?;
         let (right, up) = plane.axes();
-        let turn = self.to_voxel()?;
-        let directions = lattice.directions();
+        let directions = self.directions();
         let backwards = |axis: usize| {
             // Axes that are not mainly their own stay as they are: no picture shows them upright.
             let own = directions[4 * axis];
             let main = (0..3).all(|i| directions[3 * i + axis].abs() <= own.abs());
-            lattice.world == World::Viewer && main && own < 0.0
+            self.world == World::Viewer && main && own < 0.0
         };
         let (columns_flipped, rows_flipped) = (backwards(right), !backwards(up));
-        let mirrored = columns_flipped == rows_flipped;
-        let (width, height) = (lattice.size[right], lattice.size[up]);
-        let grid = Grid::new(width, height)?;
-        let field = Field::from_fn(grid, |c| {
-            let mut at = [index; 3];
-            at[right] = if columns_flipped { width - 1 - c.x } else { c.x };
-            at[up] = if rows_flipped { height - 1 - c.y } else { c.y };
-            let voxel = (at[2] * lattice.size[1] + at[1]) * lattice.size[0] + at[0];
+        let spacing = self.spacing();
+        Ok(Cut {
+            plane,
+            index,
+            columns_flipped,
+            rows_flipped,
+            origin: self.corner(right, up, columns_flipped, rows_flipped),
+            spacing: [spacing[right], spacing[up]],
+            grid: Grid::new(self.size[right], self.size[up])?,
+            size: self.size,
+        })
+    }
+
+    /// Position of the lower left cell: in the world where the voxel axes are the world's, else 0.
+    fn corner(&self, right: usize, up: usize, columns_flipped: bool, rows_flipped: bool) -> [f64; 2] {
+        let aligned = self.axes.iter().enumerate().all(|(a, v)| (0..3).all(|i| i == a || v[i] == 0.0));
+        if !aligned {
+            return [0.0; 2];
+        }
+        let far = |axis: usize, reversed: bool| {
+            let steps = if reversed { self.size[axis] - 1 } else { 0 };
+            self.origin[axis] + steps as f64 * self.axes[axis][axis]
+        };
+        [far(right, columns_flipped), far(up, !rows_flipped)]
+    }
+
+    /// One number a voxel, in a plane.
+    ///
+    /// # Errors
+    /// [`IoError::TupleSize`] for tuples, and as [`Self::cut`].
+    pub fn scalars(&self, choice: PlaneChoice) -> Result<Slice<f64>, IoError> {
+        if self.components != 1 {
+            return Err(self.tuple_size("one number a voxel"));
+        }
+        let cut = self.cut(choice)?;
+        Ok(Slice { field: cut.field(|voxel| self.values[voxel]), cut })
+    }
+
+    /// Vectors of two or three components projected into a plane, along x (right) and y (up) of the picture.
+    ///
+    /// # Errors
+    /// [`IoError::TupleSize`] for other tuples, [`IoError::SkewedAxes`], and as [`Self::cut`].
+    pub fn vectors(&self, choice: PlaneChoice, frame: Option<Frame>) -> Result<Slice<[f64; 2]>, IoError> {
+        if !(2..=3).contains(&self.components) {
+            return Err(self.tuple_size("two or three"));
+        }
+        let cut = self.cut(choice)?;
+        let (right, up) = cut.plane.axes();
+        let turn = self.to_voxel(frame.unwrap_or(self.frame.0))?;
+        let signs = [if cut.columns_flipped { -1.0 } else { 1.0 }, if cut.rows_flipped { 1.0 } else { -1.0 }];
+        let field = cut.field(|voxel| {
+            let mut v = [0.0; 3];
+            let from = voxel * self.components;
+            v[..self.components].copy_from_slice(&self.values[from..from + self.components]);
+            if let Some(k) = &turn {
+                v = [0, 1, 2].map(|i| k[3 * i] * v[0] + k[3 * i + 1] * v[1] + k[3 * i + 2] * v[2]);
+            }
+            [signs[0] * v[right], signs[1] * v[up]]
+        });
+        Ok(Slice { field, cut })
+    }
+
+    /// Which cells of a plane the mask leaves out; `None` where there is no mask.
+    #[must_use]
+    pub fn mask_in(&self, cut: &Cut) -> Option<Field<bool>> {
+        let mask = self.mask.as_ref()?;
+        Some(cut.field(|voxel| mask.get(voxel) == Some(&0.0)))
+    }
+
+    fn tuple_size(&self, expected: &'static str) -> IoError {
+        IoError::TupleSize { array: self.array.clone(), components: self.components, expected }
+    }
+}
+
+impl TensorVolume {
+    /// The field in a plane. Tensors are turned into the voxel axes and lose the third row and column, so that direction
+    /// 90 degrees is up in the picture. Voxels with mask 0 become zero tensors.
+    ///
+    /// # Errors
+    /// [`IoError::SkewedAxes`], and as [`Lattice::cut`].
+    pub fn slice(&self, choice: PlaneChoice) -> Result<Slice<Tensor2>, IoError> {
+        let cut = self.lattice.cut(choice)?;
+        let (right, up) = cut.plane.axes();
+        let turn = self.lattice.to_voxel(self.frame.0)?;
+        // One reversed axis changes the sign of the off-diagonal components.
+        let mirrored = cut.columns_flipped == cut.rows_flipped;
+        let field = cut.field(|voxel| {
             if self.is_masked(voxel) {
                 return Tensor2::ZERO;
             }
@@ -223,32 +350,8 @@ impl TensorVolume {
             let (xx, xy) = (t[3 * right + right], t[3 * right + up]);
             let (yx, yy) = (t[3 * up + right], t[3 * up + up]);
             let plain = Tensor2::new(xx, xy, yx, yy);
-            // One reversed axis changes the sign of the off-diagonal components.
             if mirrored { plain.mirrored_y() } else { plain }
         });
-        let spacing = lattice.spacing();
-        Ok(TensorSlice {
-            field,
-            plane,
-            index,
-            columns_flipped,
-            rows_flipped,
-            origin: self.corner(right, up, columns_flipped, rows_flipped),
-            spacing: [spacing[right], spacing[up]],
-        })
-    }
-
-    /// Position of the lower left cell: in the world where the voxel axes are the world's, else 0.
-    fn corner(&self, right: usize, up: usize, columns_flipped: bool, rows_flipped: bool) -> [f64; 2] {
-        let lattice = &self.lattice;
-        let aligned = lattice.axes.iter().enumerate().all(|(a, v)| (0..3).all(|i| i == a || v[i] == 0.0));
-        if !aligned {
-            return [0.0; 2];
-        }
-        let far = |axis: usize, reversed: bool| {
-            let steps = if reversed { lattice.size[axis] - 1 } else { 0 };
-            lattice.origin[axis] + steps as f64 * lattice.axes[axis][axis]
-        };
-        [far(right, columns_flipped), far(up, !rows_flipped)]
+        Ok(Slice { field, cut })
     }
 }

@@ -1,0 +1,143 @@
+//! What becomes of values on their way from a file to a field: derivatives, masks, resampling.
+
+use crate::support::*;
+use tigereye_core::{Cell, Field, Tensor2};
+use tigereye_io::npy;
+
+fn array(shape: &[usize], value: impl Fn(usize) -> f64) -> Vec<u8> {
+    let values: Vec<f64> = (0..shape.iter().product()).map(value).collect();
+    npy::write_array(shape, &values).unwrap()
+}
+
+fn converted(place: &Place, options: &[&str]) -> Field<Tensor2> {
+    place.succeeds(&[&["convert"], options, &["out.npy", "--force"]].concat());
+    npy::read_tensors(&place.read("out.npy")).unwrap()
+}
+
+#[track_caller]
+fn near(t: &Tensor2, expected: [f64; 4]) {
+    assert!(
+        t.components().iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9),
+        "{t:?}, not {expected:?}"
+    );
+}
+
+const W: usize = 12;
+const H: usize = 10;
+
+/// x to the right and y up, from the index of a cell.
+fn place_of(i: usize) -> (f64, f64) {
+    ((i % W) as f64, (H - 1 - i / W) as f64)
+}
+
+#[test]
+fn vectors_give_their_gradient_and_numbers_their_hessian() {
+    let place = Place::new();
+    let flow = |i: usize| {
+        let (x, y) = place_of(i / 2);
+        [2.0 * x - 3.0 * y, x + 0.5 * y][i % 2]
+    };
+    place.write("flow.npy", array(&[H, W, 2], flow));
+    let gradient = converted(&place, &["flow.npy", "--derive", "gradient"]);
+    gradient.values().iter().for_each(|t| near(t, [2.0, -3.0, 1.0, 0.5]));
+    place.write(
+        "hill.npy",
+        array(&[H, W], |i| {
+            let (x, y) = place_of(i);
+            x * x + x * y
+        }),
+    );
+    let hessian = converted(&place, &["hill.npy", "--derive", "hessian", "--sigma", "0"]);
+    near(hessian.at(Cell::new(5, 5)), [2.0, 1.0, 1.0, 0.0]);
+    let structure =
+        converted(&place, &["hill.npy", "--derive", "structure", "--sigma", "0", "--window", "0"]);
+    // At (5, 4) the slope is (2 x + y, x).
+    near(structure.at(Cell::new(5, 5)), [196.0, 70.0, 70.0, 25.0]);
+    let text = place.succeeds(&["info", "hill.npy", "--derive", "hessian"]).stdout;
+    assert!(text.contains("Hessian, of the image smoothed by 1 cells"), "{text}");
+    place.refuses(
+        &["ltg", "flow.npy", "--derive", "hessian", "-o", "o.vti"],
+        &["flow.npy", "a plane is needed"],
+    );
+    place.refuses(&["info", "hill.npy"], &["hill.npy", "expected (H, W, 2, 2)"]);
+    place.refuses(&["info", "hill.npy", "--derive", "hessian", "--sigma", "101"], &["0 to 100"]);
+    place.refuses(&["info", "hill.npy", "--sigma", "1"], &["--derive"]);
+    place.refuses(&["info", "inverse", "--derive", "hessian"], &["inverse", "expected no"]);
+}
+
+#[test]
+fn masks_leave_voxels_out() {
+    let place = Place::new();
+    place.write("t.npy", array(&[2, 3, 2, 2], |i| if i % 4 % 3 == 0 { 1.0 } else { 0.0 }));
+    place.write("m.npy", array(&[2, 3], |i| i as f64 * 0.25));
+    let zeros = |field: &Field<Tensor2>| field.values().iter().map(Tensor2::is_zero).collect::<Vec<_>>();
+    let masked = converted(&place, &["t.npy", "--mask", "m.npy"]);
+    assert_eq!(zeros(&masked), [true, false, false, false, false, false]);
+    let half = converted(&place, &["t.npy", "--mask", "m.npy", "--mask-above", "0.5"]);
+    assert_eq!(zeros(&half), [true, true, true, false, false, false]);
+    place.write("small.npy", array(&[2, 2], |_| 1.0));
+    place.refuses(&["info", "t.npy", "--mask", "small.npy"], &["small.npy", "2 x 2 x 1", "3 x 2 x 1"]);
+    place.refuses(&["info", "t.npy", "--mask", "none.npy"], &["none.npy"]);
+    place.refuses(&["info", "t.npy", "--mask", "t.npy"], &["mask t.npy", "(H, W) or (X, Y, Z)"]);
+    // The mask is part of the input.
+    let hash = |options: &[&str]| {
+        place.succeeds(&[&["info", "t.npy", "--json"], options].concat()).json()["input_blake3"].clone()
+    };
+    assert_ne!(hash(&[]), hash(&["--mask", "m.npy"]));
+}
+
+#[test]
+fn tensors_that_are_not_finite_are_refused_or_zero() {
+    let place = Place::new();
+    place.write("t.npy", array(&[2, 2, 4], |i| if i == 9 { f64::NAN } else { 1.0 }));
+    place.refuses(&["info", "t.npy"], &["cell (0, 1)", "1 such", "--not-finite zero"]);
+    let field = converted(&place, &["t.npy", "--not-finite", "zero"]);
+    assert!(field.at(Cell::new(0, 1)).is_zero() && !field.at(Cell::new(1, 1)).is_zero());
+    let facts = place.succeeds(&["info", "t.npy", "--not-finite", "zero", "--json"]).json();
+    assert!(facts["assumptions"].to_string().contains("1 tensors that are not finite"), "{facts:#}");
+}
+
+#[test]
+fn fields_are_resampled_to_any_size() {
+    let place = Place::new();
+    let half = converted(&place, &["inverse:size=20", "--resample", "10x5"]);
+    assert_eq!((half.grid().width(), half.grid().height()), (10, 5));
+    place.succeeds(&["convert", "inverse:size=20", "o.vti", "--resample", "10x5"]);
+    let facts = place.succeeds(&["info", "o.vti", "--json"]).json();
+    assert_eq!(facts["spacing"], serde_json::json!([2.0, 4.0]));
+    assert_eq!(facts["origin"], serde_json::json!([0.5, 1.5]));
+    let cropped = converted(&place, &["inverse:size=20", "--crop", "0:8,0:6", "--resample", "4x3"]);
+    assert_eq!(cropped.grid().width(), 4);
+    place.refuses(&["info", "inverse", "--resample", "0x5"], &["WIDTHxHEIGHT"]);
+    place.refuses(&["info", "inverse", "--resample", "99999999x99999999"], &["inverse"]);
+}
+
+#[test]
+fn thresholds_between_noise_and_signal_are_suggested() {
+    let place = Place::new();
+    // Nine cells of noise beside nine of signal.
+    place.write(
+        "t.npy",
+        array(&[3, 6, 2, 2], |i| {
+            if i % 4 % 3 != 0 {
+                0.0
+            } else if i / 4 % 6 < 3 {
+                0.02
+            } else {
+                1.0
+            }
+        }),
+    );
+    let facts = place.succeeds(&["info", "t.npy", "--json"]).json();
+    let suggested = facts["suggested_local_above"].as_f64().unwrap();
+    assert!(suggested > 0.3 && suggested < 0.7, "{suggested}");
+    assert!(place.succeeds(&["info", "t.npy"]).stdout.contains("--normalization local-above:0."));
+}
+
+#[test]
+fn archives_need_the_name_of_an_array_only_where_there_are_several() {
+    let place = Place::new();
+    place.write("not.npz", "no archive");
+    place.refuses(&["info", "not.npz"], &["not.npz", "a .npz archive"]);
+    place.refuses(&["info", "photo.png"], &["photo.png", "--derive"]);
+}

@@ -1,0 +1,203 @@
+//! From the bytes of a file to tensors, or numbers, on a lattice.
+
+use super::{InputError, Reading};
+use crate::provenance::hash_of_bytes;
+use tigereye_io::volume::{
+    Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
+};
+use tigereye_io::{IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, picture, vti, vtp};
+
+/// What a data file holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TensorFile {
+    /// Name, as given.
+    pub name: String,
+    /// The format in words.
+    pub kind: &'static str,
+    /// BLAKE3 of the file, in hex; of header, data and mask where these are several.
+    pub blake3: String,
+    /// What it holds.
+    pub content: Content,
+}
+
+/// Tensors, or what they may be derived from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// Tensors on a lattice, possibly flat.
+    Tensors(TensorVolume),
+    /// Single numbers or vectors.
+    Numbers(Lattice),
+}
+
+/// Text matrices: their tensors are normalised cell by cell where nobody says otherwise.
+pub const TEXT_MATRICES: &str = "text matrices";
+
+/// The ending that tells the format, in lower case: `nii.gz` or what stands behind the last dot; empty without a dot.
+#[must_use]
+pub fn format_of(name: &str) -> String {
+    let file = name.rsplit(['/', '\\']).next().unwrap_or(name).to_ascii_lowercase();
+    if file.ends_with(".nii.gz") {
+        return "nii.gz".to_owned();
+    }
+    file.rsplit_once('.').map_or_else(String::new, |(_, ending)| ending.to_owned())
+}
+
+/// Whether [`open`] knows what to do with a file of this name.
+#[must_use]
+pub fn is_readable(name: &str) -> bool {
+    let formats = ["txt", "npy", "npz", "vti", "vtp", "vtk", "nrrd", "nhdr", "nii", "nii.gz", "png"];
+    formats.contains(&format_of(name).as_str())
+}
+
+/// Reads a file of any format by its ending. `bytes_of` gives the bytes of a file by its name: this one, the data file of
+/// an NRRD header (in the same folder) and the mask.
+///
+/// # Errors
+/// See [`InputError`].
+pub fn open(
+    name: &str,
+    reading: &Reading,
+    bytes_of: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
+) -> Result<TensorFile, InputError> {
+    if !is_readable(name) || (format_of(name) == "png" && reading.derive.is_none()) {
+        return Err(InputError::Ending);
+    }
+    let mut read = |name: &str| bytes_of(name).map_err(|words| InputError::Unread { words });
+    let (kind, mut lattice, mut hashed) =
+        lattice_of(name, reading.array.as_deref(), reading.wanted(), &mut read)?;
+    if reading.wanted() == Wanted::Tensors {
+        lattice = lattice.with_mask_apart();
+    }
+    if let Some(mask) = &reading.mask {
+        let (values, bytes) = mask_values(mask, lattice.size, &mut read)?;
+        lattice.mask = Some(values);
+        hashed.extend(bytes);
+    }
+    if let Some(mask) = &mut lattice.mask {
+        mask.iter_mut().for_each(|m| *m = if *m > reading.mask_above { *m } else { 0.0 });
+    }
+    let blake3 = hash_of_bytes(&hashed);
+    let content = if reading.derive.is_some() || (lattice.components == 1 && reading.order.is_none()) {
+        Content::Numbers(lattice)
+    } else {
+        let words = tigereye_io::volume::Reading { order: reading.order.as_deref(), frame: reading.frame };
+        Content::Tensors(lattice.tensors(words)?)
+    };
+    Ok(TensorFile { name: name.to_owned(), kind, blake3, content })
+}
+
+type Read<'a> = dyn FnMut(&str) -> Result<Vec<u8>, InputError> + 'a;
+
+/// The format, the numbers, and the bytes they come from.
+fn lattice_of(
+    name: &str,
+    array: Option<&str>,
+    wanted: Wanted,
+    read: &mut Read,
+) -> Result<(&'static str, Lattice, Vec<u8>), InputError> {
+    let bytes = read(name)?;
+    let (kind, lattice) = match format_of(name).as_str() {
+        "txt" => (TEXT_MATRICES, matrices::read(&bytes).map(|field| Lattice::from_field(&field))),
+        "npy" => ("NumPy array", npy::read_lattice(&bytes, wanted)),
+        "npz" => ("NumPy archive", from_archive(&bytes, array, wanted)),
+        "vti" => ("VTK image data", vti::read(&bytes).and_then(|i| lattice_from_image(&i, array, wanted))),
+        "vtp" => ("VTK poly data", vtp::read(&bytes).and_then(|d| lattice_from_points(d, array, wanted))),
+        "vtk" => ("legacy VTK", legacy::read(&bytes).and_then(|i| lattice_from_image(&i, array, wanted))),
+        "nii" | "nii.gz" => ("NIfTI-1", nifti::read(&bytes)),
+        "png" => ("PNG picture", picture::read_png(&bytes)),
+        "nrrd" | "nhdr" => {
+            let detached = nrrd::data_file(&bytes)?;
+            let data = detached.as_ref().map(|data| read(&beside(name, data))).transpose()?;
+            let lattice = nrrd::read_with_limits(&bytes, data.as_deref(), wanted, Limits::default());
+            let lattice = lattice.map_err(|source| InputError::File { source, detached })?;
+            return Ok(("NRRD", lattice, [bytes, data.unwrap_or_default()].concat()));
+        }
+        _ => return Err(InputError::Ending),
+    };
+    Ok((kind, lattice?, bytes))
+}
+
+fn from_archive(bytes: &[u8], array: Option<&str>, wanted: Wanted) -> Result<Lattice, IoError> {
+    let (name, bytes) = npy::array_of_archive(bytes, array)?;
+    let mut lattice = npy::read_lattice(&bytes, wanted)?;
+    lattice.array = name;
+    Ok(lattice)
+}
+
+/// A file in the folder of another one.
+fn beside(name: &str, file: &str) -> String {
+    name.rfind(['/', '\\']).map_or_else(|| file.to_owned(), |at| format!("{}{file}", &name[..=at]))
+}
+
+/// One number a voxel of a lattice of `size`, and the bytes they come from.
+fn mask_values(mask: &str, size: [usize; 3], read: &mut Read) -> Result<(Vec<f64>, Vec<u8>), InputError> {
+    let fault = |words: String| InputError::Mask { mask: mask.to_owned(), words };
+    if !is_readable(mask) {
+        return Err(fault(InputError::Ending.to_string()));
+    }
+    let (_, lattice, bytes) = match lattice_of(mask, None, Wanted::Scalars, read) {
+        Err(e @ InputError::Unread { .. }) => return Err(e),
+        other => other.map_err(|e| fault(e.to_string()))?,
+    };
+    if lattice.components != 1 {
+        return Err(fault(format!("{} numbers a voxel: expected one", lattice.components)));
+    }
+    if lattice.size != size {
+        return Err(InputError::MaskSize { mask: mask.to_owned(), found: lattice.size, expected: size });
+    }
+    Ok((lattice.values, bytes))
+}
+
+impl TensorFile {
+    /// Voxels along the axes.
+    #[must_use]
+    pub const fn size(&self) -> [usize; 3] {
+        match &self.content {
+            Content::Tensors(volume) => volume.lattice().size,
+            Content::Numbers(lattice) => lattice.size,
+        }
+    }
+
+    /// Whether a plane is chosen, or there is only one.
+    #[must_use]
+    pub fn has_plane(&self, reading: &Reading) -> bool {
+        reading.choice != PlaneChoice::default() || reading.choice.resolve(self.size()).is_ok()
+    }
+
+    /// Why the component order looks wrong, and what would look right.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        let Content::Tensors(volume) = &self.content else { return None };
+        let s = volume.suspicion()?;
+        Some(format!(
+            "{:.1} % of the tensors have a negative eigenvalue in this component order and {:.1} % in the order of \
+             {} ({}): see --order",
+            100.0 * s.share,
+            100.0 * s.better,
+            s.tools,
+            s.order
+        ))
+    }
+
+    /// What had to be assumed about the components, in a sentence.
+    #[must_use]
+    pub fn assumption(&self) -> Option<String> {
+        let Content::Tensors(volume) = &self.content else { return None };
+        let (order, frame) = (volume.order(), volume.frame());
+        let order_words = format!("component order {} (--order)", order.0);
+        let frame_words = format!("components along the {} axes (--frame)", frame.0.name());
+        match (order.1 == Known::Assumed, frame.1 == Known::Assumed) {
+            (true, true) => Some(format!("assumed {order_words} and {frame_words}")),
+            (true, false) => Some(format!("assumed {order_words}")),
+            (false, true) => Some(format!("assumed {frame_words}")),
+            (false, false) => None,
+        }
+    }
+
+    /// What everybody must hear: assumptions that options could replace, and warnings.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        let warning = self.warning().map(|w| format!("WARNING: {w}"));
+        self.assumption().into_iter().chain(warning).collect()
+    }
+}

@@ -1,0 +1,103 @@
+//! Data files of every readable format as tensor fields in the plane, with what was read and what was assumed.
+//!
+//! ```text
+//! bytes --io--> Lattice --tensors--> TensorVolume --slice--> Field<Tensor2>
+//!                  |                                             ^
+//!                  '--slice--> scalars, vectors --derivatives----'     then crop and resample
+//! ```
+//!
+//! The program's commands and the fields of experiment files go the same way. Whoever calls reads the bytes.
+
+mod file;
+mod plane;
+mod reading;
+mod threshold;
+
+pub use file::{Content, TEXT_MATRICES, TensorFile, format_of, is_readable, open};
+pub use plane::PlaneField;
+pub use reading::{Derivation, Derived, Reading};
+pub use threshold::suggested_local_above;
+
+use thiserror::Error;
+use tigereye_fields::FieldError;
+use tigereye_io::IoError;
+
+/// What keeps a file from being a tensor field.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum InputError {
+    /// The bytes of a file are not to be had; in the words of whoever reads them.
+    #[error("{words}")]
+    Unread {
+        /// What went wrong, with the file's name.
+        words: String,
+    },
+    /// An ending that tells no format.
+    #[error(
+        "its ending is not readable: expected .txt, .npy, .npz, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz, or .png \
+         with --derive"
+    )]
+    Ending,
+    /// What the file's reader says.
+    #[error("{}{source}{}", detached.as_ref().map_or(String::new(), |d| format!("with its data in {d}: ")), hint(source))]
+    File {
+        /// The reader's words.
+        source: IoError,
+        /// The data file of a header.
+        detached: Option<String>,
+    },
+    /// Numbers or vectors where tensors are needed.
+    #[error("holds {components} a voxel: expected tensors, or --derive gradient, hessian or structure")]
+    NoTensors {
+        /// Words for what is there.
+        components: &'static str,
+    },
+    /// A mask of another size.
+    #[error("mask {mask}: {} x {} x {} voxels: expected {} x {} x {}", found[0], found[1], found[2], expected[0], expected[1], expected[2])]
+    MaskSize {
+        /// Name of the mask's file.
+        mask: String,
+        /// Its voxels along each axis.
+        found: [usize; 3],
+        /// Those of the input.
+        expected: [usize; 3],
+    },
+    /// A mask that cannot be read, or is no image of single numbers.
+    #[error("mask {mask}: {words}")]
+    Mask {
+        /// Name of the mask's file.
+        mask: String,
+        /// What is wrong with it.
+        words: String,
+    },
+    /// A tensor with a component that is infinite or not a number.
+    #[error(
+        "the tensor of cell ({x}, {y}) is not finite ({count} such tensors): expected numbers, or --not-finite zero"
+    )]
+    NotFinite {
+        /// Column of the first one.
+        x: usize,
+        /// Its row.
+        y: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A size that no field has.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+}
+
+/// Which option helps.
+const fn hint(source: &IoError) -> &'static str {
+    match source {
+        IoError::PlaneNeeded { .. } => " (option --slice AXIS=INDEX)",
+        IoError::SliceNeeded { .. } => " (option --slice)",
+        IoError::AmbiguousArray { .. } | IoError::Archive { .. } => " (option --array)",
+        _ => "",
+    }
+}
+
+impl From<IoError> for InputError {
+    fn from(source: IoError) -> Self {
+        Self::File { source, detached: None }
+    }
+}

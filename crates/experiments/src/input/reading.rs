@@ -1,0 +1,96 @@
+//! What a user says about a file.
+
+use tigereye_io::Wanted;
+use tigereye_io::volume::{Crop, Frame, PlaneChoice};
+
+/// What files do not state, the plane of a volume, and what becomes of its values. The default says nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    /// Array of a VTK file or `.npz` archive.
+    pub array: Option<String>,
+    /// Component order: a tool's name or component names.
+    pub order: Option<String>,
+    /// Axes that the components are along.
+    pub frame: Option<Frame>,
+    /// Plane and slice of a volume.
+    pub choice: PlaneChoice,
+    /// Part of the plane.
+    pub crop: Option<Crop>,
+    /// Columns and rows that the field is resampled to.
+    pub resample: Option<[usize; 2]>,
+    /// Tensors made of numbers or vectors.
+    pub derive: Option<Derivation>,
+    /// File with one number a voxel; where it is not above [`Self::mask_above`], tensors become zero.
+    pub mask: Option<String>,
+    /// Confidence that a mask (of its own file, or in NRRD) must exceed.
+    pub mask_above: f64,
+    /// Whether tensors that are not finite become zero instead of being refused.
+    pub zero_not_finite: bool,
+}
+
+/// Which tensors, at which scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Derivation {
+    /// Which tensors.
+    pub kind: Derived,
+    /// Standard deviation of the Gaussian that derivatives are taken of, cells.
+    pub sigma: f64,
+    /// Standard deviation of the window that structure tensors are averaged over, cells.
+    pub window: f64,
+}
+
+/// Tensors of images.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Derived {
+    /// Gradient of a vector field.
+    Gradient,
+    /// Second derivatives of a scalar field.
+    Hessian,
+    /// Averaged products of a scalar field's derivatives.
+    Structure,
+}
+
+impl Derived {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Gradient, Self::Hessian, Self::Structure];
+
+    /// `gradient`, `hessian` or `structure`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Gradient => "gradient",
+            Self::Hessian => "hessian",
+            Self::Structure => "structure",
+        }
+    }
+
+    /// The kind of a name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|d| d.name() == name)
+    }
+
+    /// The scale where nobody says another: differences of neighbours for vectors, one cell for images.
+    #[must_use]
+    pub const fn usual_sigma(self) -> f64 {
+        match self {
+            Self::Gradient => 0.0,
+            Self::Hessian | Self::Structure => 1.0,
+        }
+    }
+
+    /// The window where nobody says another, cells.
+    pub const USUAL_WINDOW: f64 = 4.0;
+}
+
+impl Reading {
+    /// What the tuples of the file must be.
+    #[must_use]
+    pub const fn wanted(&self) -> Wanted {
+        match self.derive {
+            None => Wanted::Tensors,
+            Some(Derivation { kind: Derived::Gradient, .. }) => Wanted::Vectors,
+            Some(_) => Wanted::Scalars,
+        }
+    }
+}

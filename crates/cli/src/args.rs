@@ -296,7 +296,7 @@ pub(crate) struct PropagateArgs {
     /// Exactly N steps instead of a stopping rule.
     #[arg(long, value_name = "N", value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) steps: Option<usize>,
-    /// Outputs by their endings: .vti, .npy, .png, .svg.
+    /// Outputs by their endings: .vti, .npy, .png, .svg; .pvd has a frame for every step, in the folder NAME beside NAME.pvd.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// What pictures show.
@@ -339,6 +339,9 @@ pub(crate) struct LtgArgs {
     pub(crate) precision: Precision,
     #[command(flatten)]
     pub(crate) resources: Resources,
+    /// Write NAME.view.py beside NAME.vti: it opens the volume in ParaView with contours and a slice.
+    #[arg(long)]
+    pub(crate) view: bool,
     /// Keep what is finished in DIR/checkpoint.part; the same command again continues.
     #[arg(long, value_name = "DIR")]
     pub(crate) checkpoint: Option<PathBuf>,
@@ -392,6 +395,10 @@ pub(crate) struct ConvertArgs {
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
+    /// Add the fractional anisotropy, mean diffusivity and mode of every voxel as arrays `FA`, `MD` and `mode`; for whole
+    /// volumes written as .vti, .vtp or .vtk.
+    #[arg(long)]
+    pub(crate) invariants: bool,
     /// Replace an output that exists.
     #[arg(long)]
     pub(crate) force: bool,

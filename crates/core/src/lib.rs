@@ -28,7 +28,7 @@ pub use field::Field;
 pub use grid::{Cell, Grid, NEIGHBOUR_OFFSETS};
 pub use profile::PolarProfile;
 pub use results::{LightDistribution, LtgVolume, StopReason, SweepWork, Work};
-pub use symmetric3::{fractional_anisotropy3, symmetric_eigenvalues3};
+pub use symmetric3::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
 pub use tensor::Tensor2;
 pub use transmission::{
     Below, Normalization, TOTAL_ANISOTROPY_RATIO, TransmissionField, is_totally_anisotropic,

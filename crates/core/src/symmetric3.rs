@@ -68,6 +68,24 @@ pub fn fractional_anisotropy3(l: [f64; 3]) -> f64 {
     (0.5 * deviator / (a * a + b * b + c * c)).sqrt()
 }
 
+/// Mode of three eigenvalues, from -1 (one small, planar) over 0 (orthotropic) to 1 (one large, linear): the determinant of
+/// the deviator of norm 1, times 3 sqrt(6) (Criscione et al. 2000; Ennis and Kindlmann 2006). 0 for isotropic tensors.
+#[must_use]
+pub fn mode3(l: [f64; 3]) -> f64 {
+    let largest = l.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    if largest == 0.0 {
+        return 0.0;
+    }
+    let scaled = l.map(|v| v / largest);
+    let mean = (scaled[0] + scaled[1] + scaled[2]) / 3.0;
+    let [a, b, c] = scaled.map(|v| v - mean);
+    let norm = (a * a + b * b + c * c).sqrt();
+    if norm == 0.0 {
+        return 0.0;
+    }
+    (3.0 * 6.0_f64.sqrt() * (a / norm) * (b / norm) * (c / norm)).clamp(-1.0, 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -93,6 +111,16 @@ mod tests {
             near([scale, scale, 0.0, scale, scale, 0.0, 0.0, 0.0, scale], [2.0 * scale, scale, 0.0]);
         }
         assert!(symmetric_eigenvalues3(&[f64::NAN; 9])[0].is_nan());
+    }
+
+    #[test]
+    fn mode_tells_linear_from_planar() {
+        for (l, mode) in
+            [([3.0, 1.0, 1.0], 1.0), ([3.0, 3.0, 1.0], -1.0), ([3.0, 2.0, 1.0], 0.0), ([2.0; 3], 0.0)]
+        {
+            assert!((mode3(l) - mode).abs() < 1e-14 && (mode3(l.map(|v| v * 1e-200)) - mode).abs() < 1e-14);
+        }
+        assert_eq!(mode3([0.0; 3]), 0.0);
     }
 
     #[test]

@@ -27,6 +27,7 @@ pub mod part;
 pub mod picture;
 mod points;
 mod polydata;
+pub mod pvd;
 mod scalar;
 pub mod volume;
 pub mod vti;
@@ -36,7 +37,8 @@ mod xml;
 
 pub use convert::{
     Association, ComponentOrder, LTG_ARRAY, LtgImage, PROVENANCE, SLICES, TENSOR_ARRAY, TensorImage, Wanted,
-    image_from_light, image_from_ltg, image_from_tensors, ltg_from_image, tensors_from_image,
+    image_from_light, image_from_ltg, image_from_tensors, image_of_energy, ltg_from_image,
+    tensors_from_image,
 };
 pub use error::IoError;
 pub use image::{ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData};

@@ -6,10 +6,11 @@ use crate::error::CliError;
 use crate::input::{Input, Source, insert_reading};
 use crate::{files, interrupt};
 use serde_json::json;
+use tigereye_core::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
 use tigereye_experiments::input::{Content, TensorFile, format_of};
 use tigereye_experiments::provenance::provenance;
 use tigereye_io::volume::{Frame, TensorVolume, image_from_volume, points_from_image};
-use tigereye_io::{ImageData, IoError, legacy, matrices, nifti, npy, nrrd, vti, vtp};
+use tigereye_io::{DataArray, ImageData, IoError, legacy, matrices, nifti, npy, nrrd, vti, vtp};
 
 /// What can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +40,11 @@ impl Format {
         })
     }
 
+    /// Whether there is room for arrays beside the tensors.
+    const fn has_arrays(self) -> bool {
+        matches!(self, Self::ImageData | Self::PolyData | Self::Legacy)
+    }
+
     /// Whether only a plane fits.
     const fn is_flat(self) -> bool {
         matches!(self, Self::Matrices | Self::Numpy)
@@ -57,6 +63,9 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
         return Err(CliError::input(&name, "exists already: expected another name, or --force"));
     }
     let reading = args.reading.reading();
+    if args.invariants && !format.has_arrays() {
+        return Err(CliError::input(&name, "has no place for --invariants: expected .vti, .vtp or .vtk"));
+    }
     let source = Source::open(&args.input, &args.reading)?;
     let bytes = match &source {
         Source::File(file @ TensorFile { content: Content::Tensors(volume), .. })
@@ -69,6 +78,9 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             encoded(format, volume, args, &file.blake3)
         }
         _ => {
+            if args.invariants {
+                return Err(CliError::input("--invariants", "those of a whole volume: expected no plane"));
+            }
             let input = Input::of(source, &args.reading)?;
             input.tell();
             match format {
@@ -100,6 +112,9 @@ fn encoded(
     let image = || -> Result<ImageData, IoError> {
         let frame = args.reading.reading().frame.unwrap_or(Frame::World);
         let mut image = image_from_volume(volume, frame)?;
+        if args.invariants {
+            image.point_arrays.extend(invariants(&image.point_arrays[0]));
+        }
         image.push_text(tigereye_io::PROVENANCE, &story);
         Ok(image)
     };
@@ -114,4 +129,14 @@ fn encoded(
         Format::NiftiPacked => nifti::write_packed(volume, &story),
         Format::ImageData | Format::Matrices | Format::Numpy => vti::write(&image()?),
     }
+}
+
+/// FA, MD and mode of 3x3 tensors, row by row.
+fn invariants(tensors: &DataArray) -> [DataArray; 3] {
+    let eigenvalues: Vec<[f64; 3]> =
+        tensors.values.as_chunks::<9>().0.iter().map(symmetric_eigenvalues3).collect();
+    let array = |name: &str, f: fn([f64; 3]) -> f64| {
+        DataArray::new(name, 1, eigenvalues.iter().map(|&l| f(l)).collect())
+    };
+    [array("FA", fractional_anisotropy3), array("MD", |l| (l[0] + l[1] + l[2]) / 3.0), array("mode", mode3)]
 }

@@ -41,6 +41,9 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
             let story = provenance(&command_line(), &parameters, &input.blake3);
             let outcome = computed.into_outcome().map_err(fault)?;
             volume::write(&args.outputs, &outcome.volume, &args.input, &story)?;
+            if args.view {
+                volume::write_scripts(&args.outputs)?;
+            }
         }
     }
     if args.json {
@@ -59,7 +62,7 @@ fn check_places(args: &LtgArgs) -> Result<(), CliError> {
             let problem = "a part needs --shard K/N: expected .vti, .npy, .png or .svg";
             return Err(CliError::input(&output.display().to_string(), problem));
         }
-        return check_outputs(&args.outputs);
+        return check_outputs(&args.outputs, &volume::ENDINGS);
     }
     match args.outputs.as_slice() {
         [output] if is_part(output) => files::check_writable(output),

@@ -23,7 +23,7 @@ struct Taken {
 }
 
 pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
-    check_outputs(&args.outputs)?;
+    check_outputs(&args.outputs, &volume::ENDINGS)?;
     let mut taken: Vec<Taken> = Vec::new();
     let mut sum = None;
     for path in &args.parts {

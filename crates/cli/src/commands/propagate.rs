@@ -9,11 +9,11 @@ use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use tigereye_core::{Cell, Normalization, PolarProfile, StopReason, TransmissionField};
+use tigereye_core::{Cell, LightDistribution, Normalization, PolarProfile, StopReason, TransmissionField};
 use tigereye_experiments::normalization_name;
 use tigereye_experiments::provenance::provenance;
 use tigereye_experiments::settings::profile_of_expression;
-use tigereye_io::{npy, vti};
+use tigereye_io::{npy, pvd, vti};
 use tigereye_render::{
     HeatOptions, HeatScale, PolarOptions, Scene, TransmissionScale, heat_map, polar_overlay,
 };
@@ -25,7 +25,7 @@ use tigereye_transport::{
 pub(super) const PNG_SCALE: f64 = 2.0;
 
 pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
-    check_outputs(&args.outputs)?;
+    check_outputs(&args.outputs, &["vti", "npy", "png", "svg", "pvd"])?;
     let start = Instant::now();
     let input = Input::open(&args.input, &args.scheme.reading)?;
     let normalization = input.normalization(args.scheme.normalization);
@@ -35,25 +35,39 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     let scheme = Scheme::new(args.scheme.directions, SharedWeights::Thesis);
     let stopping = args.steps.map_or_else(|| stopping_of(&args.scheme), Stopping::steps);
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
+    let mut frames = args.outputs.iter().any(|o| is_collection(o)).then(Frames::default);
+    problem.check().map_err(|e| CliError::input("--light", e))?;
+    if let Some(frames) = &mut frames {
+        frames.add(&problem.before_first_step())?;
+    }
+    let mut fault = None;
     let outcome = EightLobe
-        .propagate_observed(&problem, &mut |_| {
-            if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        .propagate_observed(&problem, &mut |view| {
+            if let Some(frames) = &mut frames {
+                fault = frames.add(&view.distribution()).err();
+            }
+            let end = interrupt::asked() || fault.is_some();
+            if end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })
         .map_err(|e| CliError::input("--light", e))?;
     interrupt::check()?;
+    fault.map_or(Ok(()), Err)?;
     let parameters = parameters(args, &stopping, normalization);
     for output in &args.outputs {
-        files::write(output, &encoded(output, args, &input, &problem, &outcome, &parameters)?)?;
+        match &frames {
+            Some(frames) if is_collection(output) => frames.write(output)?,
+            _ => files::write(output, &encoded(output, args, &input, &problem, &outcome, &parameters)?)?,
+        }
     }
     report(args, &input, &outcome, start.elapsed().as_secs_f64())?;
     Ok(0)
 }
 
 /// Refuses outputs before anything is computed.
-pub(super) fn check_outputs(outputs: &[PathBuf]) -> Result<(), CliError> {
+pub(super) fn check_outputs(outputs: &[PathBuf], endings: &[&str]) -> Result<(), CliError> {
     let mut seen = Vec::new();
     for output in outputs {
-        check_output(output)?;
+        check_output(output, endings)?;
         let place = files::place_of(output);
         if seen.contains(&place) {
             return Err(CliError::input(&output.display().to_string(), "this output is named twice"));
@@ -63,13 +77,52 @@ pub(super) fn check_outputs(outputs: &[PathBuf]) -> Result<(), CliError> {
     Ok(())
 }
 
-fn check_output(output: &Path) -> Result<(), CliError> {
-    match files::extension(output).as_str() {
-        "vti" | "npy" | "png" | "svg" => files::check_writable(output),
-        _ => Err(CliError::input(
-            &output.display().to_string(),
-            "the ending tells the format: expected .vti, .npy, .png or .svg",
-        )),
+fn check_output(output: &Path, endings: &[&str]) -> Result<(), CliError> {
+    if endings.contains(&files::extension(output).as_str()) {
+        return files::check_writable(output);
+    }
+    let expected: Vec<String> = endings.iter().map(|e| format!(".{e}")).collect();
+    let problem = format!("the ending tells the format: expected one of {}", expected.join(", "));
+    Err(CliError::input(&output.display().to_string(), problem))
+}
+
+fn is_collection(output: &Path) -> bool {
+    files::extension(output) == "pvd"
+}
+
+/// Most steps that are kept as frames.
+const MAX_FRAMES: usize = 10_000;
+
+/// The light after every step, as images of energy and net flux; the first before any step.
+#[derive(Default)]
+struct Frames {
+    images: Vec<Vec<u8>>,
+}
+
+impl Frames {
+    fn add(&mut self, light: &LightDistribution) -> Result<(), CliError> {
+        if self.images.len() >= MAX_FRAMES {
+            let problem = format!("more than {MAX_FRAMES} steps: expected fewer for a .pvd (--steps)");
+            return Err(CliError::input("-o", problem));
+        }
+        let bytes = vti::write(&tigereye_io::image_of_energy(light));
+        self.images.push(bytes.map_err(|e| CliError::input("a frame", e))?);
+        Ok(())
+    }
+
+    /// Writes `NAME.pvd` and its frames into the folder `NAME` beside it; the collection last, when all it names is there.
+    fn write(&self, output: &Path) -> Result<(), CliError> {
+        let folder = output.with_extension("");
+        let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        files::make_folder(&folder)?;
+        let mut list = Vec::new();
+        for (step, image) in self.images.iter().enumerate() {
+            let file = format!("{step:04}.vti");
+            files::write(&folder.join(&file), image)?;
+            list.push((step as f64, format!("{name}/{file}")));
+        }
+        let bytes = pvd::write(&list).map_err(|e| CliError::input(&output.display().to_string(), e))?;
+        files::write(output, &bytes)
     }
 }
 

@@ -9,6 +9,21 @@ use tigereye_core::{Field, LtgVolume};
 use tigereye_io::{npy, vti};
 use tigereye_render::{HeatOptions, Scene, heat_map};
 
+/// Endings of files that hold volumes, or pictures of them.
+pub(super) const ENDINGS: [&str; 4] = ["vti", "npy", "png", "svg"];
+
+/// Beside every image file, a script that opens it in ParaView.
+pub(super) fn write_scripts(outputs: &[PathBuf]) -> Result<(), CliError> {
+    for output in outputs.iter().filter(|o| files::extension(o) == "vti") {
+        let name = output.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        // Inside a Python string.
+        let name = name.replace('\\', "\\\\").replace('"', "\\\"");
+        let script = include_str!("view.py").replace("FILE", &name);
+        files::write(&output.with_extension("view.py"), script.as_bytes())?;
+    }
+    Ok(())
+}
+
 /// Writes a volume to every output. `title` heads pictures, `story` is the provenance.
 pub(super) fn write(
     outputs: &[PathBuf],

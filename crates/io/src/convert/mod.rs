@@ -5,7 +5,7 @@ mod ltg;
 mod order;
 mod tensors;
 
-pub use light::image_from_light;
+pub use light::{image_from_light, image_of_energy};
 pub use ltg::{LTG_ARRAY, LtgImage, SLICES, image_from_ltg, ltg_from_image};
 pub use order::ComponentOrder;
 pub(crate) use tensors::choose_array;

@@ -113,7 +113,7 @@ fn encoded(
         let frame = args.reading.reading().frame.unwrap_or(Frame::World);
         let mut image = image_from_volume(volume, frame)?;
         if args.invariants {
-            image.point_arrays.extend(invariants(&image.point_arrays[0]));
+            image.point_arrays.extend(invariants(volume));
         }
         image.push_text(tigereye_io::PROVENANCE, &story);
         Ok(image)
@@ -131,10 +131,13 @@ fn encoded(
     }
 }
 
-/// FA, MD and mode of 3x3 tensors, row by row.
-fn invariants(tensors: &DataArray) -> [DataArray; 3] {
-    let eigenvalues: Vec<[f64; 3]> =
-        tensors.values.as_chunks::<9>().0.iter().map(symmetric_eigenvalues3).collect();
+/// FA, MD and mode of every voxel, 0 where the mask is. They depend on no frame, and turning by axes in single precision
+/// would cost digits, so they are taken of the tensors as stored.
+fn invariants(volume: &TensorVolume) -> [DataArray; 3] {
+    let eigenvalues = |(voxel, t): (usize, [f64; 9])| {
+        if volume.is_masked(voxel) { [0.0; 3] } else { symmetric_eigenvalues3(&t) }
+    };
+    let eigenvalues: Vec<[f64; 3]> = volume.tensors().enumerate().map(eigenvalues).collect();
     let array = |name: &str, f: fn([f64; 3]) -> f64| {
         DataArray::new(name, 1, eigenvalues.iter().map(|&l| f(l)).collect())
     };

@@ -1,6 +1,6 @@
-"""Opens FILE in ParaView as a volume, contours and a slice.
+"""Opens a light transport gradient in ParaView as a volume, a contour and a slice.
 
-Run it with `pvpython --force-offscreen-rendering` or `paraview --script=`, from any folder. The third axis of the data is the direction in which
+Run it with `paraview --script=THIS_FILE` or `pvpython THIS_FILE`. The third axis of the data is the direction in which
 pulses are sent, from 0 to 360 degrees; rows run downwards in the data, so the camera looks from behind.
 """
 

@@ -321,3 +321,38 @@ fn help_and_version_are_data() {
         assert!(!place.succeeds(args).stdout.is_empty());
     }
 }
+
+/// A collection names one image for the start and one for every step; the last is the light of the other outputs.
+#[test]
+fn steps_become_frames_of_a_collection() {
+    let place = Place::new();
+    let run = ["propagate", "inverse:size=7", "--light", "3,3", "--impulse", "--steps", "4"];
+    place.succeeds(&[&run[..], &["-o", "pulse.pvd", "end.vti"]].concat());
+    let collection = String::from_utf8(place.read("pulse.pvd")).unwrap();
+    let energy = |file: &str| {
+        let image = tigereye_io::vti::read(&place.read(file)).unwrap();
+        image.point_array("energy").unwrap().values.clone()
+    };
+    for step in 0..=4 {
+        let file = format!("pulse/{step:04}.vti");
+        assert!(
+            collection.contains(&format!("timestep=\"{step}.0\" part=\"0\" file=\"{file}\"")),
+            "{collection}"
+        );
+        assert!(energy(&file).iter().sum::<f64>() > 0.0);
+    }
+    assert_eq!(energy("pulse/0004.vti"), energy("end.vti"));
+    assert_eq!(energy("pulse/0000.vti").iter().filter(|e| **e > 0.0).count(), 1);
+    place.refuses(&["ltg", "inverse:size=5", "-o", "g.pvd"], &["g.pvd", ".vti, .npy, .png, .svg"]);
+}
+
+#[test]
+fn a_script_for_paraview_lies_beside_the_volume() {
+    let place = Place::new();
+    place.succeeds(&["ltg", "inverse:size=5", "--directions", "8", "-o", "a \"b\".vti", "--view"]);
+    let script = String::from_utf8(place.read("a \"b\".view.py")).unwrap();
+    assert!(
+        script.contains(r#"os.path.join(here, "a \"b\".vti")"#) && !script.contains("\"FILE\""),
+        "{script}"
+    );
+}

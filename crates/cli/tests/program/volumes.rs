@@ -199,3 +199,24 @@ fn wrong_orders_are_warned_of() {
     );
     place.succeeds(&["convert", &input, "p.npy", "--slice", "z=3", "--order", "fsl", "--frame", "voxel"]);
 }
+
+#[test]
+fn invariants_are_arrays_beside_the_tensors() {
+    let place = Place::new();
+    place.write("v.nrrd", nrrd());
+    place.succeeds(&["convert", "v.nrrd", "o.vti", "--invariants"]);
+    let image = tigereye_io::vti::read(&place.read("o.vti")).unwrap();
+    let first = |name: &str| image.point_array(name).unwrap().values[0];
+    // xx 1, yy 20, zz 30, xz 0.5.
+    assert!((first("MD") - 17.0).abs() < 1e-12, "{}", first("MD"));
+    let fa = tigereye_core::fractional_anisotropy3(tigereye_core::symmetric_eigenvalues3(&[
+        1.0, 0.0, 0.5, 0.0, 20.0, 0.0, 0.5, 0.0, 30.0,
+    ]));
+    assert_eq!(first("FA"), fa);
+    assert!(first("mode") < 0.0 && first("mode") > -1.0, "rather planar: {}", first("mode"));
+    let refuses = |options: &[&str], words: &str| {
+        place.refuses(&[&["convert", "v.nrrd"], options, &["--invariants"]].concat(), &[words]);
+    };
+    refuses(&["o.nii"], "expected .vti, .vtp or .vtk");
+    refuses(&["p.vti", "--slice", "z=0"], "whole volume");
+}

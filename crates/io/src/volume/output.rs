@@ -59,7 +59,8 @@ impl TensorVolume {
     }
 
     /// Whether the file says that nothing was measured in a voxel.
-    pub(crate) fn is_masked(&self, voxel: usize) -> bool {
+    #[must_use]
+    pub fn is_masked(&self, voxel: usize) -> bool {
         self.lattice.mask.as_ref().is_some_and(|m| m.get(voxel) == Some(&0.0))
     }
 

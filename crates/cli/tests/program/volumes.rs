@@ -204,7 +204,7 @@ fn wrong_orders_are_warned_of() {
 fn invariants_are_arrays_beside_the_tensors() {
     let place = Place::new();
     place.write("v.nrrd", nrrd());
-    place.succeeds(&["convert", "v.nrrd", "o.vti", "--invariants"]);
+    place.succeeds(&["convert", "v.nrrd", "o.vti", "--invariants", "--frame", "world"]);
     let image = tigereye_io::vti::read(&place.read("o.vti")).unwrap();
     let first = |name: &str| image.point_array(name).unwrap().values[0];
     // xx 1, yy 20, zz 30, xz 0.5.

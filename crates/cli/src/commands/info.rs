@@ -12,7 +12,7 @@ use std::path::Path;
 use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Tensor2, is_totally_anisotropic};
 use tigereye_experiments::input::{Content, Reading, TensorFile, suggested_local_above};
 use tigereye_io::volume::lattice_from_image;
-use tigereye_io::{DataArray, PROVENANCE, Wanted, vti};
+use tigereye_io::{DataArray, IoError, PROVENANCE, Wanted, vti};
 
 /// Relative difference of the half-axes below which a tensor counts as degenerate.
 const DEGENERATE_BELOW: f64 = 1e-9;
@@ -64,20 +64,21 @@ pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
     Ok(0)
 }
 
-/// Image data without tensors, such as a gradient volume or a light distribution: its arrays and its provenance.
+/// Image data without tensors, such as a gradient volume or a light distribution: its arrays and, where there is one, its
+/// provenance.
 fn facts_of_result(args: &InfoArgs) -> Result<Option<Value>, CliError> {
     let path = Path::new(&args.input);
     if files::extension(path) != "vti" || args.reading.reading() != Reading::default() {
         return Ok(None);
     }
     let image = vti::read(&files::read(path)?).map_err(|e| CliError::input(&args.input, e))?;
-    if image.text(PROVENANCE).is_none() || lattice_from_image(&image, None, Wanted::Tensors).is_ok() {
+    if !matches!(lattice_from_image(&image, None, Wanted::Tensors), Err(IoError::NoArray { .. })) {
         return Ok(None);
     }
     let arrays: Vec<Value> = image.point_arrays.iter().map(array_facts).collect();
     Ok(Some(json!({
         "input": args.input,
-        "kind": "result of tigereye",
+        "kind": if image.text(PROVENANCE).is_some() { "result of tigereye" } else { "VTK image data" },
         "dimensions": image.dimensions,
         "arrays": arrays,
         "provenance": image.text(PROVENANCE).and_then(|t| serde_json::from_str::<Value>(t).ok()),
@@ -92,8 +93,9 @@ fn array_facts(array: &DataArray) -> Value {
 
 fn result_as_text(facts: &Value) -> String {
     let mut text = format!(
-        "{}: a result of tigereye, no tensor field; {} points\n",
+        "{} ({}): no tensor field; {} points\n",
         facts["input"].as_str().unwrap_or_default(),
+        facts["kind"].as_str().unwrap_or_default(),
         facts["dimensions"]
     );
     // Writing to a string cannot fail.
@@ -107,7 +109,9 @@ fn result_as_text(facts: &Value) -> String {
             array["max"]
         );
     }
-    let _ = writeln!(text, "  made by: {}", facts["provenance"]["command"].as_str().unwrap_or("unknown"));
+    if let Some(command) = facts["provenance"]["command"].as_str() {
+        let _ = writeln!(text, "  made by: {command}");
+    }
     text
 }
 

@@ -81,8 +81,9 @@ fn check_output(output: &Path, endings: &[&str]) -> Result<(), CliError> {
     if endings.contains(&files::extension(output).as_str()) {
         return files::check_writable(output);
     }
-    let expected: Vec<String> = endings.iter().map(|e| format!(".{e}")).collect();
-    let problem = format!("the ending tells the format: expected one of {}", expected.join(", "));
+    let mut expected = endings.iter().map(|e| format!(".{e}")).collect::<Vec<_>>();
+    let last = expected.pop().unwrap_or_default();
+    let problem = format!("the ending tells the format: expected {} or {last}", expected.join(", "));
     Err(CliError::input(&output.display().to_string(), problem))
 }
 

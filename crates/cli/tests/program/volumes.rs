@@ -220,3 +220,34 @@ fn invariants_are_arrays_beside_the_tensors() {
     refuses(&["o.nii"], "expected .vti, .vtp or .vtk");
     refuses(&["p.vti", "--slice", "z=0"], "whole volume");
 }
+
+/// Measured slices go through every command; gradient volumes of others are described.
+#[test]
+fn reference_files_work_with_every_command() {
+    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/reference");
+    let folder = std::env::var_os("TIGEREYE_REFERENCE").map_or_else(beside, PathBuf::from);
+    if !folder.is_dir() {
+        println!("skipped: no folder {} (set TIGEREYE_REFERENCE)", folder.display());
+        return;
+    }
+    let place = Place::new();
+    let manifest: Value =
+        serde_json::from_slice(&std::fs::read(folder.join("manifest.json")).unwrap()).unwrap();
+    for entry in manifest["real"].as_array().unwrap() {
+        let input = folder.join(entry["file"].as_str().unwrap()).display().to_string();
+        let facts = place.succeeds(&["info", &input, "--json"]).json();
+        assert_eq!(facts["width"], entry["width"], "{input}");
+        assert_eq!(facts["volume"]["zero_tensors"], entry["zero_tensors"], "{input}");
+        place.succeeds(&["convert", &input, "o.vtk", "--force"]);
+        place.succeeds(&["compare", &input, "o.vtk", "--tolerance", "0"]);
+        let part = ["--crop", "5:17,5:17", "--directions", "8"];
+        place.succeeds(&[&["ltg", &input, "-o", "g.vti"], &part[..]].concat());
+        place.succeeds(&[&["propagate", &input, "--light", "6,6", "-o", "l.vti"], &part[..]].concat());
+    }
+    for entry in manifest["volumes"].as_array().unwrap() {
+        let input = folder.join(entry["volume"].as_str().unwrap()).display().to_string();
+        let facts = place.succeeds(&["info", &input, "--json"]).json();
+        assert_eq!(facts["arrays"][0]["name"], "Energy", "{input}");
+        assert!(place.succeeds(&["info", &input]).stdout.contains("no tensor field"), "{input}");
+    }
+}

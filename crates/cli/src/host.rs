@@ -11,6 +11,19 @@ use tigereye_transport::Level;
 /// How many parents of an experiment's folder are searched for its data.
 const PARENTS: usize = 3;
 
+/// How the names of published reference files begin; they are not part of the project.
+const REFERENCE: &str = "reference/";
+/// The environment variable with the folder of these files; without it they are looked for beside the working folder.
+const REFERENCE_FOLDER: &str = "TIGEREYE_REFERENCE";
+const BESIDE: &str = "../shared/reference";
+
+/// Where a reference file is, if it is one and there.
+fn reference_file(path: &str) -> Option<PathBuf> {
+    let name = path.strip_prefix(REFERENCE)?;
+    let folder = std::env::var_os(REFERENCE_FOLDER).map_or_else(|| PathBuf::from(BESIDE), PathBuf::from);
+    Some(folder.join(name)).filter(|file| file.is_file())
+}
+
 /// The world of one experiment.
 pub(crate) struct FileHost {
     folder: Option<PathBuf>,
@@ -49,6 +62,9 @@ impl Host for FileHost {
     }
 
     fn read(&self, path: &str) -> Result<Vec<u8>, String> {
+        if let Some(file) = reference_file(path) {
+            return crate::files::read(&file).map_err(|e| e.to_string());
+        }
         let mut tried = Vec::new();
         let mut folder = self.folder.clone();
         for _ in 0..=PARENTS {

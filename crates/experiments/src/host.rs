@@ -11,6 +11,11 @@ pub trait Host: Sync {
     /// A sentence saying where it was looked for.
     fn read(&self, path: &str) -> Result<Vec<u8>, String>;
 
+    /// Whether there is such a file.
+    fn has(&self, path: &str) -> bool {
+        self.read(path).is_ok()
+    }
+
     /// Seconds on a clock that only goes forward, for runtimes in figures; they enter no check and no snapshot.
     fn seconds(&self) -> f64 {
         0.0

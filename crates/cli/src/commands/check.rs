@@ -1,7 +1,7 @@
 //! `tigereye check`: experiment files, parsed and validated.
 
 use crate::args::CheckArgs;
-use crate::commands::reproduce::{Source, prepare};
+use crate::commands::reproduce::{Prepared, Source, prepare};
 use crate::commands::{counted, print_text};
 use crate::error::CliError;
 
@@ -10,7 +10,11 @@ pub(crate) fn check(args: &CheckArgs) -> Result<u8, CliError> {
     for path in &args.files {
         // The full run is the stricter one: every run, figure and check is looked at.
         match Source::from_file(path).and_then(|source| prepare(&source, true)) {
-            Ok(settings) => {
+            Ok(Prepared::Lacks(file)) => {
+                let words = format!("{}: read, but it needs {file}, which is not there\n", path.display());
+                print_text(&words)?;
+            }
+            Ok(Prepared::Ready(settings)) => {
                 let e = &settings.experiment;
                 let parts = [
                     counted(settings.runs.len(), "run"),

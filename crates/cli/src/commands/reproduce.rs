@@ -10,7 +10,7 @@ use std::time::Instant;
 use tigereye_experiments::report::{self, About};
 use tigereye_experiments::settings::{Settings, resolve, slug_of};
 use tigereye_experiments::{
-    ExperimentError, ExperimentOutcome, RunError, evaluate, library, provenance, spec,
+    ExperimentError, ExperimentOutcome, Host, RunError, evaluate, library, provenance, spec,
 };
 
 /// Largest number of experiment files in a folder.
@@ -39,12 +39,23 @@ impl Source {
     }
 }
 
+/// An experiment, ready to run, or the file that it cannot do without.
+#[expect(clippy::large_enum_variant, reason = "there are a few dozen")]
+pub(crate) enum Prepared {
+    Ready(Settings),
+    Lacks(String),
+}
+
 /// Parses and resolves an experiment; every fault is a line of its own.
-pub(crate) fn prepare(source: &Source, full: bool) -> Result<Settings, CliError> {
+pub(crate) fn prepare(source: &Source, full: bool) -> Result<Prepared, CliError> {
     let host = FileHost::new(source.folder.clone(), source.slug());
     let experiment =
         spec::load(&source.name, &source.text).map_err(|e| CliError::Inputs(vec![e.to_string()]))?;
+    if let Some(missing) = experiment.needs.iter().find(|file| !host.has(file)) {
+        return Ok(Prepared::Lacks(missing.clone()));
+    }
     resolve(&source.name, &source.text, experiment, full, &host)
+        .map(Prepared::Ready)
         .map_err(|faults| CliError::Inputs(faults.iter().map(ToString::to_string).collect()))
 }
 
@@ -146,9 +157,16 @@ fn run_sources(
     // All files are checked before the first hour is spent.
     let mut prepared = Vec::new();
     let mut faults = Vec::new();
+    let mut left_out = Vec::new();
     for source in sources {
         match prepare(source, full) {
-            Ok(settings) => prepared.push((source, settings)),
+            Ok(Prepared::Ready(settings)) => prepared.push((source, settings)),
+            Ok(Prepared::Lacks(file)) => {
+                let slug = source.slug();
+                left_out.push(format!(
+                    "{slug} needs {file}, which is not there (TIGEREYE_REFERENCE names the folder)"
+                ));
+            }
             Err(CliError::Inputs(found)) => faults.extend(found),
             Err(e) => faults.push(e.to_string()),
         }
@@ -158,6 +176,10 @@ fn run_sources(
     }
     if !full {
         prepared.retain(|(_, s)| s.experiment.scope == spec::Scope::Always);
+    }
+    left_out.iter().for_each(|words| eprintln!("left out: {words}"));
+    if prepared.is_empty() && !left_out.is_empty() {
+        return Err(CliError::Input("no experiment is left to run".to_owned()));
     }
     if prepared.is_empty() {
         return Err(CliError::Input("every experiment named runs only with --full".to_owned()));
@@ -182,6 +204,7 @@ fn run_sources(
         command: super::command_line(),
         full,
         threads: resources.threads.unwrap_or_else(rayon::current_num_threads),
+        left_out,
     };
     files::write(&out.join("summary.json"), report::summary_json(&outcomes, seconds).as_bytes())?;
     files::write(&out.join("index.html"), report::html(&outcomes, &about).as_bytes())?;

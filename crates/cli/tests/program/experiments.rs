@@ -339,3 +339,27 @@ fn a_fault_of_a_later_experiment_keeps_the_earlier_report() {
     place.write("small.ron", "nonsense");
     place.refuses(&["run", "small.ron", "--out", "r"], &["small.ron:1:1"]);
 }
+
+/// An experiment whose data are not part of the project is left out where they are missing, and nothing else fails.
+#[test]
+fn experiments_without_their_data_are_left_out() {
+    let place = Place::new();
+    let experiment = |needs: &str| {
+        format!(
+            "(format: 1, title: \"t\", source: \"s\", section: \"x\", claim: \"c\", look_for: \"l\", needs: [{needs}],\n\
+             fields: {{\"f\": Generator(name: \"inverse\", parameters: {{\"size\": 5}})}},\n\
+             figures: [], checks: [(name: \"n\", quantity: ZeroShare(field: \"f\"), expect: AtMost(0), basis: \"b\")])\n"
+        )
+    };
+    place.write("lacking.ron", experiment("\"reference/none.vtp\""));
+    place.write("whole.ron", experiment(""));
+    let run = place.tigereye(&["run", "lacking.ron", "whole.ron", "--out", "r"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("left out: lacking needs reference/none.vtp"), "{}", run.stderr);
+    let summary: serde_json::Value = serde_json::from_slice(&place.read("r/summary.json")).unwrap();
+    assert_eq!(summary["experiments"].as_array().unwrap().len(), 1);
+    let page = String::from_utf8(place.read("r/index.html")).unwrap();
+    assert!(page.contains("Left out: lacking needs reference/none.vtp"));
+    place.refuses(&["run", "lacking.ron", "--out", "s"], &["no experiment is left to run"]);
+    assert!(place.succeeds(&["check", "lacking.ron"]).stdout.contains("needs reference/none.vtp"));
+}

@@ -67,7 +67,9 @@ fn setting(about: &About) -> String {
     } else {
         "Run at the default resolutions; --full runs the thesis’s own where they are larger"
     };
-    format!("{resolution}. {}; only the times depend on it.", counted(about.threads, "thread"))
+    let threads = counted(about.threads, "thread");
+    let left_out: String = about.left_out.iter().map(|words| format!(" Left out: {words}.")).collect();
+    format!("{resolution}. {threads}; only the times depend on it.{left_out}")
 }
 
 /// Every failed check with a link to its experiment.

@@ -30,4 +30,6 @@ pub struct About {
     pub full: bool,
     /// Number of threads; the results do not depend on it.
     pub threads: usize,
+    /// Experiments that were left out, and why, a sentence each.
+    pub left_out: Vec<String>,
 }

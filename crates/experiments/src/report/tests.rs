@@ -7,7 +7,7 @@ use crate::{CheckOutcome, Column, DataFile, Expected, ExperimentOutcome, Figure,
 
 fn about() -> About {
     let command = "tigereye reproduce --out results".into();
-    About { version: "1.2.3".into(), seconds: 75.0, command, full: false, threads: 4 }
+    About { version: "1.2.3".into(), seconds: 75.0, command, full: false, threads: 4, left_out: Vec::new() }
 }
 
 fn check(name: &str, value: f64, expected: Expected) -> CheckOutcome {
@@ -215,4 +215,11 @@ fn an_experiment_without_checks_is_not_praised() {
 #[test]
 fn equal_outcomes_give_equal_pages() {
     assert_eq!(html(&mixed(), &about()), html(&mixed(), &about()));
+}
+
+#[test]
+fn experiments_left_out_are_named() {
+    let left_out = vec!["brain needs reference/x.vtp, which is not there".to_owned()];
+    let page = html(&[], &About { left_out, ..about() });
+    assert!(page.contains("Left out: brain needs reference/x.vtp, which is not there."), "{page}");
 }

@@ -42,6 +42,9 @@ pub struct Experiment {
     /// When the whole experiment runs.
     #[serde(default)]
     pub scope: Scope,
+    /// Data files that are not part of the project; where one is missing, the experiment is left out and says so.
+    #[serde(default)]
+    pub needs: Vec<String>,
     /// Tensor fields by name.
     #[serde(default)]
     pub fields: Named<FieldSource>,

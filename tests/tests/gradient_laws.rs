@@ -8,8 +8,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tigereye_core::{Cell, Field, Grid, LtgVolume, Normalization, Tensor2, TransmissionField};
 use tigereye_ltg::{
-    Finished, LtgError, LtgOutcome, LtgSettings, PartialVolume, Phase, Precision, Shard, SweepObserver,
-    omega_step_of_slices, omega_step_of_volumes, sweep, sweep_part,
+    Finished, LtgError, LtgOutcome, LtgSettings, NUMERICS, PartialVolume, Phase, Precision, Shard,
+    SweepObserver, omega_step_of_slices, omega_step_of_volumes, sweep, sweep_part,
 };
 use tigereye_tests::{Symmetry, difference_over_largest};
 use tigereye_transport::{
@@ -704,4 +704,24 @@ fn work_of_inverse13_is_known() {
         0,
     )
     ");
+}
+
+/// Checkpoints and shards of other numerics are told apart by a number. Every instruction set gives the same bits, so they
+/// can be recorded: where this fails on purpose, raise `NUMERICS`, record the new pair, and say so under "Numbers" in
+/// CHANGELOG.md.
+#[test]
+fn bits_change_with_the_count_of_numerics_only() {
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    for spec in ["inverse:size=9", "rings:size=8,anisotropy=3"] {
+        for precision in [Precision::F64, Precision::F32] {
+            let scene = Scene::of(spec, 16);
+            let settings = LtgSettings { precision, ..scene.settings(2) };
+            let volume = scene.try_sweep(&settings, &()).expect("a sweep").volume;
+            // FNV-1a over the bits.
+            for byte in volume.values().iter().flat_map(|v| v.to_le_bytes()) {
+                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+            }
+        }
+    }
+    insta::assert_snapshot!(format!("numerics {NUMERICS}: {hash:016x}"), @"numerics 1: 8f62f13a05ae287c");
 }

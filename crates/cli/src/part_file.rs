@@ -7,7 +7,7 @@ use std::path::Path;
 use tigereye_core::{Directions, Grid, SweepWork};
 use tigereye_experiments::provenance::VERSION;
 use tigereye_io::part;
-use tigereye_ltg::{Finished, LtgError, PartialVolume, Shard};
+use tigereye_ltg::{Finished, LtgError, NUMERICS, PartialVolume, Shard};
 
 /// Parameters that do not show in the result. The input is known by its hash; what it is called may change.
 const FREE: [&str; 3] = ["threads", "memory", "input"];
@@ -16,6 +16,8 @@ const FREE: [&str; 3] = ["threads", "memory", "input"];
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Identity {
     pub(crate) version: String,
+    /// [`tigereye_ltg::NUMERICS`] of that program.
+    pub(crate) numerics: u64,
     /// All parameters, resolved, under the names of the options.
     pub(crate) parameters: Value,
     pub(crate) input_blake3: String,
@@ -47,20 +49,31 @@ impl Identity {
     pub(crate) fn new(parameters: &Value, input_blake3: &str) -> Self {
         // Numbers as a reader gets them, so that equal ones compare equal.
         let parameters = serde_json::from_str(&parameters.to_string()).unwrap_or_default();
-        Self { version: VERSION.to_owned(), parameters, input_blake3: input_blake3.to_owned() }
+        Self {
+            version: VERSION.to_owned(),
+            numerics: NUMERICS.into(),
+            parameters,
+            input_blake3: input_blake3.to_owned(),
+        }
     }
 
     /// What is wrong with the version, if it is not this program's: the layout of a part follows from the program.
     pub(crate) fn foreign_version(&self) -> Option<String> {
-        let problem =
-            || format!("was made by tigereye {}; expected a part of tigereye {VERSION}", self.version);
-        (self.version != VERSION).then(problem)
+        let own = Self::program(VERSION, NUMERICS.into());
+        let found = Self::program(&self.version, self.numerics);
+        (found != own).then(|| format!("was made by {found}; expected a part of {own}"))
+    }
+
+    fn program(version: &str, numerics: u64) -> String {
+        format!("tigereye {version} (numerics {numerics})")
     }
 
     /// The first difference that shows in the result, as its name and its values here and there.
     pub(crate) fn difference(&self, other: &Self) -> Option<(String, String, String)> {
-        if self.version != other.version {
-            return Some(("the version of tigereye".to_owned(), self.version.clone(), other.version.clone()));
+        let programs = [self, other].map(|i| Self::program(&i.version, i.numerics));
+        if programs[0] != programs[1] {
+            let [here, there] = programs;
+            return Some(("the version of tigereye".to_owned(), here, there));
         }
         if self.input_blake3 != other.input_blake3 {
             return Some(("the input".to_owned(), self.input(), other.input()));
@@ -130,6 +143,7 @@ pub(crate) fn encoded(
 ) -> Vec<u8> {
     let header = json!({
         "version": identity.version,
+        "numerics": identity.numerics,
         "command": command,
         "parameters": identity.parameters,
         "input_blake3": identity.input_blake3,
@@ -199,6 +213,8 @@ fn decoded(part: part::Part) -> Result<PartFile, (usize, String)> {
     Ok(PartFile {
         identity: Identity {
             version: text("/version")?,
+            // Parts from before the count have none.
+            numerics: header["numerics"].as_u64().unwrap_or(0),
             parameters: header["parameters"].clone(),
             input_blake3: text("/input_blake3")?,
         },

@@ -9,6 +9,9 @@
 //! stop anywhere and go on from there, and shards of it can be computed apart and merged. This crate neither draws nor
 //! parses nor reads clocks.
 
+/// Counts the changes that moved a bit of a gradient: what one count left half-finished, another must not go on with.
+pub const NUMERICS: u32 = 1;
+
 mod error;
 mod observer;
 mod partial;

@@ -75,7 +75,8 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 return Err(CliError::input("--crop, --resample", "work in a plane: expected --slice too"));
             }
             file.remarks().iter().for_each(|line| eprintln!("{}: {line}", file.name));
-            encoded(format, volume, args, &file.blake3)
+            let frame = reading.frame.unwrap_or(Frame::World);
+            encoded(format, volume, frame, args, &file.blake3)
         }
         _ => {
             if args.invariants {
@@ -88,7 +89,8 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 Format::Matrices => matrices::write(&input.field),
                 _ => {
                     let volume = TensorVolume::from_field(&input.field, input.origin, input.spacing);
-                    encoded(format, &volume, args, &input.blake3)
+                    // The plane's own axes, whatever the tensors were read along.
+                    encoded(format, &volume, Frame::World, args, &input.blake3)
                 }
             }
         }
@@ -103,6 +105,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
 fn encoded(
     format: Format,
     volume: &TensorVolume,
+    frame: Frame,
     args: &ConvertArgs,
     blake3: &str,
 ) -> Result<Vec<u8>, IoError> {
@@ -110,7 +113,6 @@ fn encoded(
     insert_reading(&mut parameters, &args.reading);
     let story = provenance(&command_line(), &parameters, blake3);
     let image = || -> Result<ImageData, IoError> {
-        let frame = args.reading.reading().frame.unwrap_or(Frame::World);
         let mut image = image_from_volume(volume, frame)?;
         if args.invariants {
             image.point_arrays.extend(invariants(volume));

@@ -200,6 +200,21 @@ fn wrong_orders_are_warned_of() {
     place.succeeds(&["convert", &input, "p.npy", "--slice", "z=3", "--order", "fsl", "--frame", "voxel"]);
 }
 
+/// What the components are read along says nothing about where a slice lies.
+#[test]
+fn slices_keep_their_place_in_every_frame() {
+    let place = Place::new();
+    let shifted = nrrd().replace("encoding: ascii", "space origin: (5,6,7)\nencoding: ascii");
+    place.write("v.nrrd", shifted);
+    for frame in ["voxel", "world"] {
+        let out = format!("{frame}.vti");
+        place.succeeds(&["convert", "v.nrrd", &out, "--slice", "z=1", "--frame", frame]);
+        let facts = place.succeeds(&["info", &out, "--json"]).json();
+        assert_eq!(facts["origin"], serde_json::json!([5.0, 6.0]), "{frame}");
+        assert_eq!(facts["spacing"], serde_json::json!([2.0, 3.0]), "{frame}");
+    }
+}
+
 #[test]
 fn invariants_are_arrays_beside_the_tensors() {
     let place = Place::new();

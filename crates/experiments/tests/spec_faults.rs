@@ -671,10 +671,12 @@ fn every_experiment_has_a_header_a_check_and_a_figure() {
         }
         for full in [true, false] {
             let host = Folder(path.parent().unwrap().to_path_buf());
-            let resolved = spec::load(&name, &text)
-                .map_err(|e| vec![e])
-                .and_then(|e| settings::resolve(&name, &text, e, full, &host));
-            match resolved {
+            let experiment = spec::load(&name, &text).map_err(|e| vec![e]);
+            // The snapshots resolve those whose data are not part of the project, where these are there.
+            if experiment.as_ref().is_ok_and(|e| e.needs.iter().any(|file| !host.has(file))) {
+                continue;
+            }
+            match experiment.and_then(|e| settings::resolve(&name, &text, e, full, &host)) {
                 Err(faults) => problems.extend(faults.iter().map(ToString::to_string)),
                 Ok(s) => {
                     let always = full || s.experiment.scope == spec::Scope::Always;

@@ -7,10 +7,17 @@ use crate::input::{Input, Source, insert_reading};
 use crate::{files, interrupt};
 use serde_json::json;
 use tigereye_core::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
-use tigereye_experiments::input::{Content, TensorFile, format_of};
+use tigereye_experiments::input::{Content, Reading, TensorFile, format_of};
 use tigereye_experiments::provenance::provenance;
-use tigereye_io::volume::{Frame, TensorVolume, image_from_volume, points_from_image};
+use tigereye_io::volume::{Frame, Known, PlaneChoice, TensorVolume, image_from_volume, points_from_image};
 use tigereye_io::{DataArray, ImageData, IoError, legacy, matrices, nifti, npy, nrrd, vti, vtp};
+
+/// Whether a volume is written as it is: no plane, part or size was asked for, and the file has axes of its own.
+fn is_whole(volume: &TensorVolume, reading: &Reading) -> bool {
+    let plane =
+        reading.choice != PlaneChoice::default() || reading.crop.is_some() || reading.resample.is_some();
+    !plane && volume.frame().1 != Known::Convention
+}
 
 /// What can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,11 +76,8 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
     let source = Source::open(&args.input, &args.reading)?;
     let bytes = match &source {
         Source::File(file @ TensorFile { content: Content::Tensors(volume), .. })
-            if !format.is_flat() && !file.has_plane(&reading) =>
+            if !format.is_flat() && is_whole(volume, &reading) =>
         {
-            if reading.crop.is_some() || reading.resample.is_some() {
-                return Err(CliError::input("--crop, --resample", "work in a plane: expected --slice too"));
-            }
             file.remarks().iter().for_each(|line| eprintln!("{}: {line}", file.name));
             let frame = reading.frame.unwrap_or(Frame::World);
             encoded(format, volume, frame, args, &file.blake3)

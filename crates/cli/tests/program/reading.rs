@@ -59,6 +59,11 @@ fn vectors_give_their_gradient_and_numbers_their_hessian() {
         &["ltg", "flow.npy", "--derive", "hessian", "-o", "o.vti"],
         &["flow.npy", "a plane is needed"],
     );
+    place.write("six.nii", nifti_of_six());
+    place.refuses(
+        &["info", "six.nii", "--derive", "hessian"],
+        &["six.nii", "6 numbers a voxel: expected one"],
+    );
     place.refuses(&["info", "hill.npy"], &["hill.npy", "expected (H, W, 2, 2)"]);
     place.refuses(&["info", "hill.npy", "--derive", "hessian", "--sigma", "101"], &["0 to 100"]);
     place.refuses(&["info", "hill.npy", "--sigma", "1"], &["--derive"]);
@@ -139,5 +144,12 @@ fn archives_need_the_name_of_an_array_only_where_there_are_several() {
     let place = Place::new();
     place.write("not.npz", "no archive");
     place.refuses(&["info", "not.npz"], &["not.npz", "a .npz archive"]);
-    place.refuses(&["info", "photo.png"], &["photo.png", "--derive"]);
+    place.refuses(&["info", "photo.png"], &["photo.png", "is a picture", "--derive structure"]);
+}
+
+/// A NIfTI file of 2 x 2 x 1 voxels with six components.
+fn nifti_of_six() -> Vec<u8> {
+    let tensors = Field::from_fn(tigereye_core::Grid::new(2, 2).unwrap(), |_| Tensor2::IDENTITY);
+    let volume = tigereye_io::volume::TensorVolume::from_field(&tensors, [0.0; 2], [1.0; 2]);
+    tigereye_io::nifti::write(&volume, "").unwrap()
 }

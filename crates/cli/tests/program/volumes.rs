@@ -61,7 +61,7 @@ fn whole_volumes_are_written_as_images() {
     for output in ["v.npy", "v.txt"] {
         place.refuses(&["convert", "v.nrrd", output], &["3 x 2 x 2 voxels", "--slice"]);
     }
-    place.refuses(&["convert", "v.nrrd", "w.vti", "--crop", "0:1,0:1"], &["--crop", "--slice"]);
+    place.refuses(&["convert", "v.nrrd", "w.vti", "--crop", "0:1,0:1"], &["a plane is needed", "--slice"]);
 }
 
 #[test]
@@ -229,6 +229,15 @@ fn invariants_are_arrays_beside_the_tensors() {
     ]));
     assert_eq!(first("FA"), fa);
     assert!(first("mode") < 0.0 && first("mode") > -1.0, "rather planar: {}", first("mode"));
+    // A volume of one layer is one too: its third row and column stay.
+    let layer = nrrd().replace("sizes: 6 3 2 2", "sizes: 6 3 4 1");
+    place.write("layer.nrrd", layer);
+    place.succeeds(&["convert", "layer.nrrd", "layer.vti", "--invariants", "--frame", "world"]);
+    let layer = tigereye_io::vti::read(&place.read("layer.vti")).unwrap();
+    assert_eq!(
+        layer.point_array("Tensors").unwrap().values[..9],
+        [1.0, 0.0, 0.5, 0.0, 20.0, 0.0, 0.5, 0.0, 30.0]
+    );
     let refuses = |options: &[&str], words: &str| {
         place.refuses(&[&["convert", "v.nrrd"], options, &["--invariants"]].concat(), &[words]);
     };

@@ -1,6 +1,6 @@
 //! From the bytes of a file to tensors, or numbers, on a lattice.
 
-use super::{InputError, Reading};
+use super::{Derivation, InputError, Reading};
 use crate::provenance::hash_of_bytes;
 use tigereye_io::volume::{
     Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
@@ -59,8 +59,11 @@ pub fn open(
     reading: &Reading,
     bytes_of: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
 ) -> Result<TensorFile, InputError> {
-    if !is_readable(name) || (format_of(name) == "png" && reading.derive.is_none()) {
+    if !is_readable(name) {
         return Err(InputError::Ending);
+    }
+    if format_of(name) == "png" && reading.derive.is_none() {
+        return Err(InputError::Picture);
     }
     let mut read = |name: &str| bytes_of(name).map_err(|words| InputError::Unread { words });
     let (kind, mut lattice, mut hashed) =
@@ -75,6 +78,16 @@ pub fn open(
     }
     if let Some(mask) = &mut lattice.mask {
         mask.iter_mut().for_each(|m| *m = if *m > reading.mask_above { *m } else { 0.0 });
+    }
+    if let Some(Derivation { kind, .. }) = reading.derive {
+        let (fits, expected) = match reading.wanted() {
+            Wanted::Vectors => (matches!(lattice.components, 2 | 3), "two or three"),
+            _ => (lattice.components == 1, "one"),
+        };
+        if !fits {
+            let (components, name) = (lattice.components, kind.name());
+            return Err(InputError::Tuples { components, expected, name });
+        }
     }
     let blake3 = hash_of_bytes(&hashed);
     let content = if reading.derive.is_some() || (lattice.components == 1 && reading.order.is_none()) {

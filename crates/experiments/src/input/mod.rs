@@ -33,8 +33,7 @@ pub enum InputError {
     },
     /// An ending that tells no format.
     #[error(
-        "its ending is not readable: expected .txt, .npy, .npz, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz, or .png \
-         with --derive"
+        "its ending is not readable: expected .txt, .npy, .npz, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz or .png"
     )]
     Ending,
     /// What the file's reader says.
@@ -50,6 +49,19 @@ pub enum InputError {
     NoTensors {
         /// Words for what is there.
         components: &'static str,
+    },
+    /// A picture, which holds brightness.
+    #[error("is a picture: expected --derive structure or hessian")]
+    Picture,
+    /// Tuples that cannot be differentiated as asked.
+    #[error("holds {components} numbers a voxel: expected {expected} for --derive {name}")]
+    Tuples {
+        /// Numbers a voxel.
+        components: usize,
+        /// How many there should be.
+        expected: &'static str,
+        /// What was to be derived.
+        name: &'static str,
     },
     /// A mask of another size.
     #[error("mask {mask}: {} x {} x {} voxels: expected {} x {} x {}", found[0], found[1], found[2], expected[0], expected[1], expected[2])]

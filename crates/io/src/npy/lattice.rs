@@ -60,7 +60,7 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
     let (size, tuple, down, values, frame, note) = match layout {
         Layout::Picture { height, width, tuple } => {
             let note = "indexed [row][column], row 0 on top, in the frame x right, y up";
-            ([width, height, 1], tuple, -1.0, values, (Frame::World, Known::Stated), note)
+            ([width, height, 1], tuple, -1.0, values, (Frame::World, Known::Convention), note)
         }
         Layout::Volume { size, tuple } => {
             let note = "indexed [x][y][z] as nibabel and dipy have it";

@@ -61,17 +61,20 @@ pub enum Known {
     Stated,
     /// The user says so.
     Given,
+    /// The format leaves it open and this program has a convention for it.
+    Convention,
     /// Nobody says so; it is usual.
     Assumed,
 }
 
 impl Known {
-    /// `stated by the file`, `as given` or `assumed`.
+    /// `stated by the file`, `as given`, `by convention` or `assumed`.
     #[must_use]
     pub const fn words(self) -> &'static str {
         match self {
             Self::Stated => "stated by the file",
             Self::Given => "as given",
+            Self::Convention => "this program's convention for the format",
             Self::Assumed => "ASSUMED: the file does not say",
         }
     }
@@ -162,6 +165,7 @@ impl Lattice {
     fn tensors_of_tuples(self, reading: Reading) -> Result<TensorVolume, IoError> {
         let order = match (reading.order, self.order) {
             (Some(text), _) => (TensorOrder::parse(text, self.components)?, Known::Given),
+            (None, Some(order)) if self.frame.1 == Known::Convention => (order, Known::Convention),
             (None, Some(order)) => (order, Known::Stated),
             (None, None) => (self.assumed_order()?, Known::Assumed),
         };

@@ -26,7 +26,7 @@ impl Lattice {
             measurement: None,
             mask: None,
             order: Some(order),
-            frame: (Frame::World, Known::Stated),
+            frame: (Frame::World, Known::Convention),
             array: "2x2 blocks".to_owned(),
             notes: vec!["first row on top, in the frame x right, y up".to_owned()],
         }

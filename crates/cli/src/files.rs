@@ -141,11 +141,28 @@ pub(crate) fn check_writable(path: &Path) -> Result<(), CliError> {
     if path.is_dir() {
         return Err(CliError::input(&path.display().to_string(), "is a folder: expected a file name"));
     }
+    let folder = folder_of(path);
+    if !folder.is_dir() {
+        let problem = format!("there is no folder {}: expected one that exists", folder.display());
+        return Err(CliError::input(&path.display().to_string(), problem));
+    }
     Temporary::new(folder_of(path), TEMPORARY).map(drop).map_err(|source| CliError::File {
         path: path.display().to_string(),
         action: "writing",
         source,
     })
+}
+
+/// Refuses an output that is the input: the data would be gone.
+pub(crate) fn check_apart(input: &str, outputs: &[PathBuf]) -> Result<(), CliError> {
+    let place = place_of(Path::new(input));
+    match outputs.iter().find(|output| place_of(output) == place) {
+        Some(output) => {
+            let problem = "is the input, which would be lost: expected another name";
+            Err(CliError::input(&output.display().to_string(), problem))
+        }
+        None => Ok(()),
+    }
 }
 
 /// The same for every way of writing one path: the folder without links and dots, and the name.

@@ -82,6 +82,10 @@ impl Host for FileHost {
             .ok_or_else(|| format!("no file {path} in {}", tried.join(", ")))
     }
 
+    fn remark(&self, words: &str) {
+        self.bar.suspend(|| eprintln!("{words}"));
+    }
+
     fn seconds(&self) -> f64 {
         self.start.elapsed().as_secs_f64()
     }

@@ -62,6 +62,8 @@ pub(crate) struct Input {
     pub(crate) assumptions: Vec<String>,
     /// What everybody must hear of it: assumptions that the options could replace, and warnings.
     pub(crate) remarks: Vec<String>,
+    /// A warning for those who let light run through it, where cells are not square.
+    pub(crate) oblong: Option<String>,
     /// Position of the first point and distance between points, x and y.
     pub(crate) origin: [f64; 2],
     pub(crate) spacing: [f64; 2],
@@ -100,8 +102,9 @@ impl Input {
         kind: &'static str,
         blake3: String,
     ) -> Self {
+        let oblong = plane.oblong();
         let PlaneField { field, story, origin, spacing } = plane;
-        Self { name, field, assumptions: story, remarks, origin, spacing, kind, blake3 }
+        Self { name, field, assumptions: story, remarks, oblong, origin, spacing, kind, blake3 }
     }
 
     /// What had to be assumed, and what looks wrong, to standard error.
@@ -109,6 +112,15 @@ impl Input {
         for line in &self.remarks {
             eprintln!("{}: {line}", self.name);
         }
+    }
+
+    /// As [`Self::open`], for light: with a warning where cells are not square.
+    pub(crate) fn open_for_light(text: &str, reading: &ReadingArgs) -> Result<Self, CliError> {
+        let input = Self::open(text, reading)?;
+        if let Some(words) = &input.oblong {
+            eprintln!("{}: {words}", input.name);
+        }
+        Ok(input)
     }
 
     /// A generator's field, which lies in the plane and has nothing to be read.

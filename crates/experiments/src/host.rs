@@ -16,6 +16,9 @@ pub trait Host: Sync {
         self.read(path).is_ok()
     }
 
+    /// Something was assumed about a data file, or looks wrong.
+    fn remark(&self, _words: &str) {}
+
     /// Seconds on a clock that only goes forward, for runtimes in figures; they enter no check and no snapshot.
     fn seconds(&self) -> f64 {
         0.0

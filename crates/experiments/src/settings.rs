@@ -551,9 +551,12 @@ fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, S
         FieldSource::File { path, stride, .. } => {
             let fault = |e: &dyn std::fmt::Display| format!("{path}: {e}");
             let reading = reading_of(source).map_err(|e| fault(&e))?;
-            let plane = input::open(path, &reading, &mut |name| host.read(name))
-                .and_then(|file| file.plane(&reading))
-                .map_err(|e| fault(&e))?;
+            let file = input::open(path, &reading, &mut |name| host.read(name)).map_err(|e| fault(&e))?;
+            let plane = file.plane(&reading).map_err(|e| fault(&e))?;
+            file.remarks()
+                .iter()
+                .chain(&plane.oblong())
+                .for_each(|words| host.remark(&format!("{path}: {words}")));
             strided(&plane.field, *stride).map_err(|e| fault(&e))
         }
     }

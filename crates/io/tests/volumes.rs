@@ -437,5 +437,5 @@ fn masked_voxels_are_zero_tensors() {
     let volume = nrrd::read(header.as_bytes(), None).unwrap().tensors(Reading::default()).unwrap();
     let slice = volume.slice(PlaneChoice::default()).unwrap();
     assert_eq!(slice.field.values(), [Tensor2::ZERO, Tensor2::symmetric(4.0, 5.0, 6.0)]);
-    assert!(volume.story().iter().any(|s| s.contains("1 voxels with mask 0")));
+    assert!(volume.story().iter().any(|s| s.contains("1 voxels masked out")));
 }

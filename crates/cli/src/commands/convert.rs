@@ -66,6 +66,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
         return Err(CliError::input(&name, problem));
     };
     files::check_writable(&args.output)?;
+    files::check_apart(&args.input, std::slice::from_ref(&args.output))?;
     if args.output.exists() && !args.force {
         return Err(CliError::input(&name, "exists already: expected another name, or --force"));
     }

@@ -133,7 +133,7 @@ fn facts(input: &Input) -> Value {
         "component_order": "xx,xy,yx,yy",
         "frame": "x right, y up, row 0 on top",
         "assumptions": input.assumptions,
-        "remarks": input.remarks,
+        "remarks": input.remarks.iter().chain(&input.oblong).collect::<Vec<_>>(),
         "input_blake3": input.blake3,
         "components": {
             "xx": range(field, Tensor2::xx), "xy": range(field, Tensor2::xy),
@@ -150,7 +150,7 @@ fn facts(input: &Input) -> Value {
             "degenerate": share(&is_degenerate),
             "asymmetric": share(&|t| t.asymmetry() > ASYMMETRIC_ABOVE * t.max_abs()),
             "indefinite": share(&|t| Eigenvalues::of(t).is_indefinite()),
-            "negative": share(&|t| Eigenvalues::of(t).real_parts()[1] < -lattice::ROUNDING * t.max_abs()),
+            "negative": share(&|t| Eigenvalues::of(t).real_parts()[1] < 0.0),
             "total_anisotropy": share(&|t| !t.is_zero() && is_totally_anisotropic(t)),
         },
     })

@@ -7,11 +7,13 @@ use tigereye_experiments::input::TensorFile;
 use tigereye_io::volume::{Lattice, TensorVolume};
 
 /// An eigenvalue below this times the largest component counts as negative: files hold single precision.
-pub(super) const ROUNDING: f64 = 1e-6;
+const ROUNDING: f64 = 1e-6;
 /// Relative difference of two eigenvalues below which a tensor counts as degenerate.
 const DEGENERATE_BELOW: f64 = 1e-9;
 /// `|xy - yx|` and its like over the largest component above which a tensor counts as asymmetric.
 const ASYMMETRIC_ABOVE: f64 = 1e-9;
+/// What rounding may add to an anisotropy of 1; indefinite tensors have more.
+const FA_ROUNDING: f64 = 1e-9;
 /// Bars of a histogram over 0 to 1.
 const BARS: usize = 10;
 
@@ -41,7 +43,7 @@ impl Range {
 /// Counts of values from 0 to 1 in ten bars; what is no number or outside is left out.
 pub(super) fn histogram(values: impl Iterator<Item = f64>) -> Vec<usize> {
     let mut bars = vec![0; BARS];
-    for v in values.filter(|v| (-1e-9..=1.0 + 1e-9).contains(v)) {
+    for v in values.filter(|v| (-FA_ROUNDING..=1.0 + FA_ROUNDING).contains(v)) {
         bars[((v * BARS as f64) as usize).min(BARS - 1)] += 1;
     }
     bars
@@ -90,6 +92,7 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
         "masked": volume.masked_out(),
         "eigenvalues": eigenvalues.each_ref().map(Range::json),
         "fractional_anisotropy": fa.json(),
+        "fractional_anisotropy_above_1": anisotropy.iter().filter(|v| **v > 1.0 + FA_ROUNDING).count(),
         "fractional_anisotropy_histogram": histogram(anisotropy.into_iter()),
         "shares": {
             "zero": share(zero),
@@ -179,7 +182,9 @@ pub(super) fn shares_as_text(facts: &Value) -> String {
     let mut text = String::new();
     if let Some(bars) = facts["fractional_anisotropy_histogram"].as_array() {
         let counts: Vec<String> = bars.iter().map(Value::to_string).collect();
-        let _ = writeln!(text, "  FA from 0 to 1 in steps of 0.1: {}", counts.join(" "));
+        let above = facts["fractional_anisotropy_above_1"].as_u64().filter(|n| *n > 0);
+        let above = above.map_or_else(String::new, |n| format!(", and {n} above 1"));
+        let _ = writeln!(text, "  FA from 0 to 1 in steps of 0.1: {}{above}", counts.join(" "));
     }
     for (name, share) in facts["shares"].as_object().into_iter().flatten() {
         let percent = share.as_f64().unwrap_or(0.0) * 100.0;

@@ -22,8 +22,9 @@ use tigereye_transport::{Scattering, Scheme, SharedWeights};
 
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     check_places(args)?;
+    files::check_apart(&args.input, &args.outputs)?;
     let start = Instant::now();
-    let input = Input::open(&args.input, &args.scheme.reading)?;
+    let input = Input::open_for_light(&args.input, &args.scheme.reading)?;
     let settings = settings_of(args)?;
     let normalization = input.normalization(args.scheme.normalization);
     let parameters = parameters(args, &settings, normalization);
@@ -57,6 +58,9 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
 /// Refuses outputs before anything is computed.
 fn check_places(args: &LtgArgs) -> Result<(), CliError> {
     let is_part = |output: &Path| files::extension(output) == "part";
+    if args.view && !args.outputs.iter().any(|o| files::extension(o) == "vti") {
+        return Err(CliError::input("--view", "opens a volume: expected an output .vti"));
+    }
     if args.shard.is_none() {
         if let Some(output) = args.outputs.iter().find(|output| is_part(output)) {
             let problem = "a part needs --shard K/N: expected .vti, .npy, .png or .svg";

@@ -26,8 +26,9 @@ pub(super) const PNG_SCALE: f64 = 2.0;
 
 pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     check_outputs(&args.outputs, &["vti", "npy", "png", "svg", "pvd"])?;
+    files::check_apart(&args.input, &args.outputs)?;
     let start = Instant::now();
-    let input = Input::open(&args.input, &args.scheme.reading)?;
+    let input = Input::open_for_light(&args.input, &args.scheme.reading)?;
     let normalization = input.normalization(args.scheme.normalization);
     let lights = args.lights.iter().map(|l| light(l, args)).collect::<Result<Vec<_>, _>>()?;
     let transmission = TransmissionField::from_tensors(&input.field, args.scheme.directions, normalization)

@@ -1,6 +1,6 @@
 """Opens a light transport gradient in ParaView as a volume, a contour and a slice.
 
-Run it with `paraview --script=THIS_FILE` or `pvpython THIS_FILE`. The third axis of the data is the direction in which
+Run it with ParaView's option --script, or with pvpython. The third axis of the data is the direction in which
 pulses are sent, from 0 to 360 degrees; rows run downwards in the data, so the camera looks from behind.
 """
 
@@ -9,7 +9,7 @@ import os
 from paraview.simple import *
 
 here = os.path.dirname(os.path.abspath(__file__)) if "__file__" in globals() else os.getcwd()
-gradient = XMLImageDataReader(FileName=[os.path.join(here, "FILE")])
+gradient = XMLImageDataReader(FileName=[os.path.join(here, "@VOLUME@")])
 gradient.UpdatePipeline()
 low, high = gradient.PointData["LTG"].GetRange()
 x0, x1, y0, y1, z0, z1 = gradient.GetDataInformation().GetBounds()

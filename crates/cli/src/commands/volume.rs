@@ -18,7 +18,7 @@ pub(super) fn write_scripts(outputs: &[PathBuf]) -> Result<(), CliError> {
         let name = output.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         // Inside a Python string.
         let name = name.replace('\\', "\\\\").replace('"', "\\\"");
-        let script = include_str!("view.py").replace("FILE", &name);
+        let script = include_str!("view.py").replace("@VOLUME@", &name);
         files::write(&output.with_extension("view.py"), script.as_bytes())?;
     }
     Ok(())

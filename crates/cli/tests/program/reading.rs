@@ -153,3 +153,56 @@ fn nifti_of_six() -> Vec<u8> {
     let volume = tigereye_io::volume::TensorVolume::from_field(&tensors, [0.0; 2], [1.0; 2]);
     tigereye_io::nifti::write(&volume, "").unwrap()
 }
+
+/// What one has to be told before light runs: a guess that may be a vector field, cells that are not square, a mask of
+/// another place; and no output is written over its input.
+#[test]
+fn doubtful_readings_are_told() {
+    let place = Place::new();
+    place.write("three.npy", array(&[4, 4, 3], |i| [1.0, 0.0, 2.0][i % 3]));
+    let run = place.tigereye(&["propagate", "three.npy", "--light", "1,1", "-o", "l.npy"]);
+    assert_eq!(run.code, 0);
+    assert!(run.stderr.contains("a vector field needs --derive gradient"), "{}", run.stderr);
+    let run =
+        place.tigereye(&["ltg", "inverse:size=20", "--resample", "10x5", "--directions", "8", "-o", "g.vti"]);
+    assert!(
+        run.stderr.contains("WARNING: cells are 2 x 4") && run.stderr.contains("--resample 10x10"),
+        "{}",
+        run.stderr
+    );
+    for command in [["ltg", "three.npy"], ["convert", "three.npy"]] {
+        place.refuses(
+            &[&command[..], &["-o", "./three.npy"][usize::from(command[0] == "convert")..]].concat(),
+            &["is the input"],
+        );
+    }
+}
+
+/// Two masks of one size, of which one lies elsewhere in the world.
+#[test]
+fn masks_of_another_place_are_told() {
+    let place = Place::new();
+    let file = |kind: &str, sizes: &str, rest: &str, numbers: &str| {
+        format!(
+            "NRRD0004\ntype: double\ndimension: {}\nsizes: {sizes}\nkinds: {kind}space space space\nspace: RAS\n{rest}\nencoding: ascii\n\n{numbers}",
+            sizes.split(' ').count()
+        )
+    };
+    let tensors = "1 0 0 1 0 1 ".repeat(4);
+    place.write(
+        "t.nrrd",
+        file("3D-symmetric-matrix ", "6 2 2 1", "space directions: none (1,0,0) (0,1,0) (0,0,1)", &tensors),
+    );
+    for (name, directions) in
+        [("here.nrrd", "(1,0,0) (0,1,0) (0,0,1)"), ("there.nrrd", "(2,0,0) (0,1,0) (0,0,1)")]
+    {
+        place.write(name, file("", "2 2 1", &format!("space directions: {directions}"), "1 1 0 1"));
+        let run = place.tigereye(&["convert", "t.nrrd", "o.npy", "--force", "--mask", name]);
+        assert_eq!(
+            (run.code, run.stderr.contains("lies elsewhere")),
+            (0, name == "there.nrrd"),
+            "{}",
+            run.stderr
+        );
+    }
+}

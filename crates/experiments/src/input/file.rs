@@ -3,7 +3,7 @@
 use super::{Derivation, InputError, Reading};
 use crate::provenance::hash_of_bytes;
 use tigereye_io::volume::{
-    Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
+    Known, Lattice, PlaneChoice, TensorVolume, World, lattice_from_image, lattice_from_points,
 };
 use tigereye_io::{IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, picture, vti, vtp};
 
@@ -18,6 +18,8 @@ pub struct TensorFile {
     pub blake3: String,
     /// What it holds.
     pub content: Content,
+    /// Words of warning where the mask lies elsewhere in the world.
+    mask_elsewhere: Option<String>,
 }
 
 /// Tensors, or what they may be derived from.
@@ -71,9 +73,12 @@ pub fn open(
     if reading.wanted() == Wanted::Tensors {
         lattice = lattice.with_mask_apart();
     }
+    let mut mask_elsewhere = None;
     if let Some(mask) = &reading.mask {
-        let (values, bytes) = mask_values(mask, lattice.size, &mut read)?;
-        lattice.mask = Some(values);
+        let (found, bytes) = mask_lattice(mask, lattice.size, &mut read)?;
+        mask_elsewhere = elsewhere(&lattice, &found)
+            .then(|| format!("WARNING: the mask {mask} has the same size but lies elsewhere in the world"));
+        lattice.mask = Some(found.values);
         hashed.extend(bytes);
     }
     if let Some(mask) = &mut lattice.mask {
@@ -96,7 +101,7 @@ pub fn open(
         let words = tigereye_io::volume::Reading { order: reading.order.as_deref(), frame: reading.frame };
         Content::Tensors(lattice.tensors(words)?)
     };
-    Ok(TensorFile { name: name.to_owned(), kind, blake3, content })
+    Ok(TensorFile { name: name.to_owned(), kind, blake3, content, mask_elsewhere })
 }
 
 type Read<'a> = dyn FnMut(&str) -> Result<Vec<u8>, InputError> + 'a;
@@ -143,7 +148,7 @@ fn beside(name: &str, file: &str) -> String {
 }
 
 /// One number a voxel of a lattice of `size`, and the bytes they come from.
-fn mask_values(mask: &str, size: [usize; 3], read: &mut Read) -> Result<(Vec<f64>, Vec<u8>), InputError> {
+fn mask_lattice(mask: &str, size: [usize; 3], read: &mut Read) -> Result<(Lattice, Vec<u8>), InputError> {
     let fault = |words: String| InputError::Mask { mask: mask.to_owned(), words };
     if !is_readable(mask) {
         return Err(fault(InputError::Ending.to_string()));
@@ -158,7 +163,16 @@ fn mask_values(mask: &str, size: [usize; 3], read: &mut Read) -> Result<(Vec<f64
     if lattice.size != size {
         return Err(InputError::MaskSize { mask: mask.to_owned(), found: lattice.size, expected: size });
     }
-    Ok((lattice.values, bytes))
+    Ok((lattice, bytes))
+}
+
+/// Whether two lattices of one size lie at different places, as far as both files say where they lie.
+fn elsewhere(a: &Lattice, b: &Lattice) -> bool {
+    let known = |l: &Lattice| matches!(l.world, World::Scanner(_));
+    let step = a.spacing().into_iter().fold(f64::INFINITY, f64::min);
+    let far = |x: f64, y: f64| (x - y).abs() > 1e-2 * step;
+    let axes = a.axes.as_flattened().iter().zip(b.axes.as_flattened());
+    known(a) && known(b) && a.origin.iter().zip(&b.origin).chain(axes).any(|(x, y)| far(*x, *y))
 }
 
 impl TensorFile {
@@ -197,7 +211,9 @@ impl TensorFile {
     pub fn assumption(&self) -> Option<String> {
         let Content::Tensors(volume) = &self.content else { return None };
         let (order, frame) = (volume.order(), volume.frame());
-        let order_words = format!("component order {} (--order)", order.0);
+        let three = volume.lattice().components == 3;
+        let vector = if three { "; a vector field needs --derive gradient" } else { "" };
+        let order_words = format!("component order {} (--order{vector})", order.0);
         let frame_words = format!("components along the {} axes (--frame)", frame.0.name());
         match (order.1 == Known::Assumed, frame.1 == Known::Assumed) {
             (true, true) => Some(format!("assumed {order_words} and {frame_words}")),
@@ -211,6 +227,6 @@ impl TensorFile {
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
         let warning = self.warning().map(|w| format!("WARNING: {w}"));
-        self.assumption().into_iter().chain(warning).collect()
+        self.assumption().into_iter().chain(warning).chain(self.mask_elsewhere.clone()).collect()
     }
 }

@@ -103,7 +103,8 @@ const fn hint(source: &IoError) -> &'static str {
     match source {
         IoError::PlaneNeeded { .. } => " (option --slice AXIS=INDEX)",
         IoError::SliceNeeded { .. } => " (option --slice)",
-        IoError::AmbiguousArray { .. } | IoError::Archive { .. } => " (option --array)",
+        IoError::AmbiguousArray { .. } => " (option --array)",
+        IoError::NpyShape { .. } => " (option --derive for vectors and numbers)",
         _ => "",
     }
 }

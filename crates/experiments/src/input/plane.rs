@@ -18,6 +18,9 @@ pub struct PlaneField {
     pub spacing: [f64; 2],
 }
 
+/// Cells whose sides differ by more than this part are worth a warning.
+const SQUARE: f64 = 0.02;
+
 impl TensorFile {
     /// The field in the plane that the reading chooses, or in the only one.
     ///
@@ -88,6 +91,23 @@ impl PlaneField {
     #[must_use]
     pub const fn new(field: Field<Tensor2>, story: Vec<String>) -> Self {
         Self { field, story, origin: [0.0; 2], spacing: [1.0; 2] }
+    }
+
+    /// Words of warning where cells are not square, as light takes them.
+    #[must_use]
+    pub fn oblong(&self) -> Option<String> {
+        let [dx, dy] = self.spacing;
+        let off = (dx / dy - 1.0).abs() > SQUARE && (dy / dx - 1.0).abs() > SQUARE;
+        let grid = self.field.grid();
+        let columns = (grid.width() as f64 * dx / dy).round().max(1.0);
+        let rows = (grid.height() as f64 * dy / dx).round().max(1.0);
+        let (columns, rows) =
+            if dx > dy { (columns, grid.height() as f64) } else { (grid.width() as f64, rows) };
+        off.then(|| {
+            format!(
+                "WARNING: cells are {dx} x {dy}, and light takes them as squares; --resample {columns}x{rows} makes them so"
+            )
+        })
     }
 
     /// The part that the reading chooses.

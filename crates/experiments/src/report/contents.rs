@@ -91,7 +91,7 @@ fn failures(outcomes: &[ExperimentOutcome]) -> Markup {
 }
 
 /// The list of experiments, by section, with how each went.
-pub(super) fn contents(sections: &Sections<'_>) -> Markup {
+pub(super) fn contents(sections: &Sections<'_>, of_thesis: bool) -> Markup {
     html! {
         nav.contents aria-labelledby="page--contents" {
             h2 #page--contents { "Contents" }
@@ -102,7 +102,9 @@ pub(super) fn contents(sections: &Sections<'_>) -> Markup {
                         ul { @for outcome in outcomes { (line(outcome)) } }
                     }
                 }
-                li { a.section href="#page--lines" { "Where the thesis draws tensor lines" } }
+                @if of_thesis {
+                    li { a.section href="#page--lines" { "Where the thesis draws tensor lines" } }
+                }
                 li { a.section href="#page--glossary" { "Glossary" } }
             }
         }

@@ -32,7 +32,7 @@ pub fn html(outcomes: &[ExperimentOutcome], about: &About) -> String {
                 main {
                     (introduction())
                     (result(outcomes, about))
-                    (contents(&sections))
+                    (contents(&sections, is_of_thesis(outcomes)))
                     (gallery(&sections))
                     @if is_of_thesis(outcomes) { (about_tensor_lines()) }
                     (glossary())

@@ -15,6 +15,8 @@ pub(super) struct Header {
     pub(super) scalar: ScalarType,
     pub(super) fortran: bool,
     pub(super) shape: Vec<usize>,
+    /// Where the type `b1` stands, for arrays of truth values: bytes of 0 and 1.
+    pub(super) truth: Option<usize>,
 }
 
 impl Header {
@@ -46,7 +48,9 @@ impl Header {
         let scalar =
             scalar_type(descr).ok_or_else(|| IoError::NpyType { byte: at, descr: shortened(descr) })?;
         let shape = fitting(&shape, scalar, end, bytes.len() - end)?;
-        Ok(Self { scalar, fortran, shape })
+        // Behind the quote and the byte order.
+        let truth = (descr.get(1..) == Some(b"b1")).then_some(at + 2);
+        Ok(Self { scalar, fortran, shape, truth })
     }
 }
 
@@ -91,7 +95,7 @@ fn scalar_type(descr: &[u8]) -> Option<ScalarType> {
     let (order, kind) = descr.split_at_checked(1)?;
     let scalar = match kind {
         b"i1" => ScalarType::Int8,
-        b"u1" => ScalarType::UInt8,
+        b"u1" | b"b1" => ScalarType::UInt8,
         b"i2" => ScalarType::Int16,
         b"u2" => ScalarType::UInt16,
         b"i4" => ScalarType::Int32,

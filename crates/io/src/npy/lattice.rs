@@ -67,7 +67,7 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
             (size, tuple, 1.0, x_fastest(&values, size, tuple), (Frame::Voxel, Known::Assumed), note)
         }
     };
-    let plane = matches!(layout, Layout::Picture { .. }) && matches!(tuple, 3 | 4);
+    let plane = matches!(layout, Layout::Picture { .. }) && tuple == 4;
     Ok(Lattice {
         size,
         components: tuple,

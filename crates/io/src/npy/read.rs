@@ -17,13 +17,23 @@ pub struct NpyArray {
     pub scalar: ScalarType,
 }
 
-/// Reads an array of f4, f8 or integers in either byte order, C or Fortran order.
+/// Reads an array of f4, f8, integers or truth values (0 and 1) in either byte order, C or Fortran order.
 ///
 /// # Errors
 /// Names the byte of the header that does not fit, or the sizes that differ.
 #[allow(clippy::unnecessary_cast, reason = "T is f64 in one of ten arms")]
 pub fn read_array(bytes: &[u8]) -> Result<NpyArray, IoError> {
     let header = Header::parse(bytes)?;
+    let as_bytes;
+    let bytes = if let Some(at) = header.truth {
+        // npyz reads them as booleans only.
+        let mut copy = bytes.to_vec();
+        copy[at] = b'u';
+        as_bytes = copy;
+        &as_bytes
+    } else {
+        bytes
+    };
     let values = with_type!(header.scalar, T => stored::<T>(bytes)?.into_iter().map(|v| v as f64).collect());
     let values = if header.fortran { c_order(&header.shape, values) } else { values };
     Ok(NpyArray { shape: header.shape, values, scalar: header.scalar })

@@ -81,16 +81,20 @@ pub fn lattice_from_image(
         world: World::Viewer,
         measurement: None,
         mask: valid.filter(|_| association == Association::Points).map(|m| m.values.clone()),
-        order: named.or_else(|| TensorOrder::usual(array.components)).or_else(|| usual6(array.components)),
+        order: named.or_else(|| usual(array.components)),
         frame: (Frame::World, Known::Stated),
         array: array.name.clone(),
         notes: vec![format!("a {kind} array of VTK image data")],
     })
 }
 
-/// VTK's own order of symmetric tensors is part of its format.
-fn usual6(components: usize) -> Option<TensorOrder> {
-    (components == 6).then_some(TensorOrder::VTK)
+/// VTK's own orders of tensors. Three numbers may as well be a vector: there the file says nothing.
+fn usual(components: usize) -> Option<TensorOrder> {
+    match components {
+        3 => None,
+        6 => Some(TensorOrder::VTK),
+        _ => TensorOrder::usual(components),
+    }
 }
 
 /// An image of the whole volume: nine named components, the active tensors. In the frame world the voxel axes keep

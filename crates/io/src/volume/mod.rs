@@ -197,7 +197,7 @@ impl Lattice {
         }
         if let Some(mask) = &self.mask {
             let masked = mask.iter().filter(|&&m| m == 0.0).count();
-            story.push(format!("{masked} voxels with mask 0, taken as zero tensors"));
+            story.push(format!("{masked} voxels masked out, taken as zero tensors"));
         }
         story.extend(self.notes.iter().cloned());
         story

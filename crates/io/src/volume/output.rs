@@ -8,20 +8,19 @@ use tigereye_core::{Field, Tensor2};
 const ROUNDING: f64 = 1e-12;
 
 impl Lattice {
-    /// A field of the plane as a lattice of one layer: row 0 of the field is the row of the largest y. The lower left
-    /// point is at 0, points have distance 1.
+    /// A field of the plane as a lattice of one layer, row 0 on top as in the field. The lower left point is at 0, points
+    /// have distance 1.
     #[must_use]
     pub fn from_field(field: &Field<Tensor2>) -> Self {
         let grid = field.grid();
-        let rows = field.values().chunks(grid.width()).rev();
         let order = TensorOrder::ROWS2;
         Self {
             size: [grid.width(), grid.height(), 1],
             components: order.components(),
-            values: rows.flatten().flat_map(Tensor2::components).collect(),
+            values: field.values().iter().flat_map(Tensor2::components).collect(),
             scalar: ScalarType::Float64,
-            axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-            origin: [0.0; 3],
+            axes: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]],
+            origin: [0.0, (grid.height() - 1) as f64, 0.0],
             world: World::Viewer,
             measurement: None,
             mask: None,
@@ -34,13 +33,17 @@ impl Lattice {
 }
 
 impl TensorVolume {
-    /// A field of the plane as a volume of one layer, its third row and column zero. `origin` is the position of the
-    /// lower left point.
+    /// A field of the plane as a volume of one layer, its third row and column zero: row 0 of the field is the row of the
+    /// largest y. `origin` is the position of the lower left point.
     #[must_use]
     pub fn from_field(field: &Field<Tensor2>, origin: [f64; 2], spacing: [f64; 2]) -> Self {
-        let mut lattice = Lattice::from_field(field);
-        lattice.axes = [[spacing[0], 0.0, 0.0], [0.0, spacing[1], 0.0], [0.0, 0.0, 1.0]];
-        lattice.origin = [origin[0], origin[1], 0.0];
+        let rows = field.values().chunks(field.grid().width()).rev();
+        let lattice = Lattice {
+            values: rows.flatten().flat_map(Tensor2::components).collect(),
+            axes: [[spacing[0], 0.0, 0.0], [0.0, spacing[1], 0.0], [0.0, 0.0, 1.0]],
+            origin: [origin[0], origin[1], 0.0],
+            ..Lattice::from_field(field)
+        };
         let (order, frame) = (TensorOrder::ROWS2, lattice.frame);
         Self { lattice, order: (order, Known::Stated), frame }
     }

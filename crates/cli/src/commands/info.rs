@@ -144,6 +144,7 @@ fn facts(input: &Input) -> Value {
         "fractional_anisotropy_histogram": lattice::histogram(
             field.values().iter().map(|t| Anisotropy::of(t).fractional)
         ),
+        "negative_eigenvalues_histogram": negative_eigenvalues(field),
         "suggested_local_above": suggested_local_above(field),
         "shares": {
             "zero": share(&Tensor2::is_zero),
@@ -154,6 +155,15 @@ fn facts(input: &Input) -> Value {
             "total_anisotropy": share(&|t| !t.is_zero() && is_totally_anisotropic(t)),
         },
     })
+}
+
+/// Tensors with none, one and two eigenvalues (real parts) below zero.
+fn negative_eigenvalues(field: &Field<Tensor2>) -> [usize; 3] {
+    let mut counts = [0; 3];
+    for t in field.values() {
+        counts[Eigenvalues::of(t).real_parts().iter().filter(|v| **v < 0.0).count()] += 1;
+    }
+    counts
 }
 
 /// Half-axes of equal length: the direction of the tensor is undefined. Zero tensors are counted apart.

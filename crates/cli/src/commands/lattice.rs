@@ -56,6 +56,8 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
     let (mut numbers, mut trace) = (Range::EMPTY, Range::EMPTY);
     let mut eigenvalues = [Range::EMPTY, Range::EMPTY, Range::EMPTY];
     let mut anisotropy = Vec::with_capacity(lattice.voxels());
+    // Tensors by their number of negative eigenvalues.
+    let mut signs = [0_usize; 4];
     let [mut zero, mut strange, mut degenerate, mut asymmetric, mut indefinite, mut negative] = [0_usize; 6];
     for t in volume.tensors() {
         if !t.iter().all(|v| v.is_finite()) {
@@ -73,7 +75,9 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
         let close = (l[0] - l[1]).min(l[1] - l[2]) <= DEGENERATE_BELOW * largest;
         degenerate += usize::from(largest > 0.0 && close);
         asymmetric += usize::from(off > ASYMMETRIC_ABOVE * largest);
-        negative += usize::from(l[2] < -ROUNDING * largest);
+        let below = l.iter().filter(|v| **v < -ROUNDING * largest).count();
+        signs[below] += 1;
+        negative += usize::from(below > 0);
         indefinite += usize::from(l[2] < -ROUNDING * largest && l[0] > ROUNDING * largest);
     }
     let share = |n: usize| n as f64 / lattice.voxels() as f64;
@@ -92,6 +96,7 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
         "masked": volume.masked_out(),
         "eigenvalues": eigenvalues.each_ref().map(Range::json),
         "fractional_anisotropy": fa.json(),
+        "negative_eigenvalues_histogram": signs,
         "fractional_anisotropy_above_1": anisotropy.iter().filter(|v| **v > 1.0 + FA_ROUNDING).count(),
         "fractional_anisotropy_histogram": histogram(anisotropy.into_iter()),
         "shares": {
@@ -185,6 +190,16 @@ pub(super) fn shares_as_text(facts: &Value) -> String {
         let above = facts["fractional_anisotropy_above_1"].as_u64().filter(|n| *n > 0);
         let above = above.map_or_else(String::new, |n| format!(", and {n} above 1"));
         let _ = writeln!(text, "  FA from 0 to 1 in steps of 0.1: {}{above}", counts.join(" "));
+    }
+    if let Some(bars) = facts["negative_eigenvalues_histogram"].as_array() {
+        let counts: Vec<String> = bars.iter().map(Value::to_string).collect();
+        let numbers: Vec<String> = (0..bars.len()).map(|n| n.to_string()).collect();
+        let _ = writeln!(
+            text,
+            "  tensors with {} negative eigenvalues: {}",
+            numbers.join(", "),
+            counts.join(" ")
+        );
     }
     for (name, share) in facts["shares"].as_object().into_iter().flatten() {
         let percent = share.as_f64().unwrap_or(0.0) * 100.0;

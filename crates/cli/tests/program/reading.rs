@@ -206,3 +206,15 @@ fn masks_of_another_place_are_told() {
         );
     }
 }
+
+#[test]
+fn negative_eigenvalues_are_counted() {
+    let place = Place::new();
+    // Diagonal tensors with 0, 1, 1 and 2 negative entries.
+    let diagonals = [[1.0, 2.0], [-1.0, 2.0], [3.0, -2.0], [-1.0, -1.0]];
+    place.write("t.npy", array(&[2, 2, 4], |i| [diagonals[i / 4][0], 0.0, 0.0, diagonals[i / 4][1]][i % 4]));
+    let facts = place.succeeds(&["info", "t.npy", "--json"]).json();
+    assert_eq!(facts["negative_eigenvalues_histogram"], serde_json::json!([1, 2, 1]));
+    let text = place.succeeds(&["info", "t.npy"]).stdout;
+    assert!(text.contains("tensors with 0, 1, 2 negative eigenvalues: 1 2 1"), "{text}");
+}

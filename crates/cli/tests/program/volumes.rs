@@ -128,6 +128,7 @@ fn info_describes_whole_volumes() {
     );
     assert_eq!(facts["component_order"], "xx,xy,xz,yy,yz,zz");
     assert_eq!(facts["mean_trace"], 56.5);
+    assert_eq!(facts["negative_eigenvalues_histogram"], serde_json::json!([12, 0, 0, 0]));
     let bars = facts["fractional_anisotropy_histogram"].as_array().unwrap();
     assert_eq!(bars.iter().map(|b| b.as_u64().unwrap()).sum::<u64>(), 12);
     let text = place.succeeds(&["info", "v.nrrd"]).stdout;

@@ -57,10 +57,10 @@ pub fn write(volume: &TensorVolume, provenance: &str) -> Result<Vec<u8>, IoError
     Ok(bytes)
 }
 
-/// [`write`], packed with gzip as `.nii.gz` has it; the same volume always gives the same bytes.
+/// [`write()`], packed with gzip as `.nii.gz` has it; the same volume always gives the same bytes.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_packed(volume: &TensorVolume, provenance: &str) -> Result<Vec<u8>, IoError> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::default());
     // Writing to a Vec does not fail.

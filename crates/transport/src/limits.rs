@@ -4,8 +4,9 @@
 
 use crate::Real;
 use crate::aligned::Aligned;
-use crate::simd::{Level, Vector};
+use crate::simd::{Level, Proven, Task, Vector};
 use core::hint::black_box;
+use core::marker::PhantomData;
 use tigereye_core::Grid;
 
 /// Multiplications, fused or not, of one update of one cell in one lane ([`PulseSolver`](crate::PulseSolver)).
@@ -22,11 +23,26 @@ const SUM_CHAINS: usize = 3;
 /// Their rate is the arithmetic limit.
 #[must_use]
 pub fn arithmetic<T: Real>(level: Level, updates: u64) -> u64 {
-    crate::simd::arithmetic::<T>(level, updates)
+    level.dispatch(Arithmetic::<T> { updates, number: PhantomData })
+}
+
+struct Arithmetic<T> {
+    updates: u64,
+    number: PhantomData<T>,
+}
+
+impl<T: Real> Task for Arithmetic<T> {
+    type Number = T;
+    type Output = u64;
+
+    #[inline(always)]
+    fn work<P: Proven<T>>(self, proof: P) -> u64 {
+        arithmetic_with::<P::Vector>(proof.vector(), self.updates)
+    }
 }
 
 #[inline(always)]
-pub(crate) fn arithmetic_with<V: Vector>(proof: V::Proof, updates: u64) -> u64 {
+fn arithmetic_with<V: Vector>(proof: V::Proof, updates: u64) -> u64 {
     let number = |x: f64| V::splat(proof, crate::real::Number::narrowed(black_box(x)));
     let (factor, term) = (number(0.999), number(1e-3));
     let mut products = [term; PRODUCT_CHAINS];
@@ -79,14 +95,26 @@ impl<T: Real> Traffic<T> {
     ///
     /// Their rate is the limit of moving the state once a step; fused steps may pass it.
     pub fn pass(&mut self, level: Level) -> u64 {
-        crate::simd::touch(level, self.numbers.as_mut_slice());
+        level.dispatch(Touch(self.numbers.as_mut_slice()));
         black_box(self.numbers.as_slice());
         self.cells * T::LANES as u64
     }
 }
 
+struct Touch<'a, T>(&'a mut [T]);
+
+impl<T: Real> Task for Touch<'_, T> {
+    type Number = T;
+    type Output = ();
+
+    #[inline(always)]
+    fn work<P: Proven<T>>(self, proof: P) {
+        touch_with::<P::Vector>(proof.vector(), self.0);
+    }
+}
+
 #[inline(always)]
-pub(crate) fn touch_with<V: Vector>(proof: V::Proof, numbers: &mut [V::Number]) {
+fn touch_with<V: Vector>(proof: V::Proof, numbers: &mut [V::Number]) {
     let one = V::splat(proof, crate::real::Number::narrowed(black_box(1.0)));
     for line in numbers.as_chunks_mut::<16>().0 {
         for c in 0..16 / V::WIDTH {

@@ -13,9 +13,6 @@
 //!   alignment. So they never leave them.
 #![allow(unsafe_code)]
 
-use crate::Real;
-use crate::limits::{arithmetic_with, touch_with};
-use crate::pulses::{LaneOutcome, Run, SectorSums};
 use crate::real::Number;
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::*;
@@ -81,7 +78,7 @@ impl Level {
 /// Several numbers that are computed with at once.
 ///
 /// Methods of the wide vectors become single instructions only when inlined into a function compiled for their level:
-/// everything between [`solve`] and [`l1`] and them is `#[inline(always)]`.
+/// everything between [`Level::dispatch`] and them is `#[inline(always)]`.
 pub(crate) trait Vector:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
@@ -612,100 +609,99 @@ impl Octet for Avx2<__m256> {
     }
 }
 
-/// Propagates the pulses of `block` with the widest vectors of the level that its lanes fill.
-pub(crate) fn solve<T: Real, const N: usize>(level: Level, run: Run<'_, '_, T, N>) -> [LaneOutcome; N] {
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma")]
-    fn avx2<T: Real, const N: usize>(run: Run<'_, '_, T, N>) -> [LaneOutcome; N] {
-        run.solve::<T::Avx2>(HasAvx2(()))
+/// A hot loop, written once for the vectors of every level.
+pub(crate) trait Task: Sized {
+    /// What it computes with.
+    type Number: Vectors;
+    /// What it gives.
+    type Output;
+    /// How many lanes it has to fill vectors with.
+    const LANES: usize = 16;
+
+    /// The loop. `#[inline(always)]`, so that it is compiled for the level.
+    fn work<P: Proven<Self::Number>>(self, proof: P) -> Self::Output;
+}
+
+/// The vectors of a level, where the processor has its instructions.
+pub(crate) trait Proven<T>: Copy {
+    /// As wide as the level has them.
+    type Vector: Vector<Number = T>;
+    /// Eight numbers of the level.
+    type Octet: Octet<Number = T>;
+
+    /// Evidence for the vector.
+    fn vector(self) -> <Self::Vector as Vector>::Proof;
+    /// Evidence for the octet.
+    fn octet(self) -> <Self::Octet as Octet>::Proof;
+}
+
+/// No evidence is needed for what every processor has.
+#[derive(Clone, Copy)]
+struct NeedsNothing;
+
+impl<T: Vectors> Proven<T> for NeedsNothing {
+    type Vector = T::Baseline;
+    type Octet = T::BaselineOctet;
+
+    #[inline(always)]
+    fn vector(self) {}
+    #[inline(always)]
+    fn octet(self) {}
+}
+
+#[cfg(target_arch = "x86_64")]
+impl<T: Vectors> Proven<T> for HasAvx2 {
+    type Vector = T::Avx2;
+    type Octet = T::Avx2Octet;
+
+    #[inline(always)]
+    fn vector(self) -> Self {
+        self
     }
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx2,fma")]
-    fn avx512<T: Real, const N: usize>(run: Run<'_, '_, T, N>) -> [LaneOutcome; N] {
-        run.solve::<T::Avx512>(HasAvx512(()))
-    }
-    match level.0 {
-        // SAFETY: the level exists only where the processor has the instructions.
-        #[cfg(target_arch = "x86_64")]
-        Kind::Avx512 if N.is_multiple_of(T::Avx512::WIDTH) => unsafe { avx512(run) },
-        // SAFETY: as above; the wide level includes the narrow.
-        #[cfg(target_arch = "x86_64")]
-        Kind::Avx512 | Kind::Avx2 => unsafe { avx2(run) },
-        Kind::Baseline => run.solve::<T::Baseline>(()),
+    #[inline(always)]
+    fn octet(self) -> Self {
+        self
     }
 }
 
-/// [`crate::pulses::difference::l1`] with the octets of the level.
-pub(crate) fn l1<T: Vectors>(
-    level: Level,
-    sums: &SectorSums<T>,
-    width: usize,
-    a: &[[T; 8]],
-    b: &[[T; 8]],
-) -> f64 {
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma")]
-    fn avx2<T: Vectors>(sums: &SectorSums<T>, width: usize, a: &[[T; 8]], b: &[[T; 8]]) -> f64 {
-        sums.l1::<T::Avx2Octet>(HasAvx2(()), width, a, b)
+#[cfg(target_arch = "x86_64")]
+impl<T: Vectors> Proven<T> for HasAvx512 {
+    type Vector = T::Avx512;
+    type Octet = T::Avx512Octet;
+
+    #[inline(always)]
+    fn vector(self) -> Self {
+        self
     }
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx2,fma")]
-    fn avx512<T: Vectors>(sums: &SectorSums<T>, width: usize, a: &[[T; 8]], b: &[[T; 8]]) -> f64 {
-        sums.l1::<T::Avx512Octet>(HasAvx512(()).into(), width, a, b)
-    }
-    match level.0 {
-        // SAFETY: the level exists only where the processor has the instructions.
-        #[cfg(target_arch = "x86_64")]
-        Kind::Avx512 => unsafe { avx512(sums, width, a, b) },
-        // SAFETY: as above.
-        #[cfg(target_arch = "x86_64")]
-        Kind::Avx2 => unsafe { avx2(sums, width, a, b) },
-        Kind::Baseline => sums.l1::<T::BaselineOctet>((), width, a, b),
+    #[inline(always)]
+    fn octet(self) -> <T::Avx512Octet as Octet>::Proof {
+        self.into()
     }
 }
 
-/// [`crate::limits::arithmetic_with`] with the vectors of the level.
-pub(crate) fn arithmetic<T: Real>(level: Level, updates: u64) -> u64 {
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma")]
-    fn avx2<T: Real>(updates: u64) -> u64 {
-        arithmetic_with::<T::Avx2>(HasAvx2(()), updates)
-    }
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx2,fma")]
-    fn avx512<T: Real>(updates: u64) -> u64 {
-        arithmetic_with::<T::Avx512>(HasAvx512(()), updates)
-    }
-    match level.0 {
-        // SAFETY: the level exists only where the processor has the instructions.
+impl Level {
+    /// Does a task with the widest vectors of this level that its lanes fill.
+    pub(crate) fn dispatch<K: Task>(self, task: K) -> K::Output {
         #[cfg(target_arch = "x86_64")]
-        Kind::Avx512 => unsafe { avx512::<T>(updates) },
-        // SAFETY: as above.
+        #[target_feature(enable = "avx2,fma")]
+        fn avx2<K: Task>(task: K) -> K::Output {
+            task.work(HasAvx2(()))
+        }
         #[cfg(target_arch = "x86_64")]
-        Kind::Avx2 => unsafe { avx2::<T>(updates) },
-        Kind::Baseline => arithmetic_with::<T::Baseline>((), updates),
-    }
-}
-
-/// [`crate::limits::touch_with`] with the vectors of the level.
-pub(crate) fn touch<T: Real>(level: Level, numbers: &mut [T]) {
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2,fma")]
-    fn avx2<T: Real>(numbers: &mut [T]) {
-        touch_with::<T::Avx2>(HasAvx2(()), numbers);
-    }
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx2,fma")]
-    fn avx512<T: Real>(numbers: &mut [T]) {
-        touch_with::<T::Avx512>(HasAvx512(()), numbers);
-    }
-    match level.0 {
-        // SAFETY: the level exists only where the processor has the instructions.
-        #[cfg(target_arch = "x86_64")]
-        Kind::Avx512 => unsafe { avx512(numbers) },
-        // SAFETY: as above.
-        #[cfg(target_arch = "x86_64")]
-        Kind::Avx2 => unsafe { avx2(numbers) },
-        Kind::Baseline => touch_with::<T::Baseline>((), numbers),
+        #[target_feature(enable = "avx512f,avx2,fma")]
+        fn avx512<K: Task>(task: K) -> K::Output {
+            task.work(HasAvx512(()))
+        }
+        match self.0 {
+            // SAFETY: the level exists only where the processor has the instructions.
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx512 if K::LANES.is_multiple_of(<K::Number as Vectors>::Avx512::WIDTH) => unsafe {
+                avx512(task)
+            },
+            // SAFETY: as above; the wide level includes the narrow.
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx512 | Kind::Avx2 => unsafe { avx2(task) },
+            Kind::Baseline => task.work(NeedsNothing),
+        }
     }
 }

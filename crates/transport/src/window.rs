@@ -12,12 +12,22 @@ pub(crate) struct Window {
 }
 
 impl Window {
+    /// One cell.
+    pub(crate) const fn of(cell: Cell) -> Self {
+        Self { x0: cell.x, x1: cell.x, y0: cell.y, y1: cell.y }
+    }
     /// The smallest window around `cells`.
     pub(crate) fn around(cells: impl IntoIterator<Item = Cell>) -> Option<Self> {
-        cells.into_iter().fold(None, |window, c| {
-            let w = window.unwrap_or(Self { x0: c.x, x1: c.x, y0: c.y, y1: c.y });
-            Some(Self { x0: w.x0.min(c.x), x1: w.x1.max(c.x), y0: w.y0.min(c.y), y1: w.y1.max(c.y) })
-        })
+        cells.into_iter().map(Self::of).reduce(Self::union)
+    }
+    /// The smallest window around two.
+    pub(crate) fn union(self, other: Self) -> Self {
+        Self {
+            x0: self.x0.min(other.x0),
+            x1: self.x1.max(other.x1),
+            y0: self.y0.min(other.y0),
+            y1: self.y1.max(other.y1),
+        }
     }
     /// The window one step later: light moves one cell a step.
     pub(crate) fn grown(self, grid: Grid) -> Self {

@@ -10,7 +10,8 @@
 use crate::Scheme;
 use crate::real::{Number, Real};
 use crate::scattering::Scattering;
-use crate::simd::{Level, Octet};
+use crate::simd::{Level, Octet, Proven, Task};
+use crate::window::Window;
 use core::f64::consts::FRAC_1_SQRT_2;
 use tigereye_core::Cell;
 
@@ -53,21 +54,23 @@ impl<T: Number> SectorSums<T> {
         }
     }
 
-    /// `sum_cells sum_t |sum_j (a_j - b_j) c_j(t)|`, W/rad: each row of `width` cells alone, then rows in order.
+    /// `sum_cells sum_t |sum_j (a_j - b_j) c_j(t)|`, W/rad, over the cells of a window in a grid of `width` columns: each row
+    /// alone, then rows in order. Dark cells add exactly 0, so windows that hold all light give the same bits.
     #[inline(always)]
-    pub(crate) fn l1<O: Octet<Number = T>>(
+    fn l1<O: Octet<Number = T>>(
         &self,
         proof: O::Proof,
         width: usize,
-        a: &[[T; 8]],
-        b: &[[T; 8]],
+        window: Window,
+        [a, b]: [&[[T; 8]]; 2],
     ) -> f64 {
         let diagonal = O::splat(proof, T::narrowed(FRAC_1_SQRT_2));
         let middle = O::splat(proof, self.middle);
         let mut total = 0.0;
-        for y in 0..a.len() / width {
-            let (next_a, next_b) = (&a[y * width..], &b[y * width..]);
-            let (a, b) = (&next_a[..width], &next_b[..width]);
+        for y in window.y0..=window.y1 {
+            let (next_a, next_b) = (&a[y * width + window.x0..], &b[y * width + window.x0..]);
+            let columns = window.x1 - window.x0 + 1;
+            let (a, b) = (&next_a[..columns], &next_b[..columns]);
             let mut row = O::splat(proof, T::default());
             for (i, (a, b)) in a.iter().zip(b).enumerate() {
                 O::expect(proof, &next_a[(i + AHEAD).min(next_a.len() - 1)]);
@@ -101,8 +104,39 @@ pub fn l1_difference<T: Real>(
     b1: &PulseDistribution<T>,
     b2: &PulseDistribution<T>,
 ) -> f64 {
-    let l1 = crate::simd::l1(level, T::sector_sums(field), field.grid().width(), b1.lobes(), b2.lobes());
+    let Some(window) = b1.window.into_iter().chain(b2.window).reduce(Window::union) else {
+        return 0.0;
+    };
+    let l1 = distance(field, level, window, [b1.lobes(), b2.lobes()]);
     l1 + source_correction(field, b1, b2)
+}
+
+/// The L1 difference of the lobes of two distributions over a window, W/rad.
+pub(super) fn distance<T: Real>(
+    field: &Scattering<'_>,
+    level: Level,
+    window: Window,
+    lobes: [&[[T; 8]]; 2],
+) -> f64 {
+    level.dispatch(Distance { sums: T::sector_sums(field), width: field.grid().width(), window, lobes })
+}
+
+/// [`SectorSums::l1`] of two distributions.
+struct Distance<'a, T> {
+    sums: &'a SectorSums<T>,
+    width: usize,
+    window: Window,
+    lobes: [&'a [[T; 8]]; 2],
+}
+
+impl<T: Real> Task for Distance<'_, T> {
+    type Number = T;
+    type Output = f64;
+
+    #[inline(always)]
+    fn work<P: Proven<T>>(self, proof: P) -> f64 {
+        self.sums.l1::<P::Octet>(proof.octet(), self.width, self.window, self.lobes)
+    }
 }
 
 /// What the zeroed pulse samples change in the L1 difference, W/rad.

@@ -18,10 +18,10 @@ pub use solver::{LaneOutcome, PulseSolver};
 
 pub(crate) use difference::SectorSums;
 pub(crate) use passage::Passage;
-pub(crate) use solver::Run;
 
 use crate::Real;
 use crate::aligned::Aligned;
+use crate::window::Window;
 use tigereye_core::Cell;
 
 /// The light of one pulse: eight fluxes a cell, `lobes[cell][direction]`, W, row-major.
@@ -32,13 +32,15 @@ pub struct PulseDistribution<T> {
     numbers: Aligned<T>,
     source: Cell,
     sample: usize,
+    /// There is no light outside; none before anything was written.
+    window: Option<Window>,
 }
 
 impl<T: Real> PulseDistribution<T> {
     /// No light in `cells` cells.
     #[must_use]
     pub fn dark(cells: usize) -> Self {
-        Self { numbers: Aligned::zeros(8 * cells), source: Cell::new(0, 0), sample: 0 }
+        Self { numbers: Aligned::zeros(8 * cells), source: Cell::new(0, 0), sample: 0, window: None }
     }
     /// Bytes a distribution over `cells` cells takes.
     #[must_use]
@@ -49,6 +51,23 @@ impl<T: Real> PulseDistribution<T> {
     #[must_use]
     pub fn lobes(&self) -> &[[T; 8]] {
         self.numbers.as_slice().as_chunks().0
+    }
+    /// Darkens what is lit outside `window`, in which all cells are about to be written.
+    pub(crate) fn keep(&mut self, width: usize, window: Window) {
+        let Some(old) = self.window.replace(window) else {
+            // Nothing is lit. Written all the same: memory that is read before it is written costs the system two visits, the
+            // second of which stops all threads.
+            self.lobes_mut().fill([T::default(); 8]);
+            return;
+        };
+        for y in old.y0..=old.y1 {
+            let row = &mut self.lobes_mut()[y * width..][..width];
+            let kept = if (window.y0..=window.y1).contains(&y) { window.x0..window.x1 + 1 } else { 0..0 };
+            let left = old.x0..kept.start.clamp(old.x0, old.x1 + 1);
+            let right = kept.end.clamp(old.x0, old.x1 + 1)..old.x1 + 1;
+            row[left].fill([T::default(); 8]);
+            row[right].fill([T::default(); 8]);
+        }
     }
     pub(crate) fn lobes_mut(&mut self) -> &mut [[T; 8]] {
         self.numbers.as_mut_slice().as_chunks_mut().0

@@ -1,12 +1,13 @@
 //! From dark to the stop, lane by lane.
 
 use super::PulseDistribution;
+use super::difference::distance;
 use super::source::Source;
 use super::stationary::{Memory, Settled};
 use super::stream::{MAX_FUSED, Scene, Stream};
 use crate::real::Number;
 use crate::scattering::Scattering;
-use crate::simd::{Level, Vector};
+use crate::simd::{Level, Proven, Task, Vector};
 use crate::stopping::{StepMeasures, Verdict};
 use crate::window::Window;
 use crate::{Real, Stopping, StoppingRule};
@@ -101,11 +102,11 @@ fn run<T: Real, const N: usize>(
     let source = Source::new(field.scheme(), shape, cell, &lanes);
     let scene = Scene { cells: T::passages(field), source };
     let run = Run { field, level, scene, stream, stopping: *stopping, results };
-    crate::simd::solve(level, run)[..samples.len()].to_vec()
+    level.dispatch(run)[..samples.len()].to_vec()
 }
 
 /// One batch of pulses.
-pub(crate) struct Run<'r, 'a, T, const N: usize> {
+pub(super) struct Run<'r, 'a, T, const N: usize> {
     pub(super) field: &'r Scattering<'a>,
     level: Level,
     pub(super) scene: Scene<'r, T, N>,
@@ -127,7 +128,7 @@ struct Progress<const N: usize> {
 impl<const N: usize> Progress<N> {
     const fn new(cell: Cell, outcomes: [Option<LaneOutcome>; N]) -> Self {
         Self {
-            window: Window { x0: cell.x, x1: cell.x, y0: cell.y, y1: cell.y },
+            window: Window::of(cell),
             work: Work { steps: 0, cell_updates: 0 },
             totals: [[0.0; N]; 3],
             outcomes,
@@ -170,10 +171,21 @@ impl<const N: usize> Progress<N> {
     }
 }
 
+impl<T: Real, const N: usize> Task for Run<'_, '_, T, N> {
+    type Number = T;
+    type Output = [LaneOutcome; N];
+    const LANES: usize = N;
+
+    #[inline(always)]
+    fn work<P: Proven<T>>(self, proof: P) -> [LaneOutcome; N] {
+        self.solve::<P::Vector>(proof.vector())
+    }
+}
+
 impl<T: Real, const N: usize> Run<'_, '_, T, N> {
     /// Until every lane has stopped. The stream is dark before and after.
     #[inline(always)]
-    pub(crate) fn solve<V: Vector<Number = T>>(mut self, proof: V::Proof) -> [LaneOutcome; N] {
+    fn solve<V: Vector<Number = T>>(mut self, proof: V::Proof) -> [LaneOutcome; N] {
         let StoppingRule::Converged { tolerance } = self.stopping.rule else {
             return self.march::<V>(proof, [None; N]);
         };
@@ -276,17 +288,15 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
 
     /// Writes the light of `lanes` to their results.
     pub(super) fn take(&mut self, window: Window, lanes: &[usize]) {
-        let grid = self.field.grid();
+        let width = self.field.grid().width();
         let asked: Vec<usize> = lanes.iter().copied().filter(|&l| l < self.results.len()).collect();
-        let whole = window.cells() == grid.cells() as u64;
-        let mut results = self.results.iter_mut().enumerate();
-        let mut to: Vec<&mut [[T; 8]]> = (results.by_ref())
+        let mut to: Vec<&mut [[T; 8]]> = (self.results.iter_mut().enumerate())
             .filter(|(l, _)| asked.contains(l))
-            .map(|(_, result)| result.lobes_mut())
+            .map(|(_, result)| {
+                result.keep(width, window);
+                result.lobes_mut()
+            })
             .collect();
-        if !whole {
-            to.iter_mut().for_each(|to| to.fill([T::default(); 8]));
-        }
         self.stream.copy_lanes(window, &asked, &mut to);
     }
 }
@@ -321,7 +331,7 @@ impl<T: Real> Changes<T> {
         let (scheme, grid, cell, sample) =
             (run.field.scheme(), run.field.grid(), run.scene.source.cell(), run.results[l].sample);
         let (now, before) = (self.now[l].lobes(), self.before[l].lobes());
-        let l1 = crate::simd::l1(run.level, T::sector_sums(run.field), grid.width(), now, before);
+        let l1 = distance(run.field, run.level, whole(grid), [now, before]);
         let at_sample =
             |lobes: &[[T; 8]]| scheme.intensity(&lobes[grid.index(cell)].map(Number::widened), sample);
         // The pulse's own sample holds S before and after.

@@ -239,6 +239,47 @@ fn l1_differences_are_sums_over_cells_and_samples() {
     }
 }
 
+#[test]
+fn light_of_earlier_pulses_leaves_no_trace() {
+    let transmission = rough_field(13, 12);
+    let scheme = Scheme::new(transmission.directions(), SharedWeights::Thesis);
+    let field = Scattering::new(&scheme, &transmission);
+    let cells = field.grid().cells();
+    let mut solver = PulseSolver::<f64>::new(&field, Level::detect());
+    let mut used = vec![PulseDistribution::dark(cells); 3];
+    // Wide and narrow windows in turn, apart from each other and overlapping.
+    let turns =
+        [(2, 3, 30), (9, 8, 2), (10, 8, 3), (1, 1, 1), (12, 11, 4), (6, 6, 12), (0, 11, 0), (6, 5, 5)];
+    let mut last: Option<Vec<PulseDistribution<f64>>> = None;
+    for (x, y, steps) in turns {
+        let (cell, stopping) = (Cell::new(x, y), Stopping::steps(steps));
+        let samples = [0, 5, 11];
+        solver.solve(cell, &samples, &stopping, &mut used);
+        let (fresh, _) = solved(&mut solver, cells, cell, &samples, &stopping);
+        for (used, fresh) in used.iter().zip(&fresh) {
+            assert!(bits(used).eq(bits(fresh)), "{cell:?} after {steps} steps");
+        }
+        // A difference looks where either has light, and no further.
+        for (a, b) in last.iter().flatten().zip(&fresh) {
+            let plain: f64 = a.lobes().iter().zip(b.lobes()).map(|(a, b)| by_sample(&scheme, a, b)).sum();
+            let own = |b: &PulseDistribution<f64>, other: &PulseDistribution<f64>| {
+                let i = field.grid().index(b.source());
+                let [own, other] = [b, other].map(|p| scheme.intensity(&p.lobes()[i], b.sample()));
+                other.abs() - (own - other).abs()
+            };
+            let expected = plain + own(a, b) + own(b, a);
+            let got = l1_difference(&field, Level::detect(), a, b);
+            assert!((got - expected).abs() <= 1e-13 * expected, "{cell:?}: {got} and {expected}");
+        }
+        last = Some(fresh);
+    }
+}
+
+/// The L1 difference of two cells' light over all samples.
+fn by_sample(scheme: &Scheme, a: &[f64; 8], b: &[f64; 8]) -> f64 {
+    (0..SAMPLES).map(|t| (scheme.intensity(a, t) - scheme.intensity(b, t)).abs()).sum()
+}
+
 /// The light that plain steps end with, far beyond the tolerance.
 fn brute_force(scheme: &Scheme, transmission: &TransmissionField, light: Light) -> Outcome {
     let rule = StoppingRule::Converged { tolerance: 1e-15 };

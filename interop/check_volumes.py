@@ -144,9 +144,16 @@ class Pynrrd(Checks):
                 self.near(header["space origin"], ORIGIN, 1e-12, "origin")
                 self.near(header["space directions"][1:], (TURN * SPACING).T, 1e-12, "directions")
                 self.assertTrue((values[0] == 1.0).all(), "mask")
+                # Along the voxel axes, as they were read and as was asked; the measurement frame leads to the world.
+                components = six(full, "fsl") if symmetric else full.reshape(*SHAPE, 9)
+                self.near(np.moveaxis(values[1:], 0, -1), components, 1e-12, "components along the voxel axes")
+                self.near(header["measurement frame"], TURN.T, 1e-12, "measurement frame")
                 world = turned(full, TURN)
                 expected = six(world, "fsl") if symmetric else world.reshape(*SHAPE, 9)
+                self.run_program("convert", "b.nrrd", "c.nrrd", "--force")
+                values, header = nrrd.read(self.path("c.nrrd"))
                 self.near(np.moveaxis(values[1:], 0, -1), expected, 1e-12, "components in the world")
+                self.near(header["measurement frame"], np.eye(3), 0.0, "measurement frame of the world")
                 self.story_of(header["tigereye"].replace("\\\\", "\\"))
 
 

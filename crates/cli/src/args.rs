@@ -138,7 +138,8 @@ pub(crate) struct ReadingArgs {
     /// Order of the components: vtk, nrrd, dipy, fsl, mrtrix, or names such as xx,xy,xz,yy,yz,zz.
     #[arg(long, value_name = "ORDER")]
     order: Option<String>,
-    /// The axes that the components are along.
+    /// The axes that the components are along. `convert` of a whole volume whose file states them writes tensors along
+    /// these axes instead.
     #[arg(long, value_enum)]
     frame: Option<FrameName>,
     /// Slice of a volume: axis and index, from 0 as the file counts, for example z=10.
@@ -171,6 +172,9 @@ pub(crate) struct ReadingArgs {
     /// What becomes of tensors that are infinite or not a number.
     #[arg(long, value_enum, default_value_t = NotFinite::Refuse)]
     not_finite: NotFinite,
+    /// Numbers that a file may hold at most, 2^28 by default; each takes eight bytes and more while it is read.
+    #[arg(long, value_name = "N")]
+    limit: Option<u64>,
 }
 
 impl ReadingArgs {
@@ -178,11 +182,7 @@ impl ReadingArgs {
     pub(crate) fn reading(&self) -> Reading {
         let derive = self.derive.map(|name| {
             let kind = Derived::from(name);
-            Derivation {
-                kind,
-                sigma: self.sigma.unwrap_or_else(|| kind.usual_sigma()),
-                window: self.window.unwrap_or(Derived::USUAL_WINDOW),
-            }
+            Derivation { kind, sigma: self.sigma.unwrap_or_else(|| kind.usual_sigma()), window: self.window }
         });
         Reading {
             array: self.array.clone(),
@@ -195,6 +195,7 @@ impl ReadingArgs {
             mask: self.mask.clone(),
             mask_above: self.mask_above,
             zero_not_finite: self.not_finite == NotFinite::Zero,
+            limit: self.limit,
         }
     }
 }
@@ -388,7 +389,7 @@ pub(crate) struct InfoArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ConvertArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz .png) or a generator, NAME or NAME:key=value,key=value.
     pub(crate) input: String,
     /// The output by its ending: .vti, .vtp, .vtk, .nrrd, .nii, .nii.gz, .npy or .txt. A volume without a plane is written
     /// whole, which .npy and .txt cannot hold.
@@ -406,10 +407,12 @@ pub(crate) struct ConvertArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CompareArgs {
-    /// The first result: .vti, .npy, .txt or a generator.
+    /// The first result: a gradient volume or light (.vti, .npy), a tensor field in any readable format, or a generator.
     pub(crate) a: String,
     /// The second result.
     pub(crate) b: String,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     /// Largest relative difference accepted: the L2 difference over the L2 norm of A, and the largest difference over the
     /// largest value of A.
     #[arg(long, value_name = "REL", default_value = "1e-10", value_parser = parse_threshold, allow_hyphen_values = true)]

@@ -136,6 +136,16 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), CliError> {
     })
 }
 
+/// Removes a file, if it is there.
+pub(crate) fn remove(path: &Path) -> Result<(), CliError> {
+    match std::fs::remove_file(path) {
+        Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+            Err(CliError::File { path: path.display().to_string(), action: "removing", source })
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Whether a file can be written at `path`, before hours are spent on what should go there.
 pub(crate) fn check_writable(path: &Path) -> Result<(), CliError> {
     if path.is_dir() {
@@ -153,20 +163,23 @@ pub(crate) fn check_writable(path: &Path) -> Result<(), CliError> {
     })
 }
 
-/// Refuses an output that is the input: the data would be gone.
-pub(crate) fn check_apart(input: &str, outputs: &[PathBuf]) -> Result<(), CliError> {
-    let place = place_of(Path::new(input));
-    match outputs.iter().find(|output| place_of(output) == place) {
+/// Refuses an output that is one of the inputs: the data would be gone.
+pub(crate) fn check_apart(inputs: &[String], outputs: &[PathBuf]) -> Result<(), CliError> {
+    let places: Vec<PathBuf> = inputs.iter().map(|input| place_of(Path::new(input))).collect();
+    match outputs.iter().find(|output| places.contains(&place_of(output))) {
         Some(output) => {
-            let problem = "is the input, which would be lost: expected another name";
+            let problem = "is an input, which would be lost: expected another name";
             Err(CliError::input(&output.display().to_string(), problem))
         }
         None => Ok(()),
     }
 }
 
-/// The same for every way of writing one path: the folder without links and dots, and the name.
+/// The same for every way of writing one path: without links and dots, as far as it exists.
 pub(crate) fn place_of(path: &Path) -> PathBuf {
+    if let Ok(place) = path.canonicalize() {
+        return place;
+    }
     let folder = folder_of(path);
     let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
     path.file_name().map_or_else(|| folder.clone(), |name| folder.join(name))

@@ -12,7 +12,7 @@ use tigereye_transport::Level;
 const PARENTS: usize = 3;
 
 /// How the names of published reference files begin; they are not part of the project.
-const REFERENCE: &str = "reference/";
+pub(crate) const REFERENCE: &str = "reference/";
 /// The environment variable with the folder of these files; without it they are looked for beside the working folder.
 const REFERENCE_FOLDER: &str = "TIGEREYE_REFERENCE";
 const BESIDE: &str = "../shared/reference";

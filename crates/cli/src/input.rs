@@ -4,10 +4,10 @@ use crate::args::ReadingArgs;
 use crate::error::CliError;
 use crate::{files, interrupt};
 use serde_json::{Value, json};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tigereye_core::{Field, Normalization, Tensor2};
 use tigereye_experiments::input::{
-    InputError, PlaneField, Reading, TEXT_MATRICES, TensorFile, is_readable, open,
+    Derived, InputError, PlaneField, Reading, TEXT_MATRICES, TensorFile, is_readable, open,
 };
 use tigereye_experiments::provenance::hash_of_field;
 use tigereye_io::volume::Plane;
@@ -33,6 +33,14 @@ impl Source {
         // Large inputs take a while.
         interrupt::check()?;
         Ok(Self::File(file))
+    }
+
+    /// Refuses outputs that are among the files that were read: the data would be gone.
+    pub(crate) fn check_apart(&self, outputs: &[PathBuf]) -> Result<(), CliError> {
+        match self {
+            Self::Generated(_) => Ok(()),
+            Self::File(file) => files::check_apart(&file.files, outputs),
+        }
     }
 
     /// Whether the plane is clear without asking.
@@ -67,6 +75,8 @@ pub(crate) struct Input {
     /// Position of the first point and distance between points, x and y.
     pub(crate) origin: [f64; 2],
     pub(crate) spacing: [f64; 2],
+    /// Names of the files it was read from.
+    pub(crate) files: Vec<String>,
     /// The format or `generator`.
     pub(crate) kind: &'static str,
     /// Hash of the file, or of the generated field.
@@ -92,7 +102,8 @@ impl Input {
         };
         let plane = file.plane(&reading.reading()).map_err(|e| told(&file.name, e))?;
         let remarks = file.remarks();
-        Ok(Self::placed(file.name, plane, remarks, file.kind, file.blake3))
+        let input = Self::placed(file.name, plane, remarks, file.kind, file.blake3);
+        Ok(Self { files: file.files, ..input })
     }
 
     fn placed(
@@ -104,7 +115,18 @@ impl Input {
     ) -> Self {
         let oblong = plane.oblong();
         let PlaneField { field, story, origin, spacing } = plane;
-        Self { name, field, assumptions: story, remarks, oblong, origin, spacing, kind, blake3 }
+        Self {
+            name,
+            field,
+            assumptions: story,
+            remarks,
+            oblong,
+            origin,
+            spacing,
+            files: Vec::new(),
+            kind,
+            blake3,
+        }
     }
 
     /// What had to be assumed, and what looks wrong, to standard error.
@@ -112,6 +134,11 @@ impl Input {
         for line in &self.remarks {
             eprintln!("{}: {line}", self.name);
         }
+    }
+
+    /// Refuses outputs that are among the files that were read: the data would be gone.
+    pub(crate) fn check_apart(&self, outputs: &[PathBuf]) -> Result<(), CliError> {
+        files::check_apart(&self.files, outputs)
     }
 
     /// As [`Self::open`], for light: with a warning where cells are not square.
@@ -131,14 +158,16 @@ impl Input {
         let fault = |e: InputError| CliError::input(text, e);
         let plane = reading.choice.resolve([field.grid().width(), field.grid().height(), 1]);
         let plane = plane.map_err(|e| fault(e.into()))?;
-        let of_files = reading.order.is_some()
+        let of_files = reading.mask_above != 0.0
+            || reading.zero_not_finite
+            || reading.order.is_some()
             || reading.frame.is_some()
             || reading.array.is_some()
             || reading.derive.is_some()
             || reading.mask.is_some();
         if of_files || plane.0 != Plane::Xy {
             let problem = "a generator's tensors lie in the plane xy: expected no --order, --frame, --array, --derive, \
-                           --mask or other --plane";
+                           --mask, --mask-above, --not-finite or other --plane";
             return Err(CliError::input(text, problem));
         }
         let blake3 = hash_of_field(&field);
@@ -176,7 +205,13 @@ pub(crate) fn insert_reading(parameters: &mut Value, args: &ReadingArgs) {
         ("resample", reading.resample.map(|[w, h]| json!(format!("{w}x{h}")))),
         ("derive", reading.derive.map(|d| json!(d.kind.name()))),
         ("sigma", reading.derive.map(|d| json!(d.sigma))),
-        ("window", reading.derive.map(|d| json!(d.window))),
+        (
+            "window",
+            reading
+                .derive
+                .filter(|d| d.kind == Derived::Structure)
+                .map(|d| json!(d.window.unwrap_or(Derived::USUAL_WINDOW))),
+        ),
         ("mask", reading.mask.map(|v| json!(v))),
         ("mask_above", (reading.mask_above != 0.0).then(|| json!(reading.mask_above))),
         ("not_finite", reading.zero_not_finite.then(|| json!("zero"))),

@@ -9,8 +9,9 @@ use tigereye_experiments::provenance::VERSION;
 use tigereye_io::part;
 use tigereye_ltg::{Finished, LtgError, NUMERICS, PartialVolume, Shard};
 
-/// Parameters that do not show in the result. The input is known by its hash; what it is called may change.
-const FREE: [&str; 3] = ["threads", "memory", "input"];
+/// Parameters that do not show in the result. The input and its mask are known by their hash; what they are called may
+/// change.
+const FREE: [&str; 4] = ["threads", "memory", "input", "mask"];
 
 /// What determines the numbers of a part.
 #[derive(Clone, Debug, PartialEq)]

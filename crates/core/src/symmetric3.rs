@@ -56,9 +56,13 @@ fn rotate(a: &mut [[f64; 3]; 3], p: usize, q: usize) {
 }
 
 /// Fractional anisotropy of three eigenvalues, from 0 to 1 where none is negative: the norm of the deviator over the
-/// norm of the tensor, times sqrt(3/2) (Basser and Pierpaoli 1996). 0 for the zero tensor.
+/// norm of the tensor, times sqrt(3/2) (Basser and Pierpaoli 1996). 0 for the zero tensor, not a number where an eigenvalue
+/// is infinite or none.
 #[must_use]
 pub fn fractional_anisotropy3(l: [f64; 3]) -> f64 {
+    if !l.iter().all(|v| v.is_finite()) {
+        return f64::NAN;
+    }
     let largest = l.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     if largest == 0.0 {
         return 0.0;
@@ -69,9 +73,13 @@ pub fn fractional_anisotropy3(l: [f64; 3]) -> f64 {
 }
 
 /// Mode of three eigenvalues, from -1 (one small, planar) over 0 (orthotropic) to 1 (one large, linear): the determinant of
-/// the deviator of norm 1, times 3 sqrt(6) (Criscione et al. 2000; Ennis and Kindlmann 2006). 0 for isotropic tensors.
+/// the deviator of norm 1, times 3 sqrt(6) (Criscione et al. 2000; Ennis and Kindlmann 2006). 0 for isotropic tensors, not a number
+/// where an eigenvalue is infinite or none.
 #[must_use]
 pub fn mode3(l: [f64; 3]) -> f64 {
+    if !l.iter().all(|v| v.is_finite()) {
+        return f64::NAN;
+    }
     let largest = l.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     if largest == 0.0 {
         return 0.0;
@@ -112,6 +120,13 @@ mod tests {
             near([scale, scale, 0.0, scale, scale, 0.0, 0.0, 0.0, scale], [2.0 * scale, scale, 0.0]);
         }
         assert!(symmetric_eigenvalues3(&[f64::NAN; 9])[0].is_nan());
+    }
+
+    #[test]
+    fn invariants_of_no_number_are_none() {
+        for l in [[f64::NAN; 3], [1.0, f64::NAN, 0.0], [f64::INFINITY, 1.0, 0.0]] {
+            assert!(fractional_anisotropy3(l).is_nan() && mode3(l).is_nan(), "{l:?}");
+        }
     }
 
     #[test]

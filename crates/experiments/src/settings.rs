@@ -564,10 +564,31 @@ fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, S
 
 /// What an experiment says about a file; nothing for other sources.
 fn reading_of(source: &FieldSource) -> Result<Reading, String> {
-    let FieldSource::File { array, order, frame, slice, plane, crop, resample, derive, mask, .. } = source
+    let FieldSource::File {
+        array,
+        order,
+        frame,
+        slice,
+        plane,
+        crop,
+        resample,
+        derive,
+        mask,
+        mask_above,
+        not_finite,
+        ..
+    } = source
     else {
         return Ok(Reading::default());
     };
+    let zero_not_finite = match not_finite.as_deref() {
+        None | Some("refuse") => false,
+        Some("zero") => true,
+        Some(other) => return Err(format!("not_finite `{other}`: expected refuse or zero")),
+    };
+    if !mask_above.is_finite() || *mask_above < 0.0 {
+        return Err(format!("mask_above {mask_above}: expected a finite number from 0"));
+    }
     let frame = frame.as_ref().map(|name| {
         Frame::from_name(name).ok_or_else(|| format!("frame `{name}`: expected voxel, world or measurement"))
     });
@@ -585,7 +606,9 @@ fn reading_of(source: &FieldSource) -> Result<Reading, String> {
         resample: resample.map(|(width, height)| [width, height]),
         derive: derive.map(derivation),
         mask: mask.clone(),
-        ..Reading::default()
+        mask_above: *mask_above,
+        zero_not_finite,
+        limit: None,
     })
 }
 
@@ -598,7 +621,7 @@ fn derivation(rule: DeriveRule) -> Derivation {
     Derivation {
         kind,
         sigma: sigma.map_or_else(|| kind.usual_sigma(), Sigma::get),
-        window: window.map_or(Derived::USUAL_WINDOW, Sigma::get),
+        window: window.map(Sigma::get),
     }
 }
 

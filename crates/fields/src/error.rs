@@ -63,7 +63,11 @@ pub enum FieldError {
     #[error(transparent)]
     Grid(#[from] CoreError),
     /// Sides that a resampled field may not have.
-    #[error("{width} x {height} cells: expected at most {} along each side", crate::images::MAX_RESAMPLED)]
+    #[error(
+        "{width} x {height} cells: expected at most {} along each side and {} in all, before and after",
+        crate::images::MAX_RESAMPLED,
+        crate::images::MAX_RESAMPLED_CELLS
+    )]
     ResampledSize {
         /// Columns asked for.
         width: usize,

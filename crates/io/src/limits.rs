@@ -11,8 +11,8 @@ pub struct Limits {
 }
 
 impl Default for Limits {
-    /// 2^28 cells and 2^30 values.
+    /// 2^28 cells and 2^28 values, which take 2 GiB in double precision.
     fn default() -> Self {
-        Self { cells: 1 << 28, values: 1 << 30 }
+        Self { cells: 1 << 28, values: 1 << 28 }
     }
 }

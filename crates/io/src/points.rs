@@ -53,7 +53,8 @@ impl PointLattice {
         Ok(Self { size, axes, origin: first })
     }
 
-    /// The lattice of points whose numbers along the axes nobody tells: rows are as long as the first step repeats.
+    /// The lattice of points whose numbers along the axes nobody tells: rows are as long as the first step repeats. Points
+    /// of a single row lie along the axis of the lattice that they follow most, so that a column stays one.
     ///
     /// # Errors
     /// As [`Self::of`].
@@ -63,7 +64,13 @@ impl PointLattice {
         if points.is_empty() || !points.len().is_multiple_of(layer) {
             return Err(points.len().min(layer));
         }
-        Self::of(points, [row, layer / row, points.len() / layer])
+        let mut size = [row, layer / row, points.len() / layer];
+        if row == points.len() && row > 1 {
+            let step = [0, 1, 2].map(|i| (points[row - 1][i] - points[0][i]).abs());
+            let along = (0..3).fold(0, |best, a| if step[a] > step[best] { a } else { best });
+            size.swap(0, along);
+        }
+        Self::of(points, size)
     }
 
     /// Gives an image the lattice's size, spacing, directions and origin; axes of one point get the directions that are
@@ -78,15 +85,9 @@ impl PointLattice {
             }
         }
         for a in 0..3 {
-            if units[a].is_some() {
-                continue;
+            if units[a].is_none() {
+                units[a] = Some(completing(units, a));
             }
-            units[a] = match (units[(a + 1) % 3], units[(a + 2) % 3]) {
-                (Some(u), Some(v)) => {
-                    Some([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
-                }
-                _ => Some([0, 1, 2].map(|i| if i == a { 1.0 } else { 0.0 })),
-            };
         }
         let direction: [f64; 9] = std::array::from_fn(|i| units[i % 3].unwrap_or_default()[i / 3]);
         image.dimensions = self.size;
@@ -94,6 +95,20 @@ impl PointLattice {
         let turned = (0..9).any(|i| direction[i] != if i % 4 == 0 { 1.0 } else { 0.0 });
         image.direction = turned.then_some(direction);
     }
+}
+
+/// A unit vector at right angles to the axes that are known, for axis `a`: the one that makes a right-handed frame where
+/// two are known, else the nearest to a coordinate axis, its own first.
+fn completing(units: [Option<[f64; 3]>; 3], a: usize) -> [f64; 3] {
+    if let (Some(u), Some(v)) = (units[(a + 1) % 3], units[(a + 2) % 3]) {
+        return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    }
+    let known = units.into_iter().flatten().next().unwrap_or_default();
+    // One known axis lies along at most one coordinate axis, so of any two a good part of one is left.
+    let left = |i: usize| [0, 1, 2].map(|k| f64::from(u8::from(k == i)) - known[i] * known[k]);
+    let best = if length(left(a)) > 0.5 { left(a) } else { left((a + 1) % 3) };
+    let size = length(best);
+    best.map(|v| v / size)
 }
 
 fn length(v: [f64; 3]) -> f64 {
@@ -124,10 +139,39 @@ mod tests {
     #[test]
     fn lattices_are_found_without_their_size() {
         let turned = [[0.0, 0.5, 0.1], [-0.5, 0.0, 0.0], [0.0, 0.2, -1.0]];
-        for size in [[4, 3, 2], [1, 1, 1], [5, 1, 1], [7, 2, 1]] {
+        // Single rows along x, y and z of the world.
+        for (along, size) in [(1, [1, 5, 1]), (0, [5, 1, 1]), (2, [1, 1, 5])] {
+            let axes = [[0, 1, 2].map(|i| if i == along { -0.5 } else { 0.1 }), [0.0; 3], [0.0; 3]];
+            assert_eq!(PointLattice::find(&grid([5, 1, 1], axes)).map(|l| l.size), Ok(size));
+        }
+        for size in [[4, 3, 2], [1, 1, 1], [7, 2, 1]] {
             let points = grid(size, turned);
             let found = PointLattice::find(&points).map(|l| (l.size, l.origin));
             assert_eq!(found, Ok((size, [5.0; 3])));
+        }
+    }
+
+    #[test]
+    fn axes_of_one_point_are_at_right_angles_to_the_others() {
+        let step = |axis: usize, size: f64| [0, 1, 2].map(|i| if i == axis { size } else { 0.0 });
+        let slanted = [0.6, -0.64, 0.48];
+        for along in [step(0, 2.0), step(1, -1.0), step(2, 0.5), slanted] {
+            for place in 0..3 {
+                let mut axes = [[0.0; 3]; 3];
+                axes[place] = along;
+                let mut size = [1; 3];
+                size[place] = 4;
+                let lattice = PointLattice { size, axes, origin: [1.0; 3] };
+                let mut image = ImageData::empty(size);
+                lattice.place(&mut image);
+                let d = image.direction.unwrap_or([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+                for (a, b) in [(0, 1), (0, 2), (1, 2), (0, 0), (1, 1), (2, 2)] {
+                    let dot: f64 = (0..3).map(|i| d[3 * i + a] * d[3 * i + b]).sum();
+                    assert!((dot - f64::from(u8::from(a == b))).abs() < 1e-12, "{along:?} at {place}");
+                }
+                let kept = (0..3).map(|i| image.spacing[place] * d[3 * i + place] - along[i]);
+                assert!(kept.into_iter().all(|off| off.abs() < 1e-12), "{along:?} at {place}");
+            }
         }
     }
 

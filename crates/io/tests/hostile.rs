@@ -59,7 +59,7 @@ fn many_components_do_not_get_around_the_limits() {
     let array = ARRAY.replace("Name", "NumberOfComponents=\"65536\" Name");
     let message = vti::read(&declaring(1 << 20, "", &array, &words(&[8]))).unwrap_err().to_string();
     assert!(
-        message.contains("array `a` brings the file to more than the limit of 1073741824 values"),
+        message.contains("array `a` brings the file to more than the limit of 268435456 values"),
         "{message}"
     );
     let file = declaring(4, "", &ARRAY.repeat(3), &words(&[32, 0, 0, 0, 0]));
@@ -352,7 +352,7 @@ fn read_as_everything(bytes: &[u8]) {
             if let Ok(image) = image_from_volume(&volume, Frame::World) {
                 let _ = (legacy::write(&image, ""), vtp::write(&points_from_image(image)));
             }
-            let _ = (nrrd::write(&volume, ""), nifti::write(&volume, ""));
+            let _ = (nrrd::write(&volume, Frame::World, ""), nifti::write(&volume, ""));
         }
     }
     if let Ok(image) = &vti::read(bytes) {

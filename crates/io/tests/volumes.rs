@@ -57,9 +57,12 @@ fn nrrd_encodings_give_the_same_numbers() {
         let lattice = nrrd::read(&[header.as_bytes(), &data].concat(), None).unwrap();
         assert_eq!((lattice.size, lattice.components), ([2, 3, 4], 6));
         assert_eq!(lattice.values, values, "{rest}");
-        assert_eq!(lattice.order, Some(TensorOrder::UPPER));
+        assert_eq!(lattice.order, Some((TensorOrder::UPPER, Known::Stated)));
         let detached = nrrd_header(kind, 6, &format!("{rest}\ndata file: volume.raw"));
-        assert_eq!(nrrd::data_file(detached.as_bytes()).unwrap().as_deref(), Some("volume.raw"));
+        assert_eq!(
+            nrrd::data_file(detached.as_bytes(), tigereye_io::Limits::default()).unwrap().as_deref(),
+            Some("volume.raw")
+        );
         assert_eq!(nrrd::read(detached.as_bytes(), Some(&data)).unwrap().values, values, "{rest}");
         assert!(nrrd::read(detached.as_bytes(), None).is_err());
     }
@@ -80,7 +83,7 @@ fn nrrd_kinds_have_their_orders_and_masks() {
         let raw = ScalarType::Float64.encode(&numbers(size));
         let header = nrrd_header(kind, size, "encoding: raw\nendian: little");
         let lattice = nrrd::read(&[header.as_bytes(), &raw].concat(), None).unwrap();
-        assert_eq!(lattice.order.map(|o| o.to_string()).as_deref(), Some(order), "{kind}");
+        assert_eq!(lattice.order.map(|o| o.0.to_string()).as_deref(), Some(order), "{kind}");
         let skip = usize::from(masked);
         let expected: Vec<f64> = numbers(size).chunks(size).flat_map(|t| t[skip..].to_vec()).collect();
         assert_eq!(lattice.values, expected, "{kind}");
@@ -175,9 +178,9 @@ fn nifti_intents_state_the_order() {
     let order = |shape: &[i16], intent, p1| {
         nifti::read(&nifti_file(false, shape, 16, 32, intent, p1, &data)).map(|l| l.order)
     };
-    assert_eq!(order(&[1, 1, 1, 1, 6], 1005, 3.0), Ok(Some(TensorOrder::LOWER)));
-    assert_eq!(order(&[1, 1, 1, 1, 3], 1005, 2.0), Ok(Some(TensorOrder::UPPER2)));
-    assert_eq!(order(&[1, 1, 1, 1, 9], 1004, 3.0), Ok(Some(TensorOrder::ROWS3)));
+    assert_eq!(order(&[1, 1, 1, 1, 6], 1005, 3.0), Ok(Some((TensorOrder::LOWER, Known::Stated))));
+    assert_eq!(order(&[1, 1, 1, 1, 3], 1005, 2.0), Ok(Some((TensorOrder::UPPER2, Known::Stated))));
+    assert_eq!(order(&[1, 1, 1, 1, 9], 1004, 3.0), Ok(Some((TensorOrder::ROWS3, Known::Stated))));
     assert_eq!(order(&[1, 1, 1, 1, 6], 0, 0.0), Ok(None));
     for (shape, intent, p1) in [
         (&[1, 1, 1, 1, 6][..], 1005, 2.0),
@@ -337,7 +340,7 @@ fn volume() -> TensorVolume {
         world: World::Viewer,
         measurement: None,
         mask: None,
-        order: Some(TensorOrder::ROWS3),
+        order: Some((TensorOrder::ROWS3, Known::Stated)),
         frame: (Frame::World, Known::Stated),
         array: "t".to_owned(),
         notes: Vec::new(),
@@ -428,6 +431,146 @@ fn written_volumes_come_back() {
         lattice_from_image(&image, None, Wanted::Tensors).unwrap().tensors(Reading::default()).unwrap();
     let slice = |v: &TensorVolume| v.slice(PlaneChoice::default()).unwrap().field;
     assert_eq!(slice(&back), slice(&turned));
+}
+
+fn scalars(size: [usize; 3], axes: [[f64; 3]; 3], origin: [f64; 3], world: &str) -> Lattice {
+    let voxels: usize = size.iter().product();
+    Lattice {
+        size,
+        components: 1,
+        values: (0..voxels).map(|v| v as f64).collect(),
+        scalar: ScalarType::Float64,
+        axes,
+        origin,
+        world: if world.is_empty() { World::Viewer } else { World::Scanner(world.to_owned()) },
+        measurement: None,
+        mask: None,
+        order: None,
+        frame: (Frame::World, Known::Stated),
+        array: "m".to_owned(),
+        notes: Vec::new(),
+    }
+}
+
+const STEPS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
+
+/// What a mask says belongs to a place, not to an index.
+#[test]
+fn masks_follow_their_axes() {
+    let size = [2, 3, 1];
+    let down = [[1.0, 0.0, 0.0], [0.0, -2.0, 0.0], [0.0, 0.0, 3.0]];
+    let masked = |own: Lattice, mask: Lattice| {
+        let mut own = own;
+        let elsewhere = own.mask_by(&mask);
+        (own.mask.unwrap(), elsewhere)
+    };
+    let plain = vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
+    let turned = vec![4.0, 5.0, 2.0, 3.0, 0.0, 1.0];
+    let viewer = |axes| scalars(size, axes, [0.0; 3], "");
+    assert_eq!(masked(viewer(STEPS), viewer(STEPS)), (plain.clone(), false));
+    assert_eq!(masked(viewer(STEPS), viewer(down)), (turned.clone(), false));
+    assert_eq!(masked(viewer(down), viewer(STEPS)), (turned.clone(), false));
+    // The same place in the patient, in worlds of opposite axes; the same numbers in them are another place.
+    let ras = || scalars(size, STEPS, [10.0, 20.0, 30.0], "RAS");
+    let backwards = [[-1.0, 0.0, 0.0], [0.0, -2.0, 0.0], [0.0, 0.0, 3.0]];
+    let lps = scalars(size, backwards, [-10.0, -20.0, 30.0], "left-posterior-superior");
+    assert_eq!(masked(ras(), lps), (plain.clone(), false));
+    let mirrored = scalars(size, STEPS, [10.0, 20.0, 30.0], "LPS");
+    assert!(masked(ras(), mirrored).1);
+    // One axis counted from its other end.
+    let from_top = scalars(size, down, [10.0, 24.0, 30.0], "RAS");
+    assert_eq!(masked(ras(), from_top), (turned, false));
+    assert!(masked(ras(), scalars(size, down, [10.0, 20.0, 30.0], "RAS")).1);
+    // Nothing is known of how worlds of other names lie to each other.
+    assert_eq!(masked(ras(), scalars(size, down, [0.0; 3], "3D-left-handed")), (plain.clone(), false));
+    // The smaller confidence counts.
+    let mut own = ras();
+    own.mask = Some(vec![9.0, 0.5, 0.0, f64::NAN, 9.0, 9.0]);
+    assert_eq!(masked(own, ras()).0, [0.0, 0.5, 0.0, 3.0, 4.0, 5.0]);
+}
+
+/// An axis that runs against the world cannot be told by a position and a positive distance.
+#[test]
+fn positions_are_told_only_where_axes_run_forwards() {
+    let volume = |axes: [[f64; 3]; 3], world: &str| {
+        let mut lattice = scalars([2, 3, 1], axes, [10.0, 20.0, 30.0], world);
+        lattice.components = 3;
+        lattice.values = vec![1.0; 18];
+        lattice.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap().cut.origin
+    };
+    let left = [[-1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
+    let down = [[1.0, 0.0, 0.0], [0.0, -2.0, 0.0], [0.0, 0.0, 3.0]];
+    assert_eq!(volume(STEPS, "RAS"), [10.0, 20.0]);
+    assert_eq!(volume(left, "LAS"), [0.0, 0.0]);
+    assert_eq!(volume(down, "RPS"), [0.0, 0.0]);
+    // A viewer's picture is turned upright.
+    assert_eq!(volume(left, ""), [9.0, 20.0]);
+    assert_eq!(volume(down, ""), [10.0, 16.0]);
+}
+
+/// Seven numbers are one thing, whatever the file.
+#[test]
+fn seven_numbers_are_a_mask_and_the_upper_triangle() {
+    let tuple = [1.0, 2.0, 0.1, 0.2, 3.0, 0.3, 4.0];
+    let header =
+        "NRRD0004\ntype: float\ndimension: 4\nsizes: 7 1 1 1\nencoding: ascii\n\n1 2 0.1 0.2 3 0.3 4\n";
+    let of_nrrd = nrrd::read(header.as_bytes(), None).unwrap();
+    let of_npy = tigereye_io::npy::write_array(&[1, 1, 1, 7], &tuple).unwrap();
+    let of_npy = tigereye_io::npy::read_lattice(&of_npy, Wanted::Tensors).unwrap();
+    for lattice in [of_nrrd, of_npy] {
+        let volume = lattice.tensors(Reading::default()).unwrap();
+        assert_eq!(volume.order(), (TensorOrder::UPPER, Known::Assumed));
+        let stored = volume.stored(0);
+        let expected = [2.0, 0.1, 0.2, 0.1, 3.0, 0.3, 0.2, 0.3, 4.0];
+        assert!(stored.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{stored:?}");
+    }
+}
+
+#[test]
+fn nrrd_axes_of_a_picture_are_no_tuples() {
+    let header = |kinds: &str| {
+        format!(
+            "NRRD0004\ntype: float\ndimension: 3\nsizes: 6 2 1\n{kinds}encoding: ascii\n\n{}",
+            "1 ".repeat(12)
+        )
+    };
+    assert!(nrrd::read(header("").as_bytes(), None).is_ok());
+    assert!(nrrd::read(header("kinds: ??? domain domain\n").as_bytes(), None).is_ok());
+    let message =
+        nrrd::read(header("kinds: domain domain domain\n").as_bytes(), None).unwrap_err().to_string();
+    assert!(message.contains("kinds") && message.contains("3D-symmetric-matrix"), "{message}");
+}
+
+/// VTK's order is stated by names or by the attribute `Tensors`; otherwise six numbers are a guess.
+#[test]
+fn vtk_orders_are_stated_by_names_and_attributes() {
+    let mut image = image_from_volume(&volume(), Frame::World).unwrap();
+    let known = |image: &tigereye_io::ImageData| {
+        lattice_from_image(image, None, Wanted::Tensors).unwrap().order.unwrap().1
+    };
+    assert_eq!(known(&image), Known::Stated);
+    image.point_arrays[0].component_names.clear();
+    assert_eq!(known(&image), Known::Stated);
+    image.point_active.tensors = None;
+    assert_eq!(known(&image), Known::Convention);
+    image.point_arrays[0] = tigereye_io::DataArray::new("six", 6, vec![1.0; 6 * VOXELS]);
+    assert_eq!(known(&image), Known::Assumed);
+}
+
+#[test]
+fn tensors_that_are_not_finite_are_found_and_zeroed_where_they_are_measured() {
+    let mut lattice = volume().lattice().clone();
+    lattice.values[9 * 7 + 3] = f64::NAN;
+    lattice.values[9 * 20] = f64::INFINITY;
+    let strange = lattice.clone().tensors(Reading::default()).unwrap();
+    assert_eq!(strange.not_finite(), Some(([1, 0, 1], 2)));
+    let zeroed = strange.with_zeros_for_not_finite();
+    assert_eq!((zeroed.not_finite(), zeroed.stored(7), zeroed.stored(20)), (None, [0.0; 9], [0.0; 9]));
+    assert_eq!(zeroed.stored(8), volume().stored(8));
+    let mut mask = vec![1.0; VOXELS];
+    (mask[7], mask[20]) = (0.0, 0.0);
+    lattice.mask = Some(mask);
+    assert_eq!(lattice.tensors(Reading::default()).unwrap().not_finite(), None);
 }
 
 #[test]

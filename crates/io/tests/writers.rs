@@ -36,7 +36,7 @@ const FORMATS: [Format; 6] = [
             lattice_from_image(&legacy::read(&legacy::write(&world(v)?, "title")?)?, None, Wanted::Tensors)
         },
     },
-    Format { name: "nrrd", through: |v| nrrd::read(&nrrd::write(v, "{\"a\\b\":\n1}")?, None) },
+    Format { name: "nrrd", through: |v| nrrd::read(&nrrd::write(v, Frame::World, "{\"a\\b\":\n1}")?, None) },
     Format { name: "nii", through: |v| nifti::read(&nifti::write(v, "words")?) },
     Format { name: "nii.gz", through: |v| nifti::read(&nifti::write_packed(v, "")?) },
 ];
@@ -111,8 +111,49 @@ fn turned_volumes_come_back_from_every_format() {
             assert_eq!(*found, sign(row) * sign(column) * expected, "{name}, number {i}");
         }
     }
-    let mask = nrrd::read(&nrrd::write(&volume, "").unwrap(), None).unwrap().mask;
+    let mask = nrrd::read(&nrrd::write(&volume, Frame::World, "").unwrap(), None).unwrap().mask;
     assert_eq!(mask, volume.lattice().mask);
+}
+
+/// NRRD can say along which axes its components are: along the voxels' they come back as they are there.
+#[test]
+fn nrrd_holds_components_along_the_voxel_axes() {
+    let volume = turned_volume();
+    let read = nrrd::read(&nrrd::write(&volume, Frame::Voxel, "").unwrap(), None).unwrap();
+    let back = read.tensors(Reading::default()).unwrap();
+    assert_eq!(back.frame().0, Frame::Measurement);
+    let along_voxels = image_from_volume(&volume, Frame::Voxel).unwrap().point_arrays[0].values.clone();
+    let stored: Vec<f64> = (0..24).flat_map(|v| back.measured(v).unwrap_or([0.0; 9])).collect();
+    assert_eq!(stored, along_voxels);
+    assert_eq!(world(&back).unwrap().point_arrays[0].values, world(&volume).unwrap().point_arrays[0].values);
+}
+
+/// Only the patient's worlds are turned; other names may hold the word left.
+#[test]
+fn worlds_that_are_not_the_patients_keep_their_axes() {
+    let header = "NRRD0005\ntype: double\ndimension: 4\nspace: 3D-left-handed\nsizes: 6 1 1 1\n\
+                  space directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (5,6,7)\n\
+                  kinds: 3D-symmetric-matrix space space space\nencoding: ascii\n\n1 0 0 1 0 1\n";
+    let volume = nrrd::read(header.as_bytes(), None).unwrap().tensors(Reading::default()).unwrap();
+    let back = nifti::read(&nifti::write(&volume, "").unwrap()).unwrap();
+    assert_eq!(back.origin, [5.0, 6.0, 7.0]);
+}
+
+/// One column, one row and one point have axes that no step tells.
+#[test]
+fn thin_fields_come_back_from_every_format() {
+    for (width, height) in [(1, 4), (4, 1), (1, 1)] {
+        let field = Field::from_fn(Grid::new(width, height).unwrap(), |c| {
+            Tensor2::new(1.0 + c.x as f64, 2.0, 3.0, 4.0 + c.y as f64)
+        });
+        let volume = TensorVolume::from_field(&field, [3.0, -2.0], [0.5, 0.25]);
+        for Format { name, through } in FORMATS {
+            let lattice = through(&volume).unwrap();
+            assert_eq!(lattice.size, [width, height, 1], "{name}");
+            let back = lattice.tensors(Reading::default()).unwrap();
+            assert_eq!(slice(&back), field, "{name}, {width} x {height}");
+        }
+    }
 }
 
 #[test]
@@ -126,7 +167,7 @@ fn provenance_is_kept_by_formats_that_have_a_place() {
     let size = i32::from_le_bytes(bytes[352..356].try_into().unwrap());
     assert_eq!((bytes[348], size % 16, bytes[356]), (1, 0, 6));
     assert!(bytes[360..].starts_with(story.as_bytes()));
-    let file = nrrd::write(&volume, story).unwrap();
+    let file = nrrd::write(&volume, Frame::World, story).unwrap();
     let line = format!("\ntigereye:={}\n", story.replace('\\', "\\\\"));
     assert!(String::from_utf8_lossy(&file).contains(&line));
 }

@@ -4,11 +4,13 @@ use crate::args::{CompareArgs, ReadingArgs};
 use crate::commands::print_text;
 use crate::error::CliError;
 use crate::files;
-use crate::input::Input;
+use crate::input::{Input, Source};
 use crate::interrupt;
 use std::path::Path;
 use tigereye_core::{Field, Tensor2};
-use tigereye_io::{npy, vti};
+use tigereye_experiments::input::{Content, Reading, TensorFile};
+use tigereye_io::volume::lattice_from_image;
+use tigereye_io::{IoError, Wanted, npy, vti};
 
 /// Names of gradient volumes: ours and the published ones.
 const VOLUME_ARRAYS: [&str; 2] = [tigereye_io::LTG_ARRAY, "Energy"];
@@ -23,7 +25,7 @@ struct Numbers {
 }
 
 pub(crate) fn compare(args: &CompareArgs) -> Result<u8, CliError> {
-    let (a, b) = (numbers(&args.a)?, numbers(&args.b)?);
+    let (a, b) = (numbers(&args.a, &args.reading)?, numbers(&args.b, &args.reading)?);
     interrupt::check()?;
     let has = |n: &Numbers, slice| n.slices.as_ref().is_some_and(|s| s.contains(slice));
     if let Some(slice) = args.except_slices.iter().find(|s| !has(&a, s) && !has(&b, s)) {
@@ -47,10 +49,11 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<u8, CliError> {
     Ok(u8::from(!difference.is_within(args.tolerance)))
 }
 
-fn numbers(text: &str) -> Result<Numbers, CliError> {
+fn numbers(text: &str, reading: &ReadingArgs) -> Result<Numbers, CliError> {
     let path = Path::new(text);
+    let plain = reading.reading() == Reading::default();
     match files::extension(path).as_str() {
-        "npy" => {
+        "npy" if plain => {
             let array = npy::read_array(&files::read(path)?).map_err(|e| CliError::input(text, e))?;
             Ok(Numbers {
                 what: "an array".to_owned(),
@@ -59,33 +62,60 @@ fn numbers(text: &str) -> Result<Numbers, CliError> {
                 values: array.values,
             })
         }
-        "vti" => image(text, &files::read(path)?),
-        _ => Input::open(text, &ReadingArgs::default()).map(|input| of_tensors(&input.field)),
+        "vti" if plain => match result(text, &files::read(path)?)? {
+            Some(numbers) => Ok(numbers),
+            None => tensors(text, reading),
+        },
+        _ => tensors(text, reading),
     }
 }
 
-/// A volume where the file is one, otherwise the tensors, otherwise the only array.
-fn image(text: &str, bytes: &[u8]) -> Result<Numbers, CliError> {
+/// Tensors in a plane, or those of a whole volume along the world's axes, where nobody chooses a plane.
+fn tensors(text: &str, reading: &ReadingArgs) -> Result<Numbers, CliError> {
+    let source = Source::open(text, reading)?;
+    match &source {
+        Source::File(file @ TensorFile { content: Content::Tensors(volume), .. })
+            if !file.has_plane(&reading.reading()) =>
+        {
+            let values = volume.in_world().map_err(|e| CliError::input(text, e))?;
+            let [nx, ny, nz] = volume.lattice().size;
+            let values = values.into_iter().flatten().collect();
+            Ok(Numbers {
+                what: "a tensor volume".to_owned(),
+                shape: vec![nz, ny, nx, 3, 3],
+                slices: None,
+                values,
+            })
+        }
+        _ => Input::of(source, reading).map(|input| {
+            input.tell();
+            of_tensors(&input.field)
+        }),
+    }
+}
+
+/// What this program or the thesis's made: a gradient volume, or image data without tensors.
+fn result(text: &str, bytes: &[u8]) -> Result<Option<Numbers>, CliError> {
     let image = vti::read(bytes).map_err(|e| CliError::input(text, e))?;
     let is_volume = VOLUME_ARRAYS.iter().any(|name| image.point_array(name).is_some());
     if is_volume && let Ok(volume) = tigereye_io::ltg_from_image(&image) {
         let shape = vec![volume.slices.len(), volume.grid.height(), volume.grid.width()];
         let what = "a gradient volume".to_owned();
-        return Ok(Numbers { what, shape, slices: Some(volume.slices), values: volume.values });
+        return Ok(Some(Numbers { what, shape, slices: Some(volume.slices), values: volume.values }));
     }
-    if let Ok(tensors) = tigereye_io::tensors_from_image(&image, None) {
-        return Ok(of_tensors(&tensors.field));
+    if !matches!(lattice_from_image(&image, None, Wanted::Tensors), Err(IoError::NoArray { .. })) {
+        return Ok(None);
     }
     let array = image.point_array("intensity").or(image.point_arrays.first());
     let Some(array) = array else { return Err(CliError::input(text, "holds no point array to compare")) };
     let [w, h, d] = image.dimensions;
     let shape = [d, h, w, array.components].into_iter().filter(|n| *n > 1).collect();
-    Ok(Numbers {
+    Ok(Some(Numbers {
         what: format!("the array {}", array.name),
         shape,
         slices: None,
         values: array.values.clone(),
-    })
+    }))
 }
 
 fn of_tensors(field: &Field<Tensor2>) -> Numbers {

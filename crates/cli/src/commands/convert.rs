@@ -7,7 +7,7 @@ use crate::input::{Input, Source, insert_reading};
 use crate::{files, interrupt};
 use serde_json::json;
 use tigereye_core::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
-use tigereye_experiments::input::{Content, Reading, TensorFile, format_of};
+use tigereye_experiments::input::{Content, Reading, TensorFile, finite_volume, format_of};
 use tigereye_experiments::provenance::provenance;
 use tigereye_io::volume::{Frame, Known, PlaneChoice, TensorVolume, image_from_volume, points_from_image};
 use tigereye_io::{DataArray, ImageData, IoError, legacy, matrices, nifti, npy, nrrd, vti, vtp};
@@ -16,7 +16,7 @@ use tigereye_io::{DataArray, ImageData, IoError, legacy, matrices, nifti, npy, n
 fn is_whole(volume: &TensorVolume, reading: &Reading) -> bool {
     let plane =
         reading.choice != PlaneChoice::default() || reading.crop.is_some() || reading.resample.is_some();
-    !plane && volume.frame().1 != Known::Convention
+    !plane && volume.lattice().frame.1 != Known::Convention
 }
 
 /// What can be written.
@@ -66,7 +66,6 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
         return Err(CliError::input(&name, problem));
     };
     files::check_writable(&args.output)?;
-    files::check_apart(&args.input, std::slice::from_ref(&args.output))?;
     if args.output.exists() && !args.force {
         return Err(CliError::input(&name, "exists already: expected another name, or --force"));
     }
@@ -75,20 +74,25 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
         return Err(CliError::input(&name, "has no place for --invariants: expected .vti, .vtp or .vtk"));
     }
     let source = Source::open(&args.input, &args.reading)?;
-    let bytes = match &source {
-        Source::File(file @ TensorFile { content: Content::Tensors(volume), .. })
-            if !format.is_flat() && is_whole(volume, &reading) =>
+    source.check_apart(std::slice::from_ref(&args.output))?;
+    if let Source::File(file) = &source {
+        file.remarks().iter().for_each(|line| eprintln!("{}: {line}", file.name));
+    }
+    let bytes = match source {
+        Source::File(TensorFile { content: Content::Tensors(volume), name, blake3, .. })
+            if !format.is_flat() && is_whole(&volume, &reading) =>
         {
-            file.remarks().iter().for_each(|line| eprintln!("{}: {line}", file.name));
-            let frame = reading.frame.unwrap_or(Frame::World);
-            encoded(format, volume, frame, args, &file.blake3)
+            let volume = finite_volume(volume, &reading).map_err(|e| CliError::input(&name, e))?;
+            let frame = if reading.frame == Some(Frame::Voxel) { Frame::Voxel } else { Frame::World };
+            // What the file states about its components stands; the option says how they are written.
+            encoded(format, &volume.as_stated(), frame, args, &blake3)
         }
-        _ => {
+        source => {
             if args.invariants {
-                return Err(CliError::input("--invariants", "those of a whole volume: expected no plane"));
+                let problem = "are those of a volume of 3 x 3 tensors: expected a file that holds one, whole";
+                return Err(CliError::input("--invariants", problem));
             }
             let input = Input::of(source, &args.reading)?;
-            input.tell();
             match format {
                 Format::Numpy => Ok(npy::write_tensors(&input.field)),
                 Format::Matrices => matrices::write(&input.field),
@@ -131,7 +135,7 @@ fn encoded(
             let title = format!("tigereye {}, input blake3 {blake3}", env!("CARGO_PKG_VERSION"));
             legacy::write(&image()?, &title)
         }
-        Format::Nrrd => nrrd::write(volume, &story),
+        Format::Nrrd => nrrd::write(volume, frame, &story),
         Format::Nifti => nifti::write(volume, &story),
         Format::NiftiPacked => nifti::write_packed(volume, &story),
         Format::ImageData | Format::Matrices | Format::Numpy => vti::write(&image()?),

@@ -59,7 +59,8 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
     // Tensors by their number of negative eigenvalues.
     let mut signs = [0_usize; 4];
     let [mut zero, mut strange, mut degenerate, mut asymmetric, mut indefinite, mut negative] = [0_usize; 6];
-    for t in volume.tensors() {
+    let measured = || (0..lattice.voxels()).filter_map(|voxel| volume.measured(voxel));
+    for t in measured() {
         if !t.iter().all(|v| v.is_finite()) {
             strange += 1;
             continue;
@@ -80,7 +81,8 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
         negative += usize::from(below > 0);
         indefinite += usize::from(l[2] < -ROUNDING * largest && l[0] > ROUNDING * largest);
     }
-    let share = |n: usize| n as f64 / lattice.voxels() as f64;
+    let voxels = measured().count().max(1);
+    let share = |n: usize| n as f64 / voxels as f64;
     let mut fa = Range::EMPTY;
     anisotropy.iter().for_each(|&v| fa.add(v));
     let mut facts = about(&file.name, file.kind, &file.blake3, lattice);
@@ -90,7 +92,7 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
         "frame": frame.0.name(),
         "frame_is": frame.1.words(),
         "assumptions": volume.story(),
-        "range": { "min": numbers.min, "max": numbers.max },
+        "range": numbers.json(),
         "mean_trace": trace.sum / trace.count.max(1) as f64,
         "zero_tensors": zero,
         "masked": volume.masked_out(),

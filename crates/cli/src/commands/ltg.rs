@@ -22,9 +22,9 @@ use tigereye_transport::{Scattering, Scheme, SharedWeights};
 
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     check_places(args)?;
-    files::check_apart(&args.input, &args.outputs)?;
     let start = Instant::now();
     let input = Input::open_for_light(&args.input, &args.scheme.reading)?;
+    input.check_apart(&args.outputs)?;
     let settings = settings_of(args)?;
     let normalization = input.normalization(args.scheme.normalization);
     let parameters = parameters(args, &settings, normalization);
@@ -66,7 +66,8 @@ fn check_places(args: &LtgArgs) -> Result<(), CliError> {
             let problem = "a part needs --shard K/N: expected .vti, .npy, .png or .svg";
             return Err(CliError::input(&output.display().to_string(), problem));
         }
-        return check_outputs(&args.outputs, &volume::ENDINGS);
+        check_outputs(&args.outputs, &volume::ENDINGS)?;
+        return if args.view { volume::check_scripts(&args.outputs) } else { Ok(()) };
     }
     match args.outputs.as_slice() {
         [output] if is_part(output) => files::check_writable(output),

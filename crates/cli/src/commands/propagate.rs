@@ -26,9 +26,18 @@ pub(super) const PNG_SCALE: f64 = 2.0;
 
 pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     check_outputs(&args.outputs, &["vti", "npy", "png", "svg", "pvd"])?;
-    files::check_apart(&args.input, &args.outputs)?;
+    args.outputs.iter().filter(|o| is_collection(o)).try_for_each(|o| check_frames(o, args))?;
     let start = Instant::now();
     let input = Input::open_for_light(&args.input, &args.scheme.reading)?;
+    input.check_apart(&args.outputs)?;
+    for folder in args.outputs.iter().filter(|o| is_collection(o)).map(|o| folder_of_frames(o)) {
+        let inside = |file: &&String| files::place_of(Path::new(file)).starts_with(files::place_of(&folder));
+        if let Some(file) = input.files.iter().find(inside) {
+            let problem =
+                format!("is in the folder {} of the frames: expected another place", folder.display());
+            return Err(CliError::input(file, problem));
+        }
+    }
     let normalization = input.normalization(args.scheme.normalization);
     let lights = args.lights.iter().map(|l| light(l, args)).collect::<Result<Vec<_>, _>>()?;
     let transmission = TransmissionField::from_tensors(&input.field, args.scheme.directions, normalization)
@@ -36,7 +45,13 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     let scheme = Scheme::new(args.scheme.directions, SharedWeights::Thesis);
     let stopping = args.steps.map_or_else(|| stopping_of(&args.scheme), Stopping::steps);
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
-    let mut frames = args.outputs.iter().any(|o| is_collection(o)).then(Frames::default);
+    let parameters = parameters(args, &stopping, normalization);
+    let story = provenance(&command_line(), &parameters, &input.blake3);
+    let mut frames = args
+        .outputs
+        .iter()
+        .any(|o| is_collection(o))
+        .then(|| Frames { story: story.clone(), images: Vec::new() });
     problem.check().map_err(|e| CliError::input("--light", e))?;
     if let Some(frames) = &mut frames {
         frames.add(&problem.before_first_step())?;
@@ -53,11 +68,10 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
         .map_err(|e| CliError::input("--light", e))?;
     interrupt::check()?;
     fault.map_or(Ok(()), Err)?;
-    let parameters = parameters(args, &stopping, normalization);
     for output in &args.outputs {
         match &frames {
             Some(frames) if is_collection(output) => frames.write(output)?,
-            _ => files::write(output, &encoded(output, args, &input, &problem, &outcome, &parameters)?)?,
+            _ => files::write(output, &encoded(output, args, &problem, &outcome, &story)?)?,
         }
     }
     report(args, &input, &outcome, start.elapsed().as_secs_f64())?;
@@ -95,9 +109,35 @@ fn is_collection(output: &Path) -> bool {
 /// Most steps that are kept as frames.
 const MAX_FRAMES: usize = 10_000;
 
-/// The light after every step, as images of energy and net flux; the first before any step.
-#[derive(Default)]
+/// `NAME` beside `NAME.pvd`.
+fn folder_of_frames(output: &Path) -> PathBuf {
+    output.with_extension("")
+}
+
+/// Whether the frames of a collection can be written, before anything is computed.
+fn check_frames(output: &Path, args: &PropagateArgs) -> Result<(), CliError> {
+    let fault = |problem: String| CliError::input(&output.display().to_string(), problem);
+    let folder = folder_of_frames(output);
+    if folder.exists() && !folder.is_dir() {
+        let problem = format!("its frames go to the folder {}, which is a file", folder.display());
+        return Err(fault(problem + ": expected another name"));
+    }
+    let place = files::place_of(&folder);
+    if let Some(other) = args.outputs.iter().find(|o| files::place_of(o).starts_with(&place)) {
+        let problem = format!("{} is in the folder of its frames: expected another place", other.display());
+        return Err(fault(problem));
+    }
+    if args.steps.is_some_and(|steps| steps >= MAX_FRAMES) {
+        return Err(fault(format!("more than {MAX_FRAMES} frames: expected fewer --steps for a .pvd")));
+    }
+    Ok(())
+}
+
+/// The light after every step; the first before any step.
 struct Frames {
+    /// What made them.
+    story: String,
+    /// The files.
     images: Vec<Vec<u8>>,
 }
 
@@ -107,22 +147,29 @@ impl Frames {
             let problem = format!("more than {MAX_FRAMES} steps: expected fewer for a .pvd (--steps)");
             return Err(CliError::input("-o", problem));
         }
-        let bytes = vti::write(&tigereye_io::image_of_energy(light));
-        self.images.push(bytes.map_err(|e| CliError::input("a frame", e))?);
+        let mut image = tigereye_io::image_of_energy(light);
+        image.push_text(tigereye_io::PROVENANCE, &self.story);
+        self.images.push(vti::write(&image).map_err(|e| CliError::input("a frame", e))?);
         Ok(())
     }
 
-    /// Writes `NAME.pvd` and its frames into the folder `NAME` beside it; the collection last, when all it names is there.
+    /// Writes `NAME.pvd` and its frames, images of energy and net flux, into the folder `NAME` beside it. An older collection
+    /// goes first and the new one comes last, so that none names frames of two runs; older frames behind the last new one
+    /// go too.
     fn write(&self, output: &Path) -> Result<(), CliError> {
-        let folder = output.with_extension("");
+        let folder = folder_of_frames(output);
         let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         files::make_folder(&folder)?;
+        files::remove(output)?;
+        let file = |step: usize| format!("{step:04}.vti");
         let mut list = Vec::new();
         for (step, image) in self.images.iter().enumerate() {
-            let file = format!("{step:04}.vti");
-            files::write(&folder.join(&file), image)?;
-            list.push((step as f64, format!("{name}/{file}")));
+            files::write(&folder.join(file(step)), image)?;
+            list.push((step as f64, format!("{name}/{}", file(step))));
         }
+        let older =
+            (list.len()..MAX_FRAMES).map(|step| folder.join(file(step))).take_while(|path| path.is_file());
+        older.into_iter().try_for_each(|path| files::remove(&path))?;
         let bytes = pvd::write(&list).map_err(|e| CliError::input(&output.display().to_string(), e))?;
         files::write(output, &bytes)
     }
@@ -184,18 +231,16 @@ fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: Normaliz
 fn encoded(
     output: &Path,
     args: &PropagateArgs,
-    input: &Input,
     problem: &Problem<'_>,
     outcome: &Outcome,
-    parameters: &Value,
+    story: &str,
 ) -> Result<Vec<u8>, CliError> {
     let name = output.display().to_string();
     let light = &outcome.distribution;
     match files::extension(output).as_str() {
         "npy" => Ok(npy::write_light(light)),
         "vti" => {
-            let story = provenance(&command_line(), parameters, &input.blake3);
-            vti::write(&tigereye_io::image_from_light(light, &story)).map_err(|e| CliError::input(&name, e))
+            vti::write(&tigereye_io::image_from_light(light, story)).map_err(|e| CliError::input(&name, e))
         }
         "png" => picture(args, problem, outcome).to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
         _ => picture(args, problem, outcome)

@@ -3,7 +3,7 @@
 use crate::args::{ReproduceArgs, Resources, RunArgs};
 use crate::commands::{counted, print_text, quoted};
 use crate::error::CliError;
-use crate::host::FileHost;
+use crate::host::{FileHost, REFERENCE};
 use crate::{files, interrupt, system};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -163,9 +163,9 @@ fn run_sources(
             Ok(Prepared::Ready(settings)) => prepared.push((source, settings)),
             Ok(Prepared::Lacks(file)) => {
                 let slug = source.slug();
-                left_out.push(format!(
-                    "{slug} needs {file}, which is not there (TIGEREYE_REFERENCE names the folder)"
-                ));
+                let where_to =
+                    if file.starts_with(REFERENCE) { " (TIGEREYE_REFERENCE names the folder)" } else { "" };
+                left_out.push(format!("{slug} needs {file}, which is not there{where_to}"));
             }
             Err(CliError::Inputs(found)) => faults.extend(found),
             Err(e) => faults.push(e.to_string()),

@@ -12,14 +12,28 @@ use tigereye_render::{HeatOptions, Scene, heat_map};
 /// Endings of files that hold volumes, or pictures of them.
 pub(super) const ENDINGS: [&str; 4] = ["vti", "npy", "png", "svg"];
 
+/// The script beside an image file.
+fn script_of(output: &Path) -> PathBuf {
+    output.with_extension("view.py")
+}
+
+fn images(outputs: &[PathBuf]) -> impl Iterator<Item = &PathBuf> {
+    outputs.iter().filter(|o| files::extension(o) == "vti")
+}
+
+/// Whether the scripts can be written, before anything is computed.
+pub(super) fn check_scripts(outputs: &[PathBuf]) -> Result<(), CliError> {
+    images(outputs).try_for_each(|output| files::check_writable(&script_of(output)))
+}
+
 /// Beside every image file, a script that opens it in ParaView.
 pub(super) fn write_scripts(outputs: &[PathBuf]) -> Result<(), CliError> {
-    for output in outputs.iter().filter(|o| files::extension(o) == "vti") {
+    for output in images(outputs) {
         let name = output.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         // Inside a Python string.
         let name = name.replace('\\', "\\\\").replace('"', "\\\"");
         let script = include_str!("view.py").replace("@VOLUME@", &name);
-        files::write(&output.with_extension("view.py"), script.as_bytes())?;
+        files::write(&script_of(output), script.as_bytes())?;
     }
     Ok(())
 }

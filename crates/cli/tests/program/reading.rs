@@ -170,12 +170,8 @@ fn doubtful_readings_are_told() {
         "{}",
         run.stderr
     );
-    for command in [["ltg", "three.npy"], ["convert", "three.npy"]] {
-        place.refuses(
-            &[&command[..], &["-o", "./three.npy"][usize::from(command[0] == "convert")..]].concat(),
-            &["is the input"],
-        );
-    }
+    place.refuses(&["ltg", "three.npy", "-o", "./three.npy"], &["is an input"]);
+    place.refuses(&["convert", "three.npy", "./three.npy", "--force"], &["is an input"]);
 }
 
 /// Two masks of one size, of which one lies elsewhere in the world.
@@ -205,6 +201,78 @@ fn masks_of_another_place_are_told() {
             run.stderr
         );
     }
+}
+
+/// An option that would change nothing is a misunderstanding.
+#[test]
+fn options_with_nothing_to_do_are_refused() {
+    let place = Place::new();
+    place.write("t.npy", array(&[2, 3, 2, 2], |i| if i % 4 % 3 == 0 { 1.0 } else { 0.0 }));
+    place.write("n.npy", array(&[4, 4], |i| (i * i) as f64));
+    place.write("v.npy", array(&[4, 4, 2], |i| i as f64));
+    let cases: [(&[&str], &str); 9] = [
+        (&["t.npy", "--array", "x"], "--array has nothing to do"),
+        (&["t.npy", "--mask-above", "5"], "--mask-above has nothing to do"),
+        (&["inverse", "--mask-above", "5"], "expected no"),
+        (&["inverse", "--not-finite", "zero"], "expected no"),
+        (&["n.npy", "--derive", "hessian", "--window", "2"], "--window has nothing to do"),
+        (&["n.npy", "--derive", "hessian", "--order", "fsl"], "--order has nothing to do"),
+        (&["n.npy", "--derive", "structure", "--frame", "voxel"], "--frame has nothing to do"),
+        (&["v.npy", "--derive", "gradient", "--window", "1"], "--window has nothing to do"),
+        (&["n.npy", "--derive", "structure", "--mask-above", "0.5"], "--mask-above has nothing to do"),
+    ];
+    for (options, words) in cases {
+        place.refuses(&[&["info"], options].concat(), &[words]);
+    }
+    place.succeeds(&["info", "v.npy", "--derive", "gradient", "--frame", "voxel"]);
+}
+
+/// Whatever was read stays: data behind links, masks, data files of headers.
+#[test]
+fn nothing_that_was_read_is_overwritten() {
+    let place = Place::new();
+    place.write("t.npy", array(&[2, 3, 2, 2], |i| i as f64));
+    place.write("m.npy", array(&[2, 3], |i| i as f64));
+    place.write("d.nrrd", "1 0 0 1 0 1 ".repeat(4));
+    let header = "NRRD0004\ntype: float\ndimension: 3\nsizes: 6 2 2\nkinds: 3D-symmetric-matrix domain domain\n\
+                  encoding: ascii\ndata file: d.nrrd\n";
+    place.write("d.nhdr", header);
+    place.refuses(&["convert", "t.npy", "m.npy", "--mask", "m.npy", "--force"], &["m.npy", "is an input"]);
+    place.refuses(&["convert", "d.nhdr", "d.nrrd", "--force"], &["d.nrrd", "is an input"]);
+    place.refuses(&["ltg", "t.npy", "--mask", "m.npy", "-o", "m.npy"], &["m.npy", "is an input"]);
+    place.refuses(&["propagate", "t.npy", "--light", "1,1", "-o", "./t.npy"], &["t.npy", "is an input"]);
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(place.path("t.npy"), place.path("link.npy")).unwrap();
+        place.refuses(&["convert", "link.npy", "t.npy", "--force"], &["t.npy", "is an input"]);
+    }
+}
+
+/// Rows of pictures run downwards, those of VTK upwards: the mask follows the picture.
+#[test]
+fn masks_leave_the_same_cells_out_in_every_format() {
+    let place = Place::new();
+    place.write("t.npy", array(&[4, 3, 2, 2], |i| if i % 4 % 3 == 0 { 1.0 } else { 0.0 }));
+    place.write("m.npy", array(&[4, 3], |i| if i < 3 { 1.0 } else { 0.0 }));
+    place.succeeds(&["convert", "t.npy", "t.vti"]);
+    place.succeeds(&["convert", "m.npy", "m.vti", "--derive", "hessian"]);
+    let of_rows = converted(&place, &["t.npy", "--mask", "m.npy"]);
+    assert!(!of_rows.at(Cell::new(1, 0)).is_zero() && of_rows.at(Cell::new(1, 3)).is_zero());
+    assert_eq!(converted(&place, &["t.vti", "--mask", "m.npy"]), of_rows);
+}
+
+#[test]
+fn volumes_taken_whole_have_no_number_that_is_not_finite() {
+    let place = Place::new();
+    place.write(
+        "t.npy",
+        array(&[2, 2, 2, 6], |i| if i == 9 { f64::NAN } else { [2.0, 0.0, 0.0, 1.0, 0.0, 3.0][i % 6] }),
+    );
+    place.refuses(&["convert", "t.npy", "o.vti"], &["voxel (0, 0, 1)", "1 such", "--not-finite zero"]);
+    let run = place.tigereye(&["convert", "t.npy", "o.vti", "--not-finite", "zero", "--invariants"]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let image = place.image("o.vti");
+    assert!(image.point_arrays.iter().all(|a| a.values.iter().all(|v| v.is_finite())));
 }
 
 #[test]

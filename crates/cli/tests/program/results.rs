@@ -343,7 +343,31 @@ fn steps_become_frames_of_a_collection() {
     }
     assert_eq!(energy("pulse/0004.vti"), energy("end.vti"));
     assert_eq!(energy("pulse/0000.vti").iter().filter(|e| **e > 0.0).count(), 1);
+    assert!(place.image("pulse/0002.vti").text("tigereye").is_some_and(|t| t.contains("--impulse")));
+    // A shorter run leaves none of the longer one's frames; other files stay.
+    place.write("pulse/notes.txt", "mine");
+    place.succeeds(&["propagate", "inverse:size=7", "--light", "3,3", "--steps", "2", "-o", "pulse.pvd"]);
+    let frames = place.files().into_keys().filter(|name| name.starts_with(place.path("pulse"))).count();
+    assert_eq!((frames, place.read("pulse/notes.txt")), (4, b"mine".to_vec()));
+    assert_eq!(String::from_utf8(place.read("pulse.pvd")).unwrap().matches("timestep").count(), 3);
     place.refuses(&["ltg", "inverse:size=5", "-o", "g.pvd"], &["g.pvd", ".vti, .npy, .png or .svg"]);
+}
+
+#[test]
+fn collections_that_cannot_be_written_are_refused_first() {
+    let place = Place::new();
+    let refuses = |input: &str, rest: &[&str], words: &[&str]| {
+        place.refuses(&[&["propagate", input, "--light", "1,1"], rest].concat(), words);
+    };
+    place.write("taken", "a file");
+    refuses("inverse:size=5", &["-o", "a.vti", "taken.pvd"], &["taken.pvd", "which is a file"]);
+    refuses("inverse:size=5", &["-o", "z.pvd", "--steps", "20000"], &["z.pvd", "10000", "--steps"]);
+    place.succeeds(&["convert", "inverse:size=5", "t.vti"]);
+    place.write("fr/0000.vti", place.read("t.vti"));
+    refuses("fr/0000.vti", &["-o", "fr.pvd"], &["fr/0000.vti", "folder fr of the frames"]);
+    refuses("inverse:size=5", &["-o", "fr.pvd", "fr/0001.vti"], &["fr/0001.vti", "folder of its frames"]);
+    place.write("g.view.py/inside", "a folder is in the way");
+    place.refuses(&["ltg", "inverse:size=5", "-o", "g.vti", "--view"], &["g.view.py", "is a folder"]);
 }
 
 #[test]

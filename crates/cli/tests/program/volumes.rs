@@ -216,6 +216,75 @@ fn slices_keep_their_place_in_every_frame() {
     }
 }
 
+/// `--frame` says along which axes a whole volume is written where the file states its own, and how numbers are read where
+/// it does not.
+#[test]
+fn frames_of_whole_volumes_turn_tensors_but_never_relabel_them() {
+    let place = Place::new();
+    let turned = "NRRD0005\ntype: double\ndimension: 4\nspace: RAS\nsizes: 6 1 1 1\n\
+                  space directions: none (0,1,0) (-1,0,0) (0,0,1)\nkinds: 3D-symmetric-matrix space space space\n\
+                  encoding: ascii\nmeasurement frame: (1,0,0) (0,1,0) (0,0,1)\n\n1 0 0 2 0 3\n";
+    place.write("stated.nrrd", turned);
+    let first = |file: &str| place.image(file).point_arrays[0].values[..5].to_vec();
+    place.succeeds(&["convert", "stated.nrrd", "world.vti"]);
+    assert_eq!(first("world.vti"), [1.0, 0.0, 0.0, 0.0, 2.0]);
+    place.succeeds(&["convert", "stated.nrrd", "voxel.vti", "--frame", "voxel"]);
+    assert_eq!(first("voxel.vti"), [2.0, 0.0, 0.0, 0.0, 1.0]);
+    place.succeeds(&["convert", "world.vti", "again.vti", "--frame", "voxel"]);
+    assert_eq!(first("again.vti"), [2.0, 0.0, 0.0, 0.0, 1.0]);
+    place.succeeds(&["convert", "stated.nrrd", "voxel.nrrd", "--frame", "voxel"]);
+    place.succeeds(&["compare", "stated.nrrd", "voxel.nrrd", "--tolerance", "0"]);
+    let open = turned.replace("measurement frame: (1,0,0) (0,1,0) (0,0,1)\n", "");
+    place.write("open.nrrd", open);
+    place.succeeds(&["convert", "open.nrrd", "read.vti", "--frame", "voxel"]);
+    assert_eq!(first("read.vti"), [1.0, 0.0, 0.0, 0.0, 2.0]);
+}
+
+/// What a plane is along says nothing of how it lies.
+#[test]
+fn pictures_stay_upright_whatever_their_frame_is_called() {
+    let place = Place::new();
+    place.write("p.txt", unit_text(3, 2));
+    place.succeeds(&["convert", "p.txt", "plain.vti"]);
+    for frame in ["world", "voxel"] {
+        let out = format!("{frame}.vti");
+        place.succeeds(&["convert", "p.txt", &out, "--frame", frame]);
+        assert_eq!(place.image(&out).direction, place.image("plain.vti").direction, "{frame}");
+    }
+}
+
+/// Voxels that were not measured say nothing about the order.
+#[test]
+fn masked_voxels_are_not_counted() {
+    let place = Place::new();
+    let head = "NRRD0004\ntype: double\ndimension: 4\nsizes: 7 2 2 1\nkinds: 3D-masked-symmetric-matrix space space space\n\
+                encoding: ascii\n\n";
+    place.write("m.nrrd", head.to_owned() + "1 2 0 0 1 0 1\n0 -1 0 0 1 0 1\n0 -1 0 0 1 0 1\n1 0 0 0 0 0 0\n");
+    let facts = place.succeeds(&["info", "m.nrrd", "--json", "--slice", "z=0"]).json()["volume"].clone();
+    assert_eq!(facts["negative_eigenvalues_histogram"], serde_json::json!([2, 0, 0, 0]));
+    assert_eq!(
+        (&facts["shares"]["zero"], &facts["masked"]),
+        (&serde_json::json!(0.5), &serde_json::json!(2))
+    );
+}
+
+/// Volumes are compared whole, or slice by slice.
+#[test]
+fn volumes_are_compared() {
+    let place = Place::new();
+    place.write("v.nrrd", nrrd());
+    place.write("w.nrrd", nrrd().replace("12 0 0.5 20 0 30", "12 0 0.5 20 0 31"));
+    let whole = place.tigereye(&["compare", "v.nrrd", "w.nrrd"]);
+    assert_eq!(whole.code, 1, "{}", whole.stderr);
+    assert!(
+        whole.stdout.contains("[2, 2, 3, 3, 3]") && whole.stdout.contains("at [1, 1, 2, 2, 2]"),
+        "{}",
+        whole.stdout
+    );
+    let slice = |index| place.tigereye(&["compare", "v.nrrd", "w.nrrd", "--slice", index]).code;
+    assert_eq!((slice("z=0"), slice("z=1"), slice("x=2")), (0, 0, 1));
+}
+
 #[test]
 fn invariants_are_arrays_beside_the_tensors() {
     let place = Place::new();
@@ -243,7 +312,8 @@ fn invariants_are_arrays_beside_the_tensors() {
         place.refuses(&[&["convert", "v.nrrd"], options, &["--invariants"]].concat(), &[words]);
     };
     refuses(&["o.nii"], "expected .vti, .vtp or .vtk");
-    refuses(&["p.vti", "--slice", "z=0"], "whole volume");
+    refuses(&["p.vti", "--slice", "z=0"], "expected a file that holds one, whole");
+    place.refuses(&["convert", "inverse:size=5", "p.vti", "--invariants"], &["volume of 3 x 3 tensors"]);
 }
 
 /// Measured slices go through every command; gradient volumes of others are described.

@@ -3,7 +3,7 @@
 use super::{Derivation, InputError, Reading};
 use crate::provenance::hash_of_bytes;
 use tigereye_io::volume::{
-    Known, Lattice, PlaneChoice, TensorVolume, World, lattice_from_image, lattice_from_points,
+    Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
 };
 use tigereye_io::{IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, picture, vti, vtp};
 
@@ -18,8 +18,10 @@ pub struct TensorFile {
     pub blake3: String,
     /// What it holds.
     pub content: Content,
-    /// Words of warning where the mask lies elsewhere in the world.
+    /// Words of warning where the mask lies elsewhere in the patient.
     mask_elsewhere: Option<String>,
+    /// Names of all files that were read.
+    pub files: Vec<String>,
 }
 
 /// Tensors, or what they may be derived from.
@@ -64,25 +66,36 @@ pub fn open(
     if !is_readable(name) {
         return Err(InputError::Ending);
     }
+    reading.check()?;
     if format_of(name) == "png" && reading.derive.is_none() {
         return Err(InputError::Picture);
     }
-    let mut read = |name: &str| bytes_of(name).map_err(|words| InputError::Unread { words });
+    let mut files = Vec::new();
+    let mut read = |name: &str| {
+        files.push(name.to_owned());
+        bytes_of(name).map_err(|words| InputError::Unread { words })
+    };
     let (kind, mut lattice, mut hashed) =
-        lattice_of(name, reading.array.as_deref(), reading.wanted(), &mut read)?;
+        lattice_of(name, reading.array.as_deref(), reading.wanted(), reading.limits(), &mut read)?;
     if reading.wanted() == Wanted::Tensors {
         lattice = lattice.with_mask_apart();
     }
     let mut mask_elsewhere = None;
     if let Some(mask) = &reading.mask {
-        let (found, bytes) = mask_lattice(mask, lattice.size, &mut read)?;
-        mask_elsewhere = elsewhere(&lattice, &found)
+        let (found, bytes) = mask_lattice(mask, lattice.size, reading.limits(), &mut read)?;
+        mask_elsewhere = (lattice.mask_by(&found))
             .then(|| format!("WARNING: the mask {mask} has the same size but lies elsewhere in the world"));
-        lattice.mask = Some(found.values);
         hashed.extend(bytes);
     }
-    if let Some(mask) = &mut lattice.mask {
-        mask.iter_mut().for_each(|m| *m = if *m > reading.mask_above { *m } else { 0.0 });
+    match &mut lattice.mask {
+        Some(mask) => mask.iter_mut().for_each(|m| *m = if *m > reading.mask_above { *m } else { 0.0 }),
+        None if reading.mask_above != 0.0 => {
+            return Err(InputError::Needless {
+                option: "--mask-above",
+                why: "the file has no confidence of its own, and no --mask is given",
+            });
+        }
+        None => {}
     }
     if let Some(Derivation { kind, .. }) = reading.derive {
         let (fits, expected) = match reading.wanted() {
@@ -101,7 +114,19 @@ pub fn open(
         let words = tigereye_io::volume::Reading { order: reading.order.as_deref(), frame: reading.frame };
         Content::Tensors(lattice.tensors(words)?)
     };
-    Ok(TensorFile { name: name.to_owned(), kind, blake3, content, mask_elsewhere })
+    Ok(TensorFile { name: name.to_owned(), kind, blake3, content, mask_elsewhere, files })
+}
+
+/// A volume with its tensors that are not finite as the reading wants them: refused, or zero.
+///
+/// # Errors
+/// [`InputError::NotFiniteVoxel`].
+pub fn finite_volume(volume: TensorVolume, reading: &Reading) -> Result<TensorVolume, InputError> {
+    match volume.not_finite() {
+        None => Ok(volume),
+        Some(_) if reading.zero_not_finite => Ok(volume.with_zeros_for_not_finite()),
+        Some((voxel, count)) => Err(InputError::NotFiniteVoxel { voxel, count }),
+    }
 }
 
 type Read<'a> = dyn FnMut(&str) -> Result<Vec<u8>, InputError> + 'a;
@@ -111,28 +136,46 @@ fn lattice_of(
     name: &str,
     array: Option<&str>,
     wanted: Wanted,
+    limits: Limits,
     read: &mut Read,
 ) -> Result<(&'static str, Lattice, Vec<u8>), InputError> {
+    if array.is_some() && !has_names(name) {
+        return Err(InputError::Needless { option: "--array", why: "the format has no names for arrays" });
+    }
     let bytes = read(name)?;
     let (kind, lattice) = match format_of(name).as_str() {
         "txt" => (TEXT_MATRICES, matrices::read(&bytes).map(|field| Lattice::from_field(&field))),
         "npy" => ("NumPy array", npy::read_lattice(&bytes, wanted)),
         "npz" => ("NumPy archive", from_archive(&bytes, array, wanted)),
-        "vti" => ("VTK image data", vti::read(&bytes).and_then(|i| lattice_from_image(&i, array, wanted))),
-        "vtp" => ("VTK poly data", vtp::read(&bytes).and_then(|d| lattice_from_points(d, array, wanted))),
-        "vtk" => ("legacy VTK", legacy::read(&bytes).and_then(|i| lattice_from_image(&i, array, wanted))),
-        "nii" | "nii.gz" => ("NIfTI-1", nifti::read(&bytes)),
+        "vti" => (
+            "VTK image data",
+            vti::read_with_limits(&bytes, limits).and_then(|i| lattice_from_image(&i, array, wanted)),
+        ),
+        "vtp" => (
+            "VTK poly data",
+            vtp::read_with_limits(&bytes, limits).and_then(|d| lattice_from_points(d, array, wanted)),
+        ),
+        "vtk" => (
+            "legacy VTK",
+            legacy::read_with_limits(&bytes, limits).and_then(|i| lattice_from_image(&i, array, wanted)),
+        ),
+        "nii" | "nii.gz" => ("NIfTI-1", nifti::read_with_limits(&bytes, limits)),
         "png" => ("PNG picture", picture::read_png(&bytes)),
         "nrrd" | "nhdr" => {
-            let detached = nrrd::data_file(&bytes)?;
+            let detached = nrrd::data_file(&bytes, limits)?;
             let data = detached.as_ref().map(|data| read(&beside(name, data))).transpose()?;
-            let lattice = nrrd::read_with_limits(&bytes, data.as_deref(), wanted, Limits::default());
+            let lattice = nrrd::read_with_limits(&bytes, data.as_deref(), wanted, limits);
             let lattice = lattice.map_err(|source| InputError::File { source, detached })?;
             return Ok(("NRRD", lattice, [bytes, data.unwrap_or_default()].concat()));
         }
         _ => return Err(InputError::Ending),
     };
     Ok((kind, lattice?, bytes))
+}
+
+/// Whether a file of this name may hold several arrays with names.
+fn has_names(name: &str) -> bool {
+    ["npz", "vti", "vtp", "vtk"].contains(&format_of(name).as_str())
 }
 
 fn from_archive(bytes: &[u8], array: Option<&str>, wanted: Wanted) -> Result<Lattice, IoError> {
@@ -148,12 +191,17 @@ fn beside(name: &str, file: &str) -> String {
 }
 
 /// One number a voxel of a lattice of `size`, and the bytes they come from.
-fn mask_lattice(mask: &str, size: [usize; 3], read: &mut Read) -> Result<(Lattice, Vec<u8>), InputError> {
+fn mask_lattice(
+    mask: &str,
+    size: [usize; 3],
+    limits: Limits,
+    read: &mut Read,
+) -> Result<(Lattice, Vec<u8>), InputError> {
     let fault = |words: String| InputError::Mask { mask: mask.to_owned(), words };
     if !is_readable(mask) {
         return Err(fault(InputError::Ending.to_string()));
     }
-    let (_, lattice, bytes) = match lattice_of(mask, None, Wanted::Scalars, read) {
+    let (_, lattice, bytes) = match lattice_of(mask, None, Wanted::Scalars, limits, read) {
         Err(e @ InputError::Unread { .. }) => return Err(e),
         other => other.map_err(|e| fault(e.to_string()))?,
     };
@@ -164,15 +212,6 @@ fn mask_lattice(mask: &str, size: [usize; 3], read: &mut Read) -> Result<(Lattic
         return Err(InputError::MaskSize { mask: mask.to_owned(), found: lattice.size, expected: size });
     }
     Ok((lattice, bytes))
-}
-
-/// Whether two lattices of one size lie at different places, as far as both files say where they lie.
-fn elsewhere(a: &Lattice, b: &Lattice) -> bool {
-    let known = |l: &Lattice| matches!(l.world, World::Scanner(_));
-    let step = a.spacing().into_iter().fold(f64::INFINITY, f64::min);
-    let far = |x: f64, y: f64| (x - y).abs() > 1e-2 * step;
-    let axes = a.axes.as_flattened().iter().zip(b.axes.as_flattened());
-    known(a) && known(b) && a.origin.iter().zip(&b.origin).chain(axes).any(|(x, y)| far(*x, *y))
 }
 
 impl TensorFile {

@@ -13,7 +13,7 @@ mod plane;
 mod reading;
 mod threshold;
 
-pub use file::{Content, TEXT_MATRICES, TensorFile, format_of, is_readable, open};
+pub use file::{Content, TEXT_MATRICES, TensorFile, finite_volume, format_of, is_readable, open};
 pub use plane::PlaneField;
 pub use reading::{Derivation, Derived, Reading};
 pub use threshold::suggested_local_above;
@@ -93,6 +93,24 @@ pub enum InputError {
         /// How many there are.
         count: usize,
     },
+    /// The same in a volume that is taken whole.
+    #[error(
+        "the tensor of voxel ({}, {}, {}) is not finite ({count} such tensors): expected numbers, or --not-finite zero", voxel[0], voxel[1], voxel[2]
+    )]
+    NotFiniteVoxel {
+        /// Indices of the first one.
+        voxel: [usize; 3],
+        /// How many there are.
+        count: usize,
+    },
+    /// An option that would change nothing.
+    #[error("{option} has nothing to do: {why}")]
+    Needless {
+        /// The option.
+        option: &'static str,
+        /// Why.
+        why: &'static str,
+    },
     /// A size that no field has.
     #[error(transparent)]
     Field(#[from] FieldError),
@@ -104,6 +122,7 @@ const fn hint(source: &IoError) -> &'static str {
         IoError::PlaneNeeded { .. } => " (option --slice AXIS=INDEX)",
         IoError::SliceNeeded { .. } => " (option --slice)",
         IoError::AmbiguousArray { .. } => " (option --array)",
+        IoError::TooManyCells { .. } | IoError::TooManyValues { .. } => " (option --limit)",
         IoError::NpyShape { .. } => " (option --derive for vectors and numbers)",
         _ => "",
     }

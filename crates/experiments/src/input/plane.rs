@@ -2,7 +2,9 @@
 
 use super::{Content, Derivation, Derived, InputError, Reading, TensorFile};
 use tigereye_core::{Field, Tensor2};
-use tigereye_fields::images::{gradient_tensors, hessian_tensors, resampled, structure_tensors};
+use tigereye_fields::images::{
+    MAX_RESAMPLED, MAX_RESAMPLED_CELLS, gradient_tensors, hessian_tensors, resampled, structure_tensors,
+};
 use tigereye_io::volume::{Cut, Lattice, TensorVolume};
 
 /// A tensor field in the plane, with how it came about.
@@ -65,8 +67,8 @@ fn derived(lattice: &Lattice, reading: &Reading, how: Derivation) -> Result<Plan
         }
         Derived::Structure => {
             let slice = lattice.scalars(reading.choice)?;
-            let field = structure_tensors(&slice.field, slice.cut.spacing, how.sigma, how.window);
-            let window = how.window;
+            let window = how.window.unwrap_or(Derived::USUAL_WINDOW);
+            let field = structure_tensors(&slice.field, slice.cut.spacing, how.sigma, window);
             (field, slice.cut, format!("structure tensor, {scale}, averaged over {window} cells"))
         }
     };
@@ -103,11 +105,11 @@ impl PlaneField {
         let rows = (grid.height() as f64 * dy / dx).round().max(1.0);
         let (columns, rows) =
             if dx > dy { (columns, grid.height() as f64) } else { (grid.width() as f64, rows) };
-        off.then(|| {
-            format!(
-                "WARNING: cells are {dx} x {dy}, and light takes them as squares; --resample {columns}x{rows} makes them so"
-            )
-        })
+        let warning = format!("WARNING: cells are {dx} x {dy}, and light takes them as squares");
+        let possible =
+            columns.max(rows) <= MAX_RESAMPLED as f64 && columns * rows <= MAX_RESAMPLED_CELLS as f64;
+        let advice = format!("; --resample {columns}x{rows} makes them so");
+        off.then(|| if possible { warning + &advice } else { warning })
     }
 
     /// The part that the reading chooses.

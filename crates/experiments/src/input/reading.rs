@@ -1,7 +1,8 @@
 //! What a user says about a file.
 
-use tigereye_io::Wanted;
+use super::InputError;
 use tigereye_io::volume::{Crop, Frame, PlaneChoice};
+use tigereye_io::{Limits, Wanted};
 
 /// What files do not state, the plane of a volume, and what becomes of its values. The default says nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,6 +27,8 @@ pub struct Reading {
     pub mask_above: f64,
     /// Whether tensors that are not finite become zero instead of being refused.
     pub zero_not_finite: bool,
+    /// Numbers that a file may hold at most; [`Limits::default`] where nobody says another.
+    pub limit: Option<u64>,
 }
 
 /// Which tensors, at which scale.
@@ -35,8 +38,9 @@ pub struct Derivation {
     pub kind: Derived,
     /// Standard deviation of the Gaussian that derivatives are taken of, cells.
     pub sigma: f64,
-    /// Standard deviation of the window that structure tensors are averaged over, cells.
-    pub window: f64,
+    /// Standard deviation of the window that structure tensors are averaged over, cells; [`Derived::USUAL_WINDOW`] where
+    /// nobody says another.
+    pub window: Option<f64>,
 }
 
 /// Tensors of images.
@@ -84,6 +88,42 @@ impl Derived {
 }
 
 impl Reading {
+    /// Refuses options that would change nothing.
+    ///
+    /// # Errors
+    /// [`InputError::Needless`].
+    pub fn check(&self) -> Result<(), InputError> {
+        let Some(Derivation { kind, window, .. }) = self.derive else { return Ok(()) };
+        let numbers = kind != Derived::Gradient;
+        let needless = [
+            (
+                self.order.is_some(),
+                "--order",
+                "--derive takes numbers or vectors, which have no component order",
+            ),
+            (
+                numbers && self.frame.is_some(),
+                "--frame",
+                "--derive hessian and structure take single numbers",
+            ),
+            (
+                kind != Derived::Structure && window.is_some(),
+                "--window",
+                "only --derive structure averages over a window",
+            ),
+        ];
+        match needless.into_iter().find(|(is_given, _, _)| *is_given) {
+            Some((_, option, why)) => Err(InputError::Needless { option, why }),
+            None => Ok(()),
+        }
+    }
+
+    /// What a file may ask for.
+    #[must_use]
+    pub fn limits(&self) -> Limits {
+        self.limit.map_or_else(Limits::default, |values| Limits { cells: values, values })
+    }
+
     /// What the tuples of the file must be.
     #[must_use]
     pub const fn wanted(&self) -> Wanted {

@@ -139,9 +139,15 @@ pub enum FieldSource {
         /// Tensors of an image.
         #[serde(default)]
         derive: Option<DeriveRule>,
-        /// File of one number a voxel; tensors become zero where it is not positive.
+        /// File of one number a voxel; tensors become zero where it is not above [`mask_above`](Self::File::mask_above).
         #[serde(default)]
         mask: Option<String>,
+        /// What a mask, or the confidence in an NRRD file, must exceed.
+        #[serde(default)]
+        mask_above: f64,
+        /// What becomes of tensors that are infinite or not a number: `refuse` (the default) or `zero`.
+        #[serde(default)]
+        not_finite: Option<String>,
         /// Every how many cells one is kept, from the upper left.
         #[serde(default = "one")]
         stride: usize,

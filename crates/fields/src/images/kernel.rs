@@ -9,12 +9,27 @@ const CUT: f64 = 4.0;
 /// Weights of the samples -r to r.
 pub(super) struct Kernel {
     weights: Vec<f64>,
+    parity: Parity,
 }
 
+/// How samples at both sides of the middle are put together, so that constants give exactly nothing.
+#[derive(Clone, Copy)]
+enum Parity {
+    /// A mean.
+    Mean,
+    /// `f(i) - f(-i)`.
+    Odd,
+    /// `(f(i) - f(0)) + (f(-i) - f(0))`.
+    Even,
+}
+
+/// Gaussians this narrow have neighbours only, whose weights then do not depend on them.
+const NARROW: f64 = 1.0 / CUT;
+
 impl Kernel {
-    fn of(sigma: f64, weight: impl Fn(f64) -> f64) -> Self {
+    fn of(sigma: f64, parity: Parity, weight: impl Fn(f64) -> f64) -> Self {
         let radius = (CUT * sigma).ceil() as i32;
-        Self { weights: (-radius..=radius).map(|i| weight(f64::from(i))).collect() }
+        Self { weights: (-radius..=radius).map(|i| weight(f64::from(i))).collect(), parity }
     }
 
     /// A moment of the weights.
@@ -32,30 +47,31 @@ impl Kernel {
     /// Weights of sum 1.
     pub(super) fn gauss(sigma: f64) -> Self {
         if sigma == 0.0 {
-            return Self { weights: vec![1.0] };
+            return Self { weights: vec![1.0], parity: Parity::Mean };
         }
-        let kernel = Self::of(sigma, |x| exp(-0.5 * (x / sigma) * (x / sigma)));
+        let kernel = Self::of(sigma, Parity::Mean, |x| exp(-0.5 * (x / sigma) * (x / sigma)));
         let sum = kernel.sum(0);
         kernel.scaled(1.0 / sum)
     }
 
     /// First derivative, exact for polynomials of degree 2.
     pub(super) fn first(sigma: f64) -> Self {
-        if sigma == 0.0 {
-            return Self { weights: vec![-0.5, 0.0, 0.5] };
+        if sigma <= NARROW {
+            return Self { weights: vec![-0.5, 0.0, 0.5], parity: Parity::Odd };
         }
-        let kernel = Self::of(sigma, |x| x * exp(-0.5 * (x / sigma) * (x / sigma)));
+        let kernel = Self::of(sigma, Parity::Odd, |x| x * exp(-0.5 * (x / sigma) * (x / sigma)));
         let slope = kernel.sum(1);
         kernel.scaled(1.0 / slope)
     }
 
     /// Second derivative, exact for polynomials of degree 3.
     pub(super) fn second(sigma: f64) -> Self {
-        if sigma == 0.0 {
-            return Self { weights: vec![1.0, -2.0, 1.0] };
+        if sigma <= NARROW {
+            return Self { weights: vec![1.0, -2.0, 1.0], parity: Parity::Even };
         }
         let spread = Self::gauss(sigma).sum(2);
-        let kernel = Self::of(sigma, |x| (x * x - spread) * exp(-0.5 * (x / sigma) * (x / sigma)));
+        let kernel =
+            Self::of(sigma, Parity::Even, |x| (x * x - spread) * exp(-0.5 * (x / sigma) * (x / sigma)));
         let bend = kernel.sum(2);
         kernel.scaled(2.0 / bend)
     }
@@ -90,10 +106,19 @@ impl Beyond {
 }
 
 fn correlated(row: &[f64], kernel: &Kernel, beyond: Beyond) -> Vec<f64> {
-    let radius = (kernel.weights.len() / 2) as i64;
-    let at = |x: usize| {
-        let samples = (x as i64 - radius..).map(|i| beyond.sample(row, i));
-        kernel.weights.iter().zip(samples).map(|(w, v)| w * v).sum()
+    let middle = kernel.weights.len() / 2;
+    let sides = kernel.weights[middle + 1..].iter().zip(1..);
+    let at = |x: usize| -> f64 {
+        let sample = |i: i64| beyond.sample(row, x as i64 + i);
+        let here = row[x];
+        match kernel.parity {
+            Parity::Mean => {
+                let both = |(w, i): (&f64, i64)| w * (sample(i) + sample(-i));
+                sides.clone().map(both).fold(kernel.weights[middle] * here, |sum, v| sum + v)
+            }
+            Parity::Odd => sides.clone().map(|(w, i)| w * (sample(i) - sample(-i))).sum(),
+            Parity::Even => sides.clone().map(|(w, i)| w * ((sample(i) - here) + (sample(-i) - here))).sum(),
+        }
     };
     (0..row.len()).map(at).collect()
 }
@@ -122,7 +147,7 @@ mod tests {
     /// into 2, and each leaves the other powers below alone.
     #[test]
     fn kernels_are_exact_for_low_polynomials() {
-        for sigma in [0.0, 0.4, 1.0, 2.5] {
+        for sigma in [0.0, 1e-3, 0.02, 0.25, 0.26, 0.4, 1.0, 2.5] {
             let near = |k: &Kernel, power, expected: f64| {
                 assert!((k.sum(power) - expected).abs() < 1e-12, "{sigma}: moment {power}");
             };
@@ -138,6 +163,23 @@ mod tests {
             near(&second, 3, 0.0);
         }
         assert!((Kernel::gauss(2.5).sum(2) - 6.25).abs() < 0.02, "cut at four standard deviations");
+    }
+
+    /// Not even rounding is left of them.
+    #[test]
+    fn constants_have_no_derivatives() {
+        let grid = tigereye_core::Grid::new(9, 7).expect("a size");
+        let flat = Field::from_fn(grid, |_| 0.1 + 0.7);
+        for sigma in [0.0, 0.01, 0.2, 0.3, 1.0, 2.7] {
+            for kernel in [Kernel::first(sigma), Kernel::second(sigma)] {
+                for beyond in [Beyond::PointReflection, Beyond::Mirror] {
+                    let smooth = along_rows(&flat, &Kernel::gauss(sigma), beyond);
+                    let down = columns_of(&smooth, &kernel, beyond);
+                    let across = along_rows(&flat, &kernel, beyond);
+                    assert!(down.values().iter().chain(across.values()).all(|v| *v == 0.0), "sigma {sigma}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -17,7 +17,7 @@
 mod kernel;
 mod resample;
 
-pub use resample::{MAX_RESAMPLED, resampled};
+pub use resample::{MAX_RESAMPLED, MAX_RESAMPLED_CELLS, resampled};
 
 use kernel::{Beyond, Kernel, along_rows, columns_of};
 use tigereye_core::{Field, Tensor2};

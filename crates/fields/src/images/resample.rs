@@ -5,6 +5,8 @@ use tigereye_core::{Cell, Field, Grid, Tensor2};
 
 /// Longest side of a resampled field.
 pub const MAX_RESAMPLED: usize = 1 << 14;
+/// Most cells of a resampled field: 512 MiB of tensors.
+pub const MAX_RESAMPLED_CELLS: usize = 1 << 24;
 
 /// The same picture with another number of cells, component by component. Every new cell is a mean of the old ones under
 /// a triangle around its centre, as wide as two cells of the coarser of both grids: linear interpolation where the new
@@ -14,7 +16,9 @@ pub const MAX_RESAMPLED: usize = 1 << 14;
 /// [`FieldError::Grid`] and [`FieldError::ResampledSize`] for sizes that are none, or too large.
 pub fn resampled(field: &Field<Tensor2>, width: usize, height: usize) -> Result<Field<Tensor2>, FieldError> {
     let (wide, grid) = (Grid::new(width, field.grid().height())?, Grid::new(width, height)?);
-    if width.max(height) > MAX_RESAMPLED {
+    // On the way there are as many rows as before.
+    let cells = width.saturating_mul(height.max(field.grid().height()));
+    if width.max(height) > MAX_RESAMPLED || cells > MAX_RESAMPLED_CELLS.max(field.grid().cells()) {
         return Err(FieldError::ResampledSize { width, height });
     }
     let (columns, rows) = (weights(field.grid().width(), width), weights(field.grid().height(), height));

@@ -17,7 +17,7 @@ pub use write::{write, write_packed};
 
 use crate::inflate::{gunzip, is_gzip};
 use crate::volume::{Frame, Known, Lattice, World};
-use crate::{IoError, Limits};
+use crate::{ByteOrder, IoError, Limits, ScalarType};
 use header::{Header, LENGTH};
 
 /// Reads a file with the default [`Limits`].
@@ -55,24 +55,24 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<Lattice, IoError
         return Err(IoError::DataTruncated { byte, needed: u128::from(needed - header.offset), present });
     }
     let data = &all[header.offset as usize..needed as usize];
-    let mut stored = header.scalar.decode(header.order, data);
+    let mut values = by_voxel(data, header.components, header.scalar, header.order);
     let mut notes = vec![format!("position by {}", header.position.1)];
     if let Some((slope, intercept)) = header.scaling {
-        stored.iter_mut().for_each(|v| *v = *v * slope + intercept);
+        values.iter_mut().for_each(|v| *v = *v * slope + intercept);
         notes.push(format!("numbers scaled by {slope} and shifted by {intercept}"));
     }
     let (axes, origin) = header.position.0;
     Ok(Lattice {
         size: header.size,
         components: header.components,
-        values: by_voxel(&stored, header.components),
+        values,
         scalar: header.scalar,
         axes,
         origin,
         world: World::Scanner("right-anterior-superior".to_owned()),
         measurement: None,
         mask: None,
-        order: header.tensor,
+        order: header.tensor.map(|order| (order, Known::Stated)),
         // The standard leaves the axes open; dipy and FSL write voxel axes.
         frame: (Frame::Voxel, Known::Assumed),
         array: header.kind.to_owned(),
@@ -80,9 +80,15 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<Lattice, IoError
     })
 }
 
-/// From component by component to voxel by voxel.
-fn by_voxel(stored: &[f64], components: usize) -> Vec<f64> {
-    let voxels = stored.len() / components.max(1);
-    let tuple = |voxel: usize| (0..components).map(move |c| stored[c * voxels + voxel]);
-    (0..voxels).flat_map(tuple).collect()
+/// Numbers stored component by component, voxel by voxel. A component at a time is decoded, so that little more than the
+/// result is in memory.
+fn by_voxel(data: &[u8], components: usize, scalar: ScalarType, order: ByteOrder) -> Vec<f64> {
+    let voxels = data.len() / (components * scalar.bytes()).max(1);
+    let mut values = vec![0.0; voxels * components];
+    for (c, stored) in data.chunks_exact((voxels * scalar.bytes()).max(1)).enumerate().take(components) {
+        for (voxel, v) in scalar.decode(order, stored).into_iter().enumerate() {
+            values[voxel * components + c] = v;
+        }
+    }
+    values
 }

@@ -42,7 +42,7 @@ pub fn write(volume: &TensorVolume, provenance: &str) -> Result<Vec<u8>, IoError
     head.0[123] = if scanner { 2 } else { 0 };
     head.put(148, concat!("tigereye ", env!("CARGO_PKG_VERSION")).as_bytes());
     head.shorts(254, &[if scanner { 1 } else { 2 }]);
-    let signs = signs(&lattice.world);
+    let signs = lattice.world.signs().unwrap_or([1.0; 3]);
     for (row, sign) in signs.into_iter().enumerate() {
         let [a, b, c] = lattice.axes.map(|axis| sign * axis[row]);
         head.floats(280 + 16 * row, &[a, b, c, sign * lattice.origin[row]]);
@@ -93,15 +93,4 @@ fn extension(text: &str) -> Vec<u8> {
     bytes.extend_from_slice(text.as_bytes());
     bytes.resize(4 + size, 0);
     bytes
-}
-
-/// Signs that turn the axes of a world to the right, anterior and superior; unnamed worlds stay.
-fn signs(world: &World) -> [f64; 3] {
-    let World::Scanner(name) = world else { return [1.0; 3] };
-    let name = name.to_ascii_lowercase();
-    let sign = |word: &str, letter: usize, code: u8| {
-        let short = name.len() == 3 && name.as_bytes()[letter] == code;
-        if name.contains(word) || short { -1.0 } else { 1.0 }
-    };
-    [sign("left", 0, b'l'), sign("posterior", 1, b'p'), sign("inferior", 2, b'i')]
 }

@@ -79,7 +79,7 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
         world: World::Viewer,
         measurement: None,
         mask: None,
-        order: if plane { TensorOrder::usual(tuple) } else { None },
+        order: plane.then_some((TensorOrder::ROWS2, Known::Convention)),
         frame,
         array: format!("array of shape {shape:?}"),
         notes: vec![note.to_owned()],

@@ -13,6 +13,9 @@ const MAX_HEADER: usize = 1 << 20;
 const VECTOR_KINDS: [&str; 6] =
     ["vector", "2-vector", "3-vector", "covariant-vector", "3-gradient", "3-normal"];
 
+/// Kinds of axes along which a picture extends: no tuples there.
+const DOMAIN_KINDS: [&str; 3] = ["domain", "space", "time"];
+
 /// How the numbers are encoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
@@ -237,6 +240,7 @@ impl Header {
         let kind = |name: &String| KINDS.into_iter().find(|k| k.name.eq_ignore_ascii_case(name));
         let tensors: Vec<(usize, Kind)> =
             self.kinds.iter().enumerate().filter_map(|(i, k)| Some((i, kind(k)?))).collect();
+        let is_domain = |k: &String| DOMAIN_KINDS.iter().any(|d| k.eq_ignore_ascii_case(d));
         let is_vector = |k: &String| VECTOR_KINDS.iter().any(|v| k.eq_ignore_ascii_case(v));
         let (axis, kind) = match (wanted, &tensors[..]) {
             (Wanted::Scalars, _) => return self.scalar_layout(),
@@ -249,7 +253,7 @@ impl Header {
             },
             (Wanted::Tensors, [(axis, kind)]) => (*axis, Some(*kind)),
             (Wanted::Tensors, []) => match self.sizes.iter().position(|s| matches!(s, 6 | 7 | 9)) {
-                Some(0) if self.sizes.len() > 2 => (0, None),
+                Some(0) if self.sizes.len() > 2 && !self.kinds.first().is_some_and(is_domain) => (0, None),
                 _ => return Err(fault(&self.kinds.join(" "), KIND_NAMES)),
             },
             (Wanted::Tensors, _) => return Err(fault(&self.kinds.join(" "), "one tensor axis")),

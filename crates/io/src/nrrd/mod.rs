@@ -22,8 +22,8 @@ use header::Header;
 ///
 /// # Errors
 /// As [`read`], for the header alone.
-pub fn data_file(bytes: &[u8]) -> Result<Option<String>, IoError> {
-    Ok(Header::parse(bytes, Limits::default())?.data_file)
+pub fn data_file(bytes: &[u8], limits: Limits) -> Result<Option<String>, IoError> {
+    Ok(Header::parse(bytes, limits)?.data_file)
 }
 
 /// Reads tensors with the default [`Limits`]; `detached` are the bytes of its data file, where it names one.
@@ -77,7 +77,7 @@ pub fn read_with_limits(
         world: World::Scanner(world),
         measurement: header.measurement,
         mask,
-        order: layout.kind.map(|k| k.order),
+        order: layout.order(),
         frame,
         array: layout.kind.map_or("numbers", |k| k.name).to_owned(),
         notes,
@@ -128,6 +128,14 @@ struct Layout {
 }
 
 impl Layout {
+    /// That of the kind. Where no kind says it, seven numbers are taken as the format's own masked kind.
+    fn order(&self) -> Option<(TensorOrder, Known)> {
+        match self.kind {
+            Some(kind) => Some((kind.order, Known::Stated)),
+            None => self.masked.then_some((TensorOrder::UPPER, Known::Assumed)),
+        }
+    }
+
     /// Tuples voxel by voxel and the mask apart.
     fn tuples(&self, stored: Vec<f64>) -> (Vec<f64>, Option<Vec<f64>>) {
         if self.inner == 1 && !self.masked {

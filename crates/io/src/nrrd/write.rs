@@ -1,25 +1,22 @@
 //! From [`TensorVolume`] to bytes.
 
-use crate::volume::{Frame, TensorVolume, World, symmetric};
+use crate::volume::{Frame, IDENTITY, TensorVolume, World, symmetric};
 use crate::{IoError, ScalarType};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use std::fmt::Write as _;
 use std::io::Write as _;
 
-/// Spaces of three axes that the format names, with their abbreviations.
-const SPACES: [&str; 6] =
-    ["right-anterior-superior", "RAS", "left-anterior-superior", "LAS", "left-posterior-superior", "LPS"];
-
-/// Writes a file with attached gzip data. Tensors are along the world's axes (the measurement frame is the unit matrix).
+/// Writes a file with attached gzip data. Tensors are along the axes of `frame`: the world's (the measurement frame is the
+/// unit matrix), or the voxels' (it has the directions of their axes).
 /// Symmetric ones become `3D-masked-symmetric-matrix`, as teem and Slicer have them, others `3D-masked-matrix`; the mask is
 /// the volume's, or 1. `provenance` becomes the value of the key `tigereye`.
 ///
 /// # Errors
 /// [`IoError::SkewedAxes`] where components must be turned and cannot be.
-pub fn write(volume: &TensorVolume, provenance: &str) -> Result<Vec<u8>, IoError> {
+pub fn write(volume: &TensorVolume, frame: Frame, provenance: &str) -> Result<Vec<u8>, IoError> {
     let lattice = volume.lattice();
-    let tensors = volume.along(Frame::World)?;
+    let tensors = volume.along(frame)?;
     let (kind, entries): (_, &[usize]) = if symmetric(&tensors) {
         ("3D-masked-symmetric-matrix", &[0, 1, 2, 4, 5, 8])
     } else {
@@ -31,21 +28,21 @@ pub fn write(volume: &TensorVolume, provenance: &str) -> Result<Vec<u8>, IoError
         numbers.extend(entries.iter().map(|&e| t[e]));
     }
     let space = match &lattice.world {
-        World::Scanner(name) if SPACES.iter().any(|s| s.eq_ignore_ascii_case(name)) => {
-            format!("space: {name}")
-        }
+        World::Scanner(name) if lattice.world.signs().is_some() => format!("space: {name}"),
         _ => "space dimension: 3".to_owned(),
     };
     let vector = |v: [f64; 3]| format!("({:?},{:?},{:?})", v[0], v[1], v[2]);
     let [nx, ny, nz] = lattice.size;
     let (size, [a, b, c]) = (entries.len() + 1, lattice.axes.map(vector));
+    let d = if frame == Frame::Voxel { lattice.directions() } else { IDENTITY };
+    let frame = [0, 1, 2].map(|a| vector([d[a], d[a + 3], d[a + 6]])).join(" ");
     let mut header = String::new();
     // Writing to a String does not fail.
     let _ = write!(
         header,
         "NRRD0005\ntype: double\ndimension: 4\n{space}\nsizes: {size} {nx} {ny} {nz}\n\
          space directions: none {a} {b} {c}\nkinds: {kind} space space space\nendian: little\nencoding: gzip\n\
-         space origin: {}\nmeasurement frame: (1,0,0) (0,1,0) (0,0,1)\ntigereye:={}\n\n",
+         space origin: {}\nmeasurement frame: {frame}\ntigereye:={}\n\n",
         vector(lattice.origin),
         provenance.replace('\\', "\\\\").replace('\n', "\\n")
     );

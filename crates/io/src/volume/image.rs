@@ -70,6 +70,7 @@ pub fn lattice_from_image(
     let valid = image
         .point_array(VALID_POINTS)
         .filter(|m| m.components == 1 && m.values.len() == size.iter().product());
+    let active = if association == Association::Points { &image.point_active } else { &image.cell_active };
     let named = TensorOrder::by_names(&names, array.components).ok();
     Ok(Lattice {
         size,
@@ -81,19 +82,25 @@ pub fn lattice_from_image(
         world: World::Viewer,
         measurement: None,
         mask: valid.filter(|_| association == Association::Points).map(|m| m.values.clone()),
-        order: named.or_else(|| usual(array.components)),
+        order: named
+            .map(|order| (order, Known::Stated))
+            .or_else(|| usual(array.components, active.tensors.as_ref() == Some(&array.name))),
         frame: (Frame::World, Known::Stated),
         array: array.name.clone(),
         notes: vec![format!("a {kind} array of VTK image data")],
     })
 }
 
-/// VTK's own orders of tensors. Three numbers may as well be a vector: there the file says nothing.
-fn usual(components: usize) -> Option<TensorOrder> {
+/// VTK's own orders of tensors: what the attribute `Tensors` means. Without it, six numbers may have another order, and
+/// three may as well be a vector.
+fn usual(components: usize, is_active: bool) -> Option<(TensorOrder, Known)> {
     match components {
         3 => None,
-        6 => Some(TensorOrder::VTK),
-        _ => TensorOrder::usual(components),
+        6 => Some((TensorOrder::VTK, if is_active { Known::Stated } else { Known::Assumed })),
+        _ => {
+            let known = if is_active { Known::Stated } else { Known::Convention };
+            TensorOrder::usual(components).map(|order| (order, known))
+        }
     }
 }
 

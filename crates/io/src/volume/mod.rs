@@ -89,6 +89,24 @@ pub enum World {
     Scanner(String),
 }
 
+/// Worlds of scanners with the signs that turn their axes to the right, anterior and superior, by NRRD's names.
+const SCANNERS: [(&str, &str, [f64; 3]); 3] = [
+    ("right-anterior-superior", "RAS", [1.0, 1.0, 1.0]),
+    ("left-anterior-superior", "LAS", [-1.0, 1.0, 1.0]),
+    ("left-posterior-superior", "LPS", [-1.0, -1.0, 1.0]),
+];
+
+impl World {
+    /// Signs that turn the axes to the right, anterior and superior; `None` for worlds that are not the patient's.
+    pub(crate) fn signs(&self) -> Option<[f64; 3]> {
+        let Self::Scanner(name) = self else { return None };
+        let is_named = |(long, short, _): &&(&str, &str, _)| {
+            name.eq_ignore_ascii_case(long) || name.eq_ignore_ascii_case(short)
+        };
+        SCANNERS.iter().find(is_named).map(|(_, _, signs)| *signs)
+    }
+}
+
 /// Tuples of numbers on a lattice, as a file has them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lattice {
@@ -110,8 +128,8 @@ pub struct Lattice {
     pub measurement: Option<[f64; 9]>,
     /// Confidence of each voxel; 0 where nothing was measured.
     pub mask: Option<Vec<f64>>,
-    /// Order of the components, where the file states it.
-    pub order: Option<TensorOrder>,
+    /// Order of the components and how it is known, where there is a reason for one.
+    pub order: Option<(TensorOrder, Known)>,
     /// The frame of the components, stated or usual for the format.
     pub frame: (Frame, Known),
     /// Name of the array, or the words by which the format calls it.
@@ -156,7 +174,7 @@ impl Lattice {
             self.mask = Some(tuples.iter().map(|t| t[0]).collect());
             self.values = tuples.iter().flat_map(|t| t[1..].iter().copied()).collect();
             self.components = 6;
-            self.order = Some(TensorOrder::UPPER);
+            self.order = Some((TensorOrder::UPPER, Known::Assumed));
             self.notes.push("seven numbers taken as a mask and xx,xy,xz,yy,yz,zz".to_owned());
         }
         self
@@ -165,8 +183,7 @@ impl Lattice {
     fn tensors_of_tuples(self, reading: Reading) -> Result<TensorVolume, IoError> {
         let order = match (reading.order, self.order) {
             (Some(text), _) => (TensorOrder::parse(text, self.components)?, Known::Given),
-            (None, Some(order)) if self.frame.1 == Known::Convention => (order, Known::Convention),
-            (None, Some(order)) => (order, Known::Stated),
+            (None, Some(order)) => order,
             (None, None) => (self.assumed_order()?, Known::Assumed),
         };
         let by_mrtrix = reading.order.is_some_and(|o| o.trim().eq_ignore_ascii_case("mrtrix"));
@@ -185,6 +202,64 @@ impl Lattice {
         let usual =
             if self.components == 6 { Some(TensorOrder::LOWER) } else { TensorOrder::usual(self.components) };
         usual.ok_or_else(|| IoError::NoTensor { array: self.array.clone(), components: self.components })
+    }
+
+    /// Takes a mask of another file: a voxel keeps the smaller of both confidences. Where an axis of one lattice runs
+    /// against that of the other, as far as both say where they lie, the mask is turned round along it. Returns whether the
+    /// mask lies elsewhere in the patient all the same.
+    ///
+    /// # Panics
+    /// Where the mask has another size or holds tuples.
+    pub fn mask_by(&mut self, mask: &Self) -> bool {
+        assert!(mask.size == self.size && mask.components == 1, "a mask of the lattice's size");
+        let [nx, ny, _] = self.size;
+        let signs = match (self.world.signs(), mask.world.signs()) {
+            (Some(a), Some(b)) => Some((a, b)),
+            // Viewers, and worlds of one name.
+            _ if self.world == mask.world => Some(([1.0; 3], [1.0; 3])),
+            _ => None,
+        };
+        let place = |v: [f64; 3], signs: [f64; 3]| [0, 1, 2].map(|i| signs[i] * v[i]);
+        let mut reversed = [false; 3];
+        if let Some((a, b)) = signs {
+            for axis in 0..3 {
+                let (own, other) = (place(self.axes[axis], a), place(mask.axes[axis], b));
+                reversed[axis] = (0..3).map(|i| own[i] * other[i]).sum::<f64>() < 0.0;
+            }
+        }
+        let mut confidence = Vec::with_capacity(self.voxels());
+        for voxel in 0..self.voxels() {
+            let at = [voxel % nx, voxel / nx % ny, voxel / (nx * ny)];
+            let [x, y, z] = [0, 1, 2].map(|a| if reversed[a] { self.size[a] - 1 - at[a] } else { at[a] });
+            let of_mask = mask.values[(z * ny + y) * nx + x];
+            let own = self.mask.as_ref().and_then(|m| m.get(voxel).copied());
+            // What is not a number is no confidence.
+            let both = own.map_or(of_mask, |own| if own < of_mask { own } else { of_mask });
+            confidence.push(if both.is_nan() { 0.0 } else { both });
+        }
+        self.mask = Some(confidence);
+        let names = ["x", "y", "z"];
+        let turned: Vec<&str> =
+            (0..3).filter(|&a| reversed[a] && self.size[a] > 1).map(|a| names[a]).collect();
+        if !turned.is_empty() {
+            self.notes.push(format!(
+                "the mask turned round along {}, where its axes run the other way",
+                turned.join(" and ")
+            ));
+        }
+        let (Some((a, b)), World::Scanner(_), World::Scanner(_)) = (signs, &self.world, &mask.world) else {
+            return false;
+        };
+        let step = self.spacing().into_iter().fold(f64::INFINITY, f64::min);
+        let far = |v: [f64; 3], w: [f64; 3]| (0..3).any(|i| (v[i] - w[i]).abs() > 1e-2 * step);
+        let mut first = mask.origin;
+        for axis in (0..3).filter(|&axis| reversed[axis]) {
+            let last = (self.size[axis] - 1) as f64;
+            (0..3).for_each(|i| first[i] += last * mask.axes[axis][i]);
+        }
+        let turned = |axis: usize| mask.axes[axis].map(|v| if reversed[axis] { -v } else { v });
+        far(place(self.origin, a), place(first, b))
+            || (0..3).any(|axis| far(place(self.axes[axis], a), place(turned(axis), b)))
     }
 
     /// What was read, a sentence each.
@@ -283,6 +358,42 @@ impl TensorVolume {
     /// All tensors as stored, the first axis fastest.
     pub fn tensors(&self) -> impl ExactSizeIterator<Item = [f64; 9]> + '_ {
         (0..self.lattice.voxels()).map(|voxel| self.stored(voxel))
+    }
+
+    /// The tensor of a voxel as stored; `None` where nothing was measured.
+    #[must_use]
+    pub fn measured(&self, voxel: usize) -> Option<[f64; 9]> {
+        (!self.is_masked(voxel)).then(|| self.stored(voxel))
+    }
+
+    /// The first voxel that is measured but has a number that is infinite or none, and how many there are.
+    #[must_use]
+    pub fn not_finite(&self) -> Option<([usize; 3], usize)> {
+        let [nx, ny, _] = self.lattice.size;
+        let mut strange = (0..self.lattice.voxels())
+            .filter(|&voxel| self.measured(voxel).is_some_and(|t| !t.iter().all(|v| v.is_finite())));
+        let first = strange.next()?;
+        Some(([first % nx, first / nx % ny, first / (nx * ny)], 1 + strange.count()))
+    }
+
+    /// With zero tensors in place of those that are not finite.
+    #[must_use]
+    pub fn with_zeros_for_not_finite(mut self) -> Self {
+        for tuple in self.lattice.values.chunks_exact_mut(self.lattice.components.max(1)) {
+            if !tuple.iter().all(|v| v.is_finite()) {
+                tuple.fill(0.0);
+            }
+        }
+        self
+    }
+
+    /// With the components along the axes that the file states, where it does, whatever the user said.
+    #[must_use]
+    pub fn as_stated(mut self) -> Self {
+        if self.lattice.frame.1 == Known::Stated {
+            self.frame = self.lattice.frame;
+        }
+        self
     }
 
     /// Voxels whose mask is zero.

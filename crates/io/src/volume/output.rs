@@ -24,7 +24,7 @@ impl Lattice {
             world: World::Viewer,
             measurement: None,
             mask: None,
-            order: Some(order),
+            order: Some((order, Known::Convention)),
             frame: (Frame::World, Known::Convention),
             array: "2x2 blocks".to_owned(),
             notes: vec!["first row on top, in the frame x right, y up".to_owned()],
@@ -59,6 +59,14 @@ impl TensorVolume {
             if self.is_masked(voxel) { [0.0; 9] } else { turn.as_ref().map_or(t, |k| turned(k, &t)) }
         };
         Ok(self.tensors().enumerate().map(tensor).collect())
+    }
+
+    /// All tensors along the world's axes, row by row; those of voxels with mask 0 are zero.
+    ///
+    /// # Errors
+    /// [`IoError::SkewedAxes`] where components must be turned and cannot be.
+    pub fn in_world(&self) -> Result<Vec<[f64; 9]>, IoError> {
+        self.along(Frame::World)
     }
 
     /// Whether the file says that nothing was measured in a voxel.

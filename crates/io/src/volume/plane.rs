@@ -189,7 +189,7 @@ pub struct Cut {
     pub columns_flipped: bool,
     /// Whether row 0 is the last voxel of the upward axis: true unless that axis points down in the viewer's world.
     pub rows_flipped: bool,
-    /// Position of the lower left cell: in the world where the voxel axes are the world's, else 0.
+    /// Position of the lower left cell, in the world where columns and rows run along its axes, else 0.
     pub origin: [f64; 2],
     /// Distance of the cells.
     pub spacing: [f64; 2],
@@ -268,10 +268,11 @@ impl Lattice {
         })
     }
 
-    /// Position of the lower left cell: in the world where the voxel axes are the world's, else 0.
+    /// Position of the lower left cell, in the world where columns and rows run along its axes, else 0.
     fn corner(&self, right: usize, up: usize, columns_flipped: bool, rows_flipped: bool) -> [f64; 2] {
         let aligned = self.axes.iter().enumerate().all(|(a, v)| (0..3).all(|i| i == a || v[i] == 0.0));
-        if !aligned {
+        let forward = |axis: usize, reversed: bool| (self.axes[axis][axis] < 0.0) == reversed;
+        if !aligned || !forward(right, columns_flipped) || !forward(up, !rows_flipped) {
             return [0.0; 2];
         }
         let far = |axis: usize, reversed: bool| {

@@ -23,33 +23,36 @@ pub struct Suspicion {
     pub better: f64,
 }
 
-/// Share of the tensors that have a negative eigenvalue, zero and non-finite ones among the whole. `values` are tuples.
+/// Share of the tensors that have a negative eigenvalue, zero and non-finite ones among the whole.
 #[must_use]
-pub fn negative_share(values: &[f64], order: TensorOrder) -> f64 {
-    let tuples = values.chunks_exact(order.components().max(1));
-    let total = tuples.len().max(1);
-    let negative = tuples.filter(|tuple| {
+pub fn negative_share<'a>(tuples: impl Iterator<Item = &'a [f64]>, order: TensorOrder) -> f64 {
+    let (mut total, mut negative) = (0_usize, 0_usize);
+    for tuple in tuples {
         let [largest, _, least] = symmetric_eigenvalues3(&order.tensor(tuple));
-        least < -ROUNDING * largest.abs().max(least.abs())
-    });
-    negative.count() as f64 / total as f64
+        total += 1;
+        negative += usize::from(least < -ROUNDING * largest.abs().max(least.abs()));
+    }
+    negative as f64 / total.max(1) as f64
 }
 
 impl TensorVolume {
-    /// Compares the order used with the other orders of six components: diffusion tensors read in a wrong one have
+    /// Compares, over all measured voxels, the order used with the other orders of six components: diffusion tensors read in a wrong one have
     /// negative eigenvalues. `None` where nothing looks wrong. Stresses and Hessians are negative in any order.
     #[must_use]
     pub fn suspicion(&self) -> Option<Suspicion> {
         if self.lattice.components != 6 {
             return None;
         }
-        let values = &self.lattice.values;
-        let share = negative_share(values, self.order.0);
+        let tuples = || {
+            let voxels = self.lattice.values.chunks_exact(self.lattice.components).enumerate();
+            voxels.filter(|(voxel, _)| !self.is_masked(*voxel)).map(|(_, tuple)| tuple)
+        };
+        let share = negative_share(tuples(), self.order.0);
         if share <= SUSPICIOUS_ABOVE {
             return None;
         }
         let others = TensorOrder::SIX.into_iter().filter(|(_, order)| *order != self.order.0);
-        let judged = others.map(|(tools, order)| (negative_share(values, order), tools, order));
+        let judged = others.map(|(tools, order)| (negative_share(tuples(), order), tools, order));
         let (better, tools, order) = judged.min_by(|a, b| a.0.total_cmp(&b.0))?;
         (better < CLEARLY_FEWER * share).then_some(Suspicion { share, tools, order, better })
     }

@@ -47,6 +47,55 @@ pub(crate) enum Command {
 pub(crate) enum FieldCommand {
     /// All generators with their parameters and defaults.
     List(FieldListArgs),
+    /// A field file to begin with, and an experiment made from it.
+    New(FieldNewArgs),
+    /// A sheet about a field: ellipses, lines, anisotropy, determinant, one light, a gradient.
+    Show(FieldShowArgs),
+    /// What is odd about a field.
+    Lint(FieldLintArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FieldNewArgs {
+    /// Name of the field: lower-case letters, digits, - and _.
+    pub(crate) name: String,
+    /// Folder for the files.
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub(crate) folder: PathBuf,
+    /// Write an experiment with the field beside it.
+    #[arg(long)]
+    pub(crate) experiment: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FieldShowArgs {
+    /// A field file, a data file or a generator.
+    pub(crate) input: String,
+    /// The sheet, .png or .svg.
+    #[arg(short, long = "output", value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Cell that shines, column and row; by default the one nearest to the middle whose tensor is not zero.
+    #[arg(long, value_name = "X,Y", value_parser = parse_cell)]
+    pub(crate) light: Option<[usize; 2]>,
+    /// Direction of the gradient, degrees, a multiple of 22.5.
+    #[arg(long, value_name = "DEG", default_value_t = 90.0, allow_hyphen_values = true)]
+    pub(crate) slice_deg: f64,
+    /// Scaling of transmission profiles; as `ltg` by default.
+    #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
+    pub(crate) normalization: Option<Normalization>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FieldLintArgs {
+    /// A field file, a data file or a generator.
+    pub(crate) input: String,
+    /// As JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
 }
 
 #[derive(Debug, Args)]
@@ -479,6 +528,11 @@ fn parse_threads(text: &str) -> Result<usize, String> {
 fn parse_size(text: &str) -> Result<[usize; 2], String> {
     let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     sides.filter(|s| !s.contains(&0)).ok_or_else(|| "expected WIDTHxHEIGHT, for example 64x48".to_owned())
+}
+
+fn parse_cell(text: &str) -> Result<[usize; 2], String> {
+    let cell = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    cell.ok_or_else(|| "expected X,Y, for example 25,40".to_owned())
 }
 
 fn parse_sigma(text: &str) -> Result<f64, String> {

@@ -108,7 +108,7 @@ pub(crate) fn write_through(path: &Path, bytes: &[u8], prefix: &str) -> Result<(
 }
 
 /// The folder a file is in.
-fn folder_of(path: &Path) -> &Path {
+pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(p) if !p.as_os_str().is_empty() => p,
         _ => Path::new("."),

@@ -2,6 +2,7 @@
 
 use crate::args::ReadingArgs;
 use crate::error::CliError;
+use crate::host::FileHost;
 use crate::{files, interrupt};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -10,13 +11,14 @@ use tigereye_experiments::input::{
     Derived, InputError, PlaneField, Reading, TEXT_MATRICES, TensorFile, is_readable, open,
 };
 use tigereye_experiments::provenance::hash_of_field;
-use tigereye_io::volume::Plane;
+use tigereye_experiments::settings::{defined_plane, is_field_file, make_field};
+use tigereye_experiments::spec::load_field;
 
 /// What INPUT is, before a plane is chosen.
 #[derive(Debug)]
 #[expect(clippy::large_enum_variant, reason = "there is one at a time")]
 pub(crate) enum Source {
-    /// A generator's field.
+    /// A field of a generator or of formulas.
     Generated(Input),
     /// A file: tensors, numbers or vectors on a lattice.
     File(TensorFile),
@@ -25,6 +27,9 @@ pub(crate) enum Source {
 impl Source {
     /// Reads INPUT: a path with a known ending, or a generator.
     pub(crate) fn open(text: &str, reading: &ReadingArgs) -> Result<Self, CliError> {
+        if is_field_file(text) {
+            return Input::of_field_file(text, &reading.reading()).map(Self::Generated);
+        }
         if !is_readable(text) && !looks_like_a_path(text) {
             return Input::generated(text, &reading.reading()).map(Self::Generated);
         }
@@ -38,7 +43,7 @@ impl Source {
     /// Refuses outputs that are among the files that were read: the data would be gone.
     pub(crate) fn check_apart(&self, outputs: &[PathBuf]) -> Result<(), CliError> {
         match self {
-            Self::Generated(_) => Ok(()),
+            Self::Generated(input) => input.check_apart(outputs),
             Self::File(file) => files::check_apart(&file.files, outputs),
         }
     }
@@ -84,6 +89,7 @@ pub(crate) struct Input {
 }
 
 const GENERATOR: &str = "generator";
+const FIELD_FILE: &str = "field file";
 
 impl Input {
     /// Reads INPUT and takes the plane that the options choose, or the only one. What had to be assumed goes to
@@ -150,37 +156,40 @@ impl Input {
         Ok(input)
     }
 
-    /// A generator's field, which lies in the plane and has nothing to be read.
+    /// A field that is made and not read: a generator's, or that of a field file.
     fn generated(text: &str, reading: &Reading) -> Result<Self, CliError> {
         let spec = tigereye_fields::parse_spec(text).map_err(|e| CliError::Input(e.to_string()))?;
         let field = tigereye_fields::generate(&spec.name, &spec.arguments)
             .map_err(|e| CliError::Input(e.to_string()))?;
-        let fault = |e: InputError| CliError::input(text, e);
-        let plane = reading.choice.resolve([field.grid().width(), field.grid().height(), 1]);
-        let plane = plane.map_err(|e| fault(e.into()))?;
-        let of_files = reading.mask_above != 0.0
-            || reading.zero_not_finite
-            || reading.order.is_some()
-            || reading.frame.is_some()
-            || reading.array.is_some()
-            || reading.derive.is_some()
-            || reading.mask.is_some();
-        if of_files || plane.0 != Plane::Xy {
-            let problem = "a generator's tensors lie in the plane xy: expected no --order, --frame, --array, --derive, \
-                           --mask, --mask-above, --not-finite or other --plane";
-            return Err(CliError::input(text, problem));
-        }
+        Self::defined(text, field, reading, GENERATOR)
+    }
+
+    /// The field of a `.field.ron`.
+    fn of_field_file(name: &str, reading: &Reading) -> Result<Self, CliError> {
+        let path = Path::new(name);
+        let file = load_field(name, &files::read_text(path)?).map_err(|e| CliError::Input(e.to_string()))?;
+        let host = FileHost::new(Some(files::folder_of(path).to_path_buf()), name.to_owned());
+        let field = make_field(&file.field, &host).map_err(|e| CliError::input(name, e))?;
+        host.finish();
+        let input = Self::defined(name, field, reading, FIELD_FILE)?;
+        Ok(Self { files: vec![name.to_owned()], ..input })
+    }
+
+    fn defined(
+        name: &str,
+        field: Field<Tensor2>,
+        reading: &Reading,
+        kind: &'static str,
+    ) -> Result<Self, CliError> {
         let blake3 = hash_of_field(&field);
-        let story = vec!["made by a generator, row 0 on top, x right, y up".to_owned()];
-        let plane = PlaneField::new(field, story);
-        let plane = plane.cropped(reading).map_err(fault)?.resampled(reading).map_err(fault)?;
-        Ok(Self::placed(text.to_owned(), plane, Vec::new(), GENERATOR, blake3))
+        let plane = defined_plane(field, reading).map_err(|e| CliError::input(name, e))?;
+        Ok(Self::placed(name.to_owned(), plane, Vec::new(), kind, blake3))
     }
 
     /// The normalisation asked for, or the kind's own: local for generators and text matrices, global otherwise.
     pub(crate) fn normalization(&self, asked: Option<Normalization>) -> Normalization {
         asked.unwrap_or(match self.kind {
-            GENERATOR | TEXT_MATRICES => Normalization::Local,
+            GENERATOR | FIELD_FILE | TEXT_MATRICES => Normalization::Local,
             _ => Normalization::Global,
         })
     }

@@ -1,6 +1,7 @@
 //! The experiments and data that the program carries, so that an installed one works in any folder.
 
-use include_dir::{Dir, include_dir};
+use crate::field_file::ENDING;
+use include_dir::{Dir, File, include_dir};
 
 static EXPERIMENTS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../experiments");
 static DATA: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../data");
@@ -15,7 +16,7 @@ pub fn experiments() -> Vec<(String, &'static str)> {
 }
 
 fn collect(dir: &'static Dir<'static>, found: &mut Vec<(String, &'static str)>) {
-    for file in dir.files().filter(|f| f.path().extension().is_some_and(|e| e == "ron")) {
+    for file in dir.files().filter(|f| is_experiment(&f.path().to_string_lossy())) {
         if let Some(text) = file.contents_utf8() {
             found.push((file.path().to_string_lossy().replace('\\', "/"), text));
         }
@@ -25,8 +26,22 @@ fn collect(dir: &'static Dir<'static>, found: &mut Vec<(String, &'static str)>) 
     }
 }
 
-/// Bytes of a carried data file; `path` is `data/NAME` or `NAME`.
+/// Whether a file in a folder of experiments is one: fields may lie beside them.
+#[must_use]
+pub fn is_experiment(path: &str) -> bool {
+    path.ends_with(".ron") && !path.ends_with(ENDING)
+}
+
+/// Bytes of a carried data file; `path` is `data/NAME` or `NAME`, or the name of a field file beside any experiment.
 #[must_use]
 pub fn data(path: &str) -> Option<&'static [u8]> {
-    DATA.get_file(path.strip_prefix("data/").unwrap_or(path)).map(|f| f.contents())
+    let carried = DATA.get_file(path.strip_prefix("data/").unwrap_or(path));
+    let field = || path.ends_with(ENDING).then(|| file_below(&EXPERIMENTS, path)).flatten();
+    carried.or_else(field).map(File::contents)
+}
+
+/// A file by its name, in a folder or those below it.
+fn file_below(dir: &'static Dir<'static>, name: &str) -> Option<&'static File<'static>> {
+    let is_named = |f: &&File<'_>| f.path().file_name().is_some_and(|n| n.to_string_lossy() == name);
+    dir.files().find(is_named).or_else(|| dir.dirs().find_map(|sub| file_below(sub, name)))
 }

@@ -2,7 +2,7 @@
 
 use crate::evaluate::file_name;
 use crate::host::Host;
-use crate::input::{self, Derivation, Derived, Reading};
+use crate::input::{self, Derivation, Derived, PlaneField, Reading};
 use crate::places::{Known, Misplaced};
 use crate::shortened;
 use crate::spec::{
@@ -534,7 +534,11 @@ pub fn profile_of_expression(text: &str, directions: Directions) -> Result<Polar
         .map_err(|e| format!("`{text}`: {e}"))
 }
 
-fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, String> {
+/// The field of a source.
+///
+/// # Errors
+/// A sentence saying what is wrong with it.
+pub fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, String> {
     match source {
         FieldSource::Generator { name, parameters } => {
             let arguments = arguments_of(parameters)?;
@@ -551,6 +555,11 @@ fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, S
         FieldSource::File { path, stride, .. } => {
             let fault = |e: &dyn std::fmt::Display| format!("{path}: {e}");
             let reading = reading_of(source).map_err(|e| fault(&e))?;
+            if is_field_file(path) {
+                let field = field_in_file(path, host)?;
+                let plane = defined_plane(field, &reading).map_err(|e| fault(&e))?;
+                return strided(&plane.field, *stride).map_err(|e| fault(&e));
+            }
             let file = input::open(path, &reading, &mut |name| host.read(name)).map_err(|e| fault(&e))?;
             let plane = file.plane(&reading).map_err(|e| fault(&e))?;
             file.remarks()
@@ -560,6 +569,50 @@ fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, S
             strided(&plane.field, *stride).map_err(|e| fault(&e))
         }
     }
+}
+
+/// Whether a file's name says that it holds a [`spec::FieldFile`].
+#[must_use]
+pub fn is_field_file(name: &str) -> bool {
+    input::format_of(name) == "ron"
+}
+
+/// The field that a file of its own defines.
+fn field_in_file(path: &str, host: &dyn Host) -> Result<Field<Tensor2>, String> {
+    let text = String::from_utf8(host.read(path)?).map_err(|_| format!("{path}: expected UTF-8 text"))?;
+    let file = spec::load_field(path, &text).map_err(|e| e.to_string())?;
+    match &file.field {
+        // One might lead back to the first.
+        FieldSource::File { path: other, .. } if is_field_file(other) => {
+            Err(format!("{path}: its field is in {other}: expected a generator, formulas or a data file"))
+        }
+        source => make_field(source, host).map_err(|e| format!("{path}: {e}")),
+    }
+}
+
+/// A field that needs no reading, cropped and resampled.
+///
+/// # Errors
+/// [`input::InputError::Needless`] for what only data files have, and as [`PlaneField::cropped`] and [`PlaneField::resampled`].
+pub fn defined_plane(field: Field<Tensor2>, reading: &Reading) -> Result<PlaneField, input::InputError> {
+    let choice = reading.choice.resolve([field.grid().width(), field.grid().height(), 1])?;
+    let of_files = [
+        (choice.0 != Plane::Xy, "--plane"),
+        (reading.order.is_some(), "--order"),
+        (reading.frame.is_some(), "--frame"),
+        (reading.array.is_some(), "--array"),
+        (reading.derive.is_some(), "--derive"),
+        (reading.mask.is_some(), "--mask"),
+        (reading.mask_above != 0.0, "--mask-above"),
+        (reading.zero_not_finite, "--not-finite"),
+        (reading.limit.is_some(), "--limit"),
+    ];
+    if let Some((_, option)) = of_files.into_iter().find(|(is_given, _)| *is_given) {
+        let why = "a generator's or formula's tensors lie in the plane xy and need no reading";
+        return Err(input::InputError::Needless { option, why });
+    }
+    let story = vec!["made by a generator or formulas, row 0 on top, x right, y up".to_owned()];
+    PlaneField::new(field, story).cropped(reading)?.resampled(reading)
 }
 
 /// What an experiment says about a file; nothing for other sources.

@@ -115,7 +115,8 @@ fn length(v: [f64; 3]) -> f64 {
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 
-/// How many points, `stride` apart, follow the first in equal steps, the first among them.
+/// How many points, `stride` apart, follow the first in equal steps, the first among them: at least 1, even where it is no
+/// number.
 fn repeats(points: &[[f64; 3]], stride: usize) -> usize {
     let (Some(first), Some(second)) = (points.first(), points.get(stride)) else { return 1 };
     let step = [0, 1, 2].map(|i| second[i] - first[i]);
@@ -123,7 +124,7 @@ fn repeats(points: &[[f64; 3]], stride: usize) -> usize {
         let off = [0, 1, 2].map(|k| p[k] - first[k] - i as f64 * step[k]);
         length(off) <= COARSE * length(step)
     };
-    points.iter().step_by(stride).enumerate().take_while(|&p| follows(p)).count()
+    points.iter().step_by(stride).enumerate().take_while(|&p| follows(p)).count().max(1)
 }
 
 #[cfg(test)]
@@ -184,5 +185,12 @@ mod tests {
         assert_eq!(PointLattice::find(&grid([4, 3, 1], axes)[..11]), Err(11));
         assert_eq!(PointLattice::find(&[[1.0; 3]; 4]), Err(0));
         assert_eq!(PointLattice::find(&[]), Err(0));
+        for bad in [f64::NAN, f64::INFINITY] {
+            for place in 0..4 {
+                let mut points = grid([2, 2, 1], axes);
+                points[place][0] = bad;
+                assert!(PointLattice::find(&points).is_err(), "{bad} at {place}");
+            }
+        }
     }
 }

@@ -1,11 +1,21 @@
-//! `tigereye field list`: the generators.
+//! `tigereye field`: the generators, and work on a field of one's own.
 
-use crate::args::FieldListArgs;
-use crate::commands::{print_json, print_text};
+use crate::args::{FieldLintArgs, FieldListArgs, FieldNewArgs, FieldShowArgs};
+use crate::commands::propagate::{PNG_SCALE, check_outputs};
+use crate::commands::{print_json, print_text, quoted};
 use crate::error::CliError;
+use crate::input::Input;
+use crate::{files, interrupt, system};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
+use std::ops::ControlFlow;
+use std::path::Path;
+use tigereye_core::Cell;
+use tigereye_experiments::field_file;
+use tigereye_experiments::lint::{self, Oddity};
+use tigereye_experiments::sheet::{SheetOptions, sheet};
 use tigereye_fields::{Generator, Parameter, ParameterKind, generators};
+use tigereye_ltg::SweepObserver;
 
 pub(crate) fn list(args: &FieldListArgs) -> Result<u8, CliError> {
     if args.json {
@@ -13,6 +23,106 @@ pub(crate) fn list(args: &FieldListArgs) -> Result<u8, CliError> {
     } else {
         print_text(&generators_text())?;
     }
+    Ok(0)
+}
+
+pub(crate) fn new(args: &FieldNewArgs) -> Result<u8, CliError> {
+    let name = &args.name;
+    if !field_file::is_name(name) {
+        let problem =
+            "is no name: expected up to 60 lower-case letters, digits, - and _, not beginning with -";
+        return Err(CliError::input(name, problem));
+    }
+    if tigereye_fields::find(name).is_some() {
+        return Err(CliError::input(name, "is a generator: expected another name"));
+    }
+    let field = args.folder.join(format!("{name}{}", field_file::ENDING));
+    let experiment = args.folder.join(format!("{name}.ron"));
+    let mut texts = vec![(&field, field_file::template(name))];
+    if args.experiment {
+        texts.push((&experiment, field_file::experiment_template(name)));
+    }
+    for (path, _) in &texts {
+        files::check_writable(path)?;
+        if path.exists() {
+            let problem = "exists already: expected another name or --folder";
+            return Err(CliError::input(&path.display().to_string(), problem));
+        }
+    }
+    texts.iter().try_for_each(|(path, text)| files::write(path, text.as_bytes()))?;
+    let quoted_path = |path: &Path| quoted(&path.to_string_lossy());
+    let mut words = format!(
+        "{field} holds the field. Next:\n  tigereye field show {field} -o {name}.png\n  tigereye field lint {field}\n",
+        field = quoted_path(&field)
+    );
+    if args.experiment {
+        // Writing to a string cannot fail.
+        let _ = writeln!(words, "  tigereye run {} --out {name}-results", quoted_path(&experiment));
+    }
+    print_text(&words)?;
+    Ok(0)
+}
+
+pub(crate) fn show(args: &FieldShowArgs) -> Result<u8, CliError> {
+    check_outputs(std::slice::from_ref(&args.output), &["png", "svg"])?;
+    let input = Input::open_for_light(&args.input, &args.reading)?;
+    input.check_apart(std::slice::from_ref(&args.output))?;
+    let options = SheetOptions {
+        title: input.name.clone(),
+        normalization: input.normalization(args.normalization),
+        light: args.light.map(|[x, y]| Cell::new(x, y)),
+        slice_deg: args.slice_deg,
+        level: system::level()?,
+    };
+    let picture = sheet(&input.field, &options, &Interruption);
+    interrupt::check()?;
+    let picture = picture.map_err(|e| CliError::input(&input.name, e))?;
+    let name = args.output.display().to_string();
+    let bytes = if files::extension(&args.output) == "png" {
+        picture.to_png(PNG_SCALE)
+    } else {
+        picture.to_svg().map(String::into_bytes)
+    };
+    files::write(&args.output, &bytes.map_err(|e| CliError::input(&name, e))?)?;
+    Ok(0)
+}
+
+/// Ends a sweep when the user asks.
+struct Interruption;
+
+impl SweepObserver for Interruption {
+    fn progress(&self, _done: u64, _total: u64) -> ControlFlow<()> {
+        if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+pub(crate) fn lint(args: &FieldLintArgs) -> Result<u8, CliError> {
+    let input = Input::open(&args.input, &args.reading)?;
+    let found = lint::lint(&input.field);
+    if args.json {
+        let oddity = |o: &Oddity| {
+            let first = o.first.map(|c| [c.x, c.y]);
+            json!({ "kind": o.kind, "count": o.count, "first": first, "words": o.words })
+        };
+        let grid = input.field.grid();
+        print_json(&json!({
+            "input": input.name,
+            "width": grid.width(),
+            "height": grid.height(),
+            "oddities": found.iter().map(oddity).collect::<Vec<_>>(),
+        }))?;
+        return Ok(0);
+    }
+    let mut text = match found.len() {
+        0 => format!("{}: nothing odd\n", input.name),
+        1 => format!("{}: one thing is odd\n", input.name),
+        n => format!("{}: {n} things are odd\n", input.name),
+    };
+    for o in &found {
+        let place = o.first.map_or_else(String::new, |c| format!(" (first: cell ({}, {}))", c.x, c.y));
+        let _ = writeln!(text, "  {:<16}  {}{place}", o.kind, o.words);
+    }
+    print_text(&text)?;
     Ok(0)
 }
 

@@ -113,7 +113,7 @@ fn in_folder(folder: &Path) -> Result<Vec<Source>, CliError> {
             let kind = entry.file_type().map_err(|e| fault(&entry.path(), e))?;
             if kind.is_dir() {
                 folders.push(entry.path());
-            } else if files::extension(&entry.path()) == "ron" {
+            } else if library::is_experiment(&entry.path().to_string_lossy()) {
                 found.push(entry.path());
             }
             if found.len() > MAX_FILES {

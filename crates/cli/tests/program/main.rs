@@ -7,6 +7,7 @@ mod faults;
 mod interruption;
 mod machine;
 mod odd_fields;
+mod own_fields;
 #[cfg(unix)]
 mod parts;
 mod reading;

@@ -1,8 +1,9 @@
 //! Text to [`Experiment`], with the place of every fault.
 
-use super::{Experiment, FORMAT};
+use super::{Experiment, FORMAT, FieldFile};
 use crate::shortened;
 use ron::extensions::Extensions;
+use serde::de::DeserializeOwned;
 use thiserror::Error;
 
 /// A fault in an experiment file.
@@ -24,9 +25,24 @@ pub struct SpecError {
 /// # Errors
 /// The first fault, with line and column.
 pub fn load(file: &str, text: &str) -> Result<Experiment, SpecError> {
-    let at = |line, column, problem| SpecError { file: file.to_owned(), line, column, problem };
+    let experiment: Experiment = parsed(file, text)?;
+    check_format(file, text, experiment.format)?;
+    Ok(experiment)
+}
+
+/// Reads a field that has a file of its own.
+///
+/// # Errors
+/// The first fault, with line and column.
+pub fn load_field(file: &str, text: &str) -> Result<FieldFile, SpecError> {
+    let field: FieldFile = parsed(file, text)?;
+    check_format(file, text, field.format)?;
+    Ok(field)
+}
+
+fn parsed<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, SpecError> {
     let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
-    let experiment: Experiment = options.from_str(text).map_err(|e| {
+    options.from_str(text).map_err(|e| {
         let place = e.span.start;
         let problem = match e.code {
             ron::Error::IntegerOutOfBounds => {
@@ -34,14 +50,17 @@ pub fn load(file: &str, text: &str) -> Result<Experiment, SpecError> {
             }
             code => shortened(&code.to_string()),
         };
-        at(place.line.max(1), place.col.max(1), problem)
-    })?;
-    if experiment.format != FORMAT {
-        let (line, column) = place_after(text, &[], "format");
-        let problem = format!("format {} is unknown: this version reads format {FORMAT}", experiment.format);
-        return Err(at(line, column, problem));
+        SpecError { file: file.to_owned(), line: place.line.max(1), column: place.col.max(1), problem }
+    })
+}
+
+fn check_format(file: &str, text: &str, format: u32) -> Result<(), SpecError> {
+    if format == FORMAT {
+        return Ok(());
     }
-    Ok(experiment)
+    let (line, column) = place_after(text, &[], "format");
+    let problem = format!("format {format} is unknown: this version reads format {FORMAT}");
+    Err(SpecError { file: file.to_owned(), line, column, problem })
 }
 
 /// Line and column of the first `word` outside of comments behind all `anchors`, each looked for behind the one before.

@@ -13,7 +13,7 @@ mod tables;
 pub use checks::{Check, Expectation, Mirror, PulseNumber, Quantity, SchemeConstant, Summary};
 pub use figures::{Axis, Curve, Figure, FlatView, GlyphColour, Panel, ProfileSource, Scale, SeriesSource};
 pub(crate) use load::place_after;
-pub use load::{SpecError, load};
+pub use load::{SpecError, load, load_field};
 pub use named::Named;
 pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive, Sigma};
 pub use tables::{GradientRow, RuntimeRow, Table, TableRows};
@@ -58,6 +58,21 @@ pub struct Experiment {
     pub tables: Vec<Table>,
     /// What must hold.
     pub checks: Vec<Check>,
+}
+
+/// A tensor field in a file of its own, `NAME.field.ron`: commands and experiments take it where they take a generator.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct FieldFile {
+    /// Version of the format, 1.
+    pub format: u32,
+    /// Heading of its sheet.
+    pub title: String,
+    /// Where it comes from: a paper, a formula, a measurement.
+    #[serde(default)]
+    pub source: String,
+    /// The field.
+    pub field: FieldSource,
 }
 
 /// When something runs.
@@ -110,7 +125,7 @@ pub enum FieldSource {
         /// Component yy.
         yy: String,
     },
-    /// A data file of any format that the program reads, looked up beside the experiment file, in its parent folders, and
+    /// A data file of any format that the program reads, or another field's file (`.field.ron`), looked up beside the experiment file, in its parent folders, and
     /// among the data that the program carries. The options are those of the command line.
     File {
         /// Path of the file.

@@ -1,0 +1,104 @@
+//! Beginnings of field files and of experiments made from them.
+
+/// Ending of files that hold a field; other `.ron` files below `experiments/` are experiments.
+pub const ENDING: &str = ".field.ron";
+
+/// Whether a name can be that of a file and of an experiment.
+#[must_use]
+pub fn is_name(name: &str) -> bool {
+    let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-' || c == '_';
+    !name.is_empty() && name.len() <= 60 && name.chars().all(fits) && !name.starts_with('-')
+}
+
+/// A field file to begin with: a saddle, whose lines part in the middle, with every key explained.
+#[must_use]
+pub fn template(name: &str) -> String {
+    format!(
+        r#"// A tensor field. Look at it with
+//     tigereye field show {name}{ENDING} -o {name}.png
+// and ask what is odd about it with
+//     tigereye field lint {name}{ENDING}
+// Every command takes this file where it takes a generator: tigereye ltg {name}{ENDING} -o {name}.vti
+(
+    format: 1,
+    title: "{name}",
+    // Where it comes from: a paper with its equation, a measurement, or what it is to show.
+    source: "",
+    // The ellipse of every cell: a half-axis of length s1 in direction phi, one of length s2 across it.
+    //
+    // Such a tensor is a rotation times its half-axes, so it is not symmetric; light only sees the ellipse.
+    //
+    // Formulas know
+    //     x, y       place, -1 to 1 from rim to rim, y up
+    //     r, theta   distance from the middle and angle about it, radians
+    //     i, j, n    column, row (0 on top), number of columns
+    // and + - * / ^, if(r < 0.5, u, v), pi, and functions such as sin, atan2, exp, sqrt, abs, min and max.
+    field: Axes(
+        width: 51,
+        height: 51,
+        // Direction of the first half-axis, radians counter-clockwise from the right.
+        phi: "-theta",
+        // Equal lengths in the middle, where there is no direction; four to one further out. The product is 1 everywhere, so
+        // no cell transmits more than another.
+        s1: "1 + min(1, 4*r)",
+        s2: "1/(1 + min(1, 4*r))",
+    ),
+    // Instead, the four components in the frame x right, y up:
+    //     field: Components(width: 51, height: 51, xx: "1 + x^2", xy: "x*y", yx: "x*y", yy: "1 + y^2"),
+    // a generator with other parameters:
+    //     field: Generator(name: "inverse", parameters: {{"size": 51, "anisotropy": 4}}),
+    // or a data file:
+    //     field: File(path: "tensors.nii.gz", order: "dipy", slice: "z=30"),
+)
+"#
+    )
+}
+
+/// An experiment with the field of `NAME.field.ron` in the same folder.
+#[must_use]
+pub fn experiment_template(name: &str) -> String {
+    format!(
+        r#"// An experiment with the field of {name}{ENDING}. Run it with
+//     tigereye run {name}.ron --out {name}-results
+// In a folder below experiments/ of the project both files are found by `tigereye reproduce`, the tests and the gallery.
+(
+    format: 1,
+    title: "{name}",
+    source: "",
+    section: "More fields",
+    claim: "What the figures are to support.",
+    look_for: "What to look at, for someone who does not know the field.",
+    fields: {{
+        "{name}": File(path: "{name}{ENDING}"),
+    }},
+    runs: {{
+        "light": Light(
+            field: "{name}",
+            lights: [(cell: (25, 40), profile: Isotropic(1))],
+            stop: Steps(60),
+        ),
+        "gradient": Gradient(field: "{name}", directions: 16, slices_deg: [90]),
+    }},
+    figures: [
+        (
+            name: "{name}",
+            caption: "The tensors, the light of one cell, and the gradient for pulses sent upwards.",
+            panels: [
+                Glyphs(field: "{name}", title: "tensor field"),
+                Energy(run: "light", decades: 4, title: "light of one cell"),
+                Slice(run: "gradient", deg: 90, title: "light transport gradient, 90 degrees"),
+            ],
+        ),
+    ],
+    checks: [
+        (
+            name: "no cell transmits more than another",
+            quantity: DeterminantError(field: "{name}"),
+            expect: AtMost(1e-12),
+            basis: "both half-axes are each other's inverse",
+        ),
+    ],
+)
+"#
+    )
+}

@@ -1,0 +1,323 @@
+//! One page about a tensor field: ellipses, lines, anisotropy, determinant, one light, a gradient.
+
+use thiserror::Error;
+use tigereye_core::{
+    Anisotropy, Cell, CoreError, Directions, Field, Normalization, PolarProfile, Tensor2, TransmissionField,
+};
+use tigereye_fields::{FieldError, images::resampled};
+use tigereye_lines::{
+    DegenerateKind, DegeneratePoint, Family, Interpolated, LineOptions, degenerate_points, ellipse_tensors,
+    evenly_spaced,
+};
+use tigereye_ltg::{LtgError, LtgSettings, SweepObserver, omega_step_of_slices, sweep};
+use tigereye_render::{
+    GlyphColour, GlyphOptions, HeatOptions, HeatScale, Marker, OrientationOptions, Overlay, Rgba,
+    Scene as Picture, glyphs, heat_map, orientation_map, small_multiples,
+};
+use tigereye_transport::{
+    EightLobe, Engine, Level, Light, Problem, Scattering, Scheme, SharedWeights, Stopping, StoppingRule,
+    TransportError,
+};
+
+/// What a sheet shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SheetOptions {
+    /// Heading.
+    pub title: String,
+    /// How transmission profiles are scaled.
+    pub normalization: Normalization,
+    /// The cell that shines; where nobody says, the one nearest to the middle whose tensor is not zero.
+    pub light: Option<Cell>,
+    /// Direction of the gradient's slice, degrees, a multiple of 22.5.
+    pub slice_deg: f64,
+    /// Instruction set of the sweep; results do not depend on it.
+    pub level: Level,
+}
+
+/// What keeps a sheet from being drawn.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum SheetError {
+    /// A light outside of the field.
+    #[error("cell ({x}, {y}) is not in the field: expected a column to {} and a row to {}", width - 1, height - 1)]
+    Light {
+        /// Column.
+        x: usize,
+        /// Row.
+        y: usize,
+        /// Columns of the field.
+        width: usize,
+        /// Rows of the field.
+        height: usize,
+    },
+    /// A direction that is no sample.
+    #[error("a slice at {deg} degrees does not exist: expected a multiple of {step}")]
+    Slice {
+        /// Degrees asked for.
+        deg: f64,
+        /// Distance of the samples.
+        step: f64,
+    },
+    /// Tensors that cannot transmit.
+    #[error(transparent)]
+    Field(#[from] CoreError),
+    /// A size that is none.
+    #[error(transparent)]
+    Size(#[from] FieldError),
+    /// A light that cannot be.
+    #[error(transparent)]
+    Transport(#[from] TransportError),
+    /// A sweep that cannot start, or was interrupted.
+    #[error(transparent)]
+    Ltg(#[from] LtgError),
+}
+
+/// Angular samples of the light and the gradient.
+const SAMPLES: usize = 16;
+/// Longest side of the field that the gradient is computed of; larger ones are averaged to it, so that a sheet takes seconds.
+const LONGEST: usize = 31;
+/// Most steps of the light, and of a pulse of the gradient; light that is caught in rings would take thousands.
+const STEPS: usize = 1000;
+const PULSE_STEPS: usize = 200;
+/// Longer side of a panel, pixels.
+const PANEL_PX: usize = 480;
+/// Distance of the lines in parts of the longer side.
+const LINES_A_SIDE: f64 = 32.0;
+
+/// The sheet: six panels and what is known about each.
+///
+/// # Errors
+/// See [`SheetError`].
+pub fn sheet(
+    field: &Field<Tensor2>,
+    options: &SheetOptions,
+    observer: &dyn SweepObserver,
+) -> Result<Picture, SheetError> {
+    let directions = Directions::new(SAMPLES)?;
+    let light = options.light.unwrap_or_else(|| usual_light(field));
+    if !field.grid().contains(light) {
+        let (width, height) = (field.grid().width(), field.grid().height());
+        return Err(SheetError::Light { x: light.x, y: light.y, width, height });
+    }
+    let step = 360.0 / SAMPLES as f64;
+    let sample = options.slice_deg / step;
+    if sample.fract() != 0.0 || !(0.0..SAMPLES as f64).contains(&sample) {
+        return Err(SheetError::Slice { deg: options.slice_deg, step });
+    }
+    let panels = [
+        ("ellipses".to_owned(), ellipses(field)),
+        ("direction of the major axis, lines along it, degenerate points".to_owned(), lines(field)),
+        (
+            "linear anisotropy, 0 round and 1 flat".to_owned(),
+            map(field, "(s₁ − s₂) / (s₁ + s₂)", HeatScale::Linear, Some((0.0, 1.0)), |t| {
+                Anisotropy::of(t).linear
+            }),
+        ),
+        ("determinant".to_owned(), determinant(field)),
+        (format!("light of cell ({}, {})", light.x, light.y), lit(field, options, directions, light)?),
+        gradient(field, options, directions, sample as usize, observer)?,
+    ];
+    Ok(small_multiples(&panels, 2, &options.title))
+}
+
+fn map(
+    field: &Field<Tensor2>,
+    quantity: &str,
+    scale: HeatScale,
+    range: Option<(f64, f64)>,
+    value: impl Fn(&Tensor2) -> f64,
+) -> Picture {
+    heat_map(
+        &field.map(|t| value(t)),
+        &HeatOptions { quantity: quantity.to_owned(), scale, range, ..HeatOptions::default() },
+    )
+}
+
+/// Signs of eigenvalues say something of symmetric tensors only.
+fn ellipses(field: &Field<Tensor2>) -> Picture {
+    let symmetric = field.values().iter().all(|t| t.asymmetry() <= 1e-9 * t.max_abs());
+    let colour = if symmetric { GlyphColour::AxisSign } else { GlyphColour::Anisotropy };
+    let longest = field.grid().width().max(field.grid().height());
+    let cell_px = Some((PANEL_PX / longest).clamp(1, 40));
+    glyphs(field, &GlyphOptions { colour, cell_px, ..GlyphOptions::default() })
+}
+
+fn determinant(field: &Field<Tensor2>) -> Picture {
+    let negative = field.values().iter().any(|t| t.determinant() < 0.0);
+    let scale = if negative { HeatScale::Diverging } else { HeatScale::Linear };
+    map(field, "determinant", scale, None, Tensor2::determinant)
+}
+
+/// Lines over the directions, and points by what they are.
+fn lines(field: &Field<Tensor2>) -> Picture {
+    orientation_map(
+        field,
+        &OrientationOptions { overlays: line_overlays(field), ..OrientationOptions::default() },
+    )
+}
+
+fn line_overlays(field: &Field<Tensor2>) -> Vec<Overlay> {
+    let ellipses = ellipse_tensors(field);
+    let between = Interpolated::new(&ellipses);
+    let longest = field.grid().width().max(field.grid().height()) as f64;
+    let separation = (longest / LINES_A_SIDE).max(0.5);
+    let options =
+        LineOptions { step: 0.2 * separation.min(1.0), length: 4.0 * longest, ..LineOptions::default() };
+    let mut overlays = vec![Overlay { colour: Rgba::hex(0x262626), width_px: 1.0, ..Overlay::default() }];
+    for line in evenly_spaced(&between, Family::Major, separation, &options) {
+        overlays[0].points.extend(line.points);
+        overlays[0].points.push([f64::NAN; 2]);
+    }
+    let points = degenerate_points(&ellipses);
+    for (label, marker, half_turns) in [
+        ("wedge (index 1/2)", Marker::Circle, Some(1)),
+        ("trisector (index −1/2)", Marker::Triangle, Some(-1)),
+        ("merged (other index)", Marker::Diamond, None),
+    ] {
+        let is_kind = |p: &&DegeneratePoint| match half_turns {
+            Some(n) => p.half_turns() == n,
+            None => matches!(p.kind, DegenerateKind::Merged(_)),
+        };
+        let points: Vec<[f64; 2]> = points.iter().filter(is_kind).map(|p| p.position).collect();
+        if !points.is_empty() {
+            let (label, colour) = (label.to_owned(), Rgba::hex(0xd55e00));
+            overlays.push(Overlay { label, points, marker: Some(marker), colour, ..Overlay::default() });
+        }
+    }
+    overlays
+}
+
+/// The cell nearest to the middle that can pass light on.
+fn usual_light(field: &Field<Tensor2>) -> Cell {
+    let middle = field.grid().centre();
+    let distance = |c: Cell| c.x.abs_diff(middle.x).pow(2) + c.y.abs_diff(middle.y).pow(2);
+    let bright = field.iter().filter(|(_, t)| !t.is_zero()).map(|(cell, _)| cell);
+    bright.min_by_key(|c| distance(*c)).unwrap_or(middle)
+}
+
+fn lit(
+    field: &Field<Tensor2>,
+    options: &SheetOptions,
+    directions: Directions,
+    light: Cell,
+) -> Result<Picture, SheetError> {
+    let transmission = TransmissionField::from_tensors(field, directions, options.normalization)?;
+    let scheme = Scheme::new(directions, SharedWeights::Thesis);
+    let stopping = Stopping { rule: StoppingRule::FluxChange { threshold: 1e-3 }, max_iterations: STEPS };
+    let lights = [Light::continuous(light, PolarProfile::constant(directions, 1.0))];
+    let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
+    let outcome = EightLobe.propagate(&problem)?;
+    let heat = HeatOptions {
+        quantity: "energy of a cell / W".to_owned(),
+        scale: HeatScale::Logarithmic { decades: 4.0 },
+        sources: vec![light],
+        ..HeatOptions::default()
+    };
+    Ok(heat_map(&outcome.distribution.energy(), &heat))
+}
+
+fn gradient(
+    field: &Field<Tensor2>,
+    options: &SheetOptions,
+    directions: Directions,
+    sample: usize,
+    observer: &dyn SweepObserver,
+) -> Result<(String, Picture), SheetError> {
+    let (width, height) = (field.grid().width(), field.grid().height());
+    let longest = width.max(height);
+    let fit = |n: usize| (n * LONGEST).div_ceil(longest).max(1);
+    let coarse = (longest > LONGEST).then(|| resampled(field, fit(width), fit(height))).transpose()?;
+    let field = coarse.as_ref().unwrap_or(field);
+    let transmission = TransmissionField::from_tensors(field, directions, options.normalization)?;
+    let scheme = Scheme::new(directions, SharedWeights::Thesis);
+    let settings = LtgSettings {
+        slices: Some(vec![sample]),
+        omega_step: omega_step_of_slices(directions),
+        level: options.level,
+        stopping: Stopping { max_iterations: PULSE_STEPS, ..Stopping::REFERENCE },
+        ..LtgSettings::reference(directions)
+    };
+    let outcome = sweep(&Scattering::new(&scheme, &transmission), &settings, &Shared(observer))?;
+    let grid = field.grid();
+    let slice = outcome.volume.slice(sample).unwrap_or_else(|| field.map(|_| 0.0));
+    // The border is 0 by definition and would stretch the scale.
+    let inner = Field::from_fn(grid, |c| if grid.is_border(c) { f64::NAN } else { *slice.at(c) });
+    let heat = HeatOptions {
+        quantity: "LTG / (W/rad)".to_owned(),
+        missing: Some("border, 0 by definition".to_owned()),
+        ..HeatOptions::default()
+    };
+    let size = if coarse.is_some() {
+        format!(", of the field averaged to {} × {} cells", grid.width(), grid.height())
+    } else {
+        String::new()
+    };
+    Ok((format!("light transport gradient, {}°{size}", options.slice_deg), heat_map(&inner, &heat)))
+}
+
+/// A sweep wants to know whom it talks to.
+struct Shared<'a>(&'a dyn SweepObserver);
+
+impl SweepObserver for Shared<'_> {
+    fn progress(&self, done: u64, total: u64) -> core::ops::ControlFlow<()> {
+        self.0.progress(done, total)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tigereye_fields::{generate, parse_spec};
+
+    fn options() -> SheetOptions {
+        SheetOptions {
+            title: "a field".to_owned(),
+            normalization: Normalization::Local,
+            light: None,
+            slice_deg: 90.0,
+            level: Level::detect(),
+        }
+    }
+
+    fn field(spec: &str) -> Field<Tensor2> {
+        let spec = parse_spec(spec).expect("a generator");
+        generate(&spec.name, &spec.arguments).expect("a field")
+    }
+
+    /// Every panel is there, whatever the field; nothing hangs.
+    #[test]
+    fn sheets_have_six_panels() {
+        for spec in
+            ["wedge:size=13", "isotropic:size=5", "sink:size=7", "x:width=1,height=9", "x:width=2,height=1"]
+        {
+            let svg = sheet(&field(spec), &options(), &()).expect("a sheet").to_svg().expect("a picture");
+            for letter in ["(a)", "(b)", "(c)", "(d)", "(e)", "(f)"] {
+                assert!(svg.contains(letter), "{spec}: {letter}");
+            }
+        }
+        let labels = |spec| line_overlays(&field(spec)).into_iter().map(|o| o.label).collect::<Vec<_>>();
+        assert_eq!(labels("wedge:size=13"), ["", "wedge (index 1/2)"]);
+        assert_eq!(labels("rings:size=13"), ["", "merged (other index)"]);
+        assert_eq!(labels("x:size=13"), [""]);
+        assert_eq!(usual_light(&field("sink:size=7")), Cell::new(3, 2));
+    }
+
+    #[test]
+    fn large_fields_are_averaged_for_the_gradient() {
+        let svg = sheet(&field("x:width=80,height=20"), &options(), &())
+            .expect("a sheet")
+            .to_svg()
+            .expect("a picture");
+        assert!(svg.contains("averaged to 31 × 8 cells"));
+    }
+
+    #[test]
+    fn places_and_directions_that_do_not_exist_are_refused() {
+        let x = field("x:size=5");
+        let light = SheetOptions { light: Some(Cell::new(5, 0)), ..options() };
+        assert!(matches!(sheet(&x, &light, &()), Err(SheetError::Light { .. })));
+        for slice_deg in [91.0, 360.0, -22.5, f64::NAN] {
+            let slice = SheetOptions { slice_deg, ..options() };
+            assert!(matches!(sheet(&x, &slice, &()), Err(SheetError::Slice { .. })), "{slice_deg}");
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! Points where both half-axes are equally long, by how the axes turn around them.
+//!
+//! A tensor is the sum of a conformal and an anticonformal map: with `F = (xx - yy) + i (xy + yx)` and
+//! `E = (xx + yy) + i (yx - xy)` the half-axes are `(|E| + |F|) / 2` and `||E| - |F|| / 2`, and the longer one lies at
+//! `(arg E + arg F) / 2`. It has no direction where `F` or `E` is zero; going round such a point once turns it by half of the
+//! winding of that number. Symmetric tensors have a real `E`, so theirs are the zeros of `F`, the classical degenerate points
+//! (Delmarcelle and Hesselink 1994).
+
+use core::f64::consts::TAU;
+use tigereye_core::{Cell, Field, Grid, Tensor2, math};
+
+/// What lines do around a degenerate point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DegenerateKind {
+    /// Index 1/2.
+    Wedge,
+    /// Index -1/2.
+    Trisector,
+    /// Several of them in one place: another index, in halves.
+    Merged(i32),
+}
+
+/// A point without axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DegeneratePoint {
+    /// Where, in cells (y downwards).
+    pub position: [f64; 2],
+    /// What it is.
+    pub kind: DegenerateKind,
+}
+
+impl DegeneratePoint {
+    /// Half turns of the axes, counter-clockwise, on a counter-clockwise way around the point: twice the index.
+    #[must_use]
+    pub const fn half_turns(&self) -> i32 {
+        match self.kind {
+            DegenerateKind::Wedge => 1,
+            DegenerateKind::Trisector => -1,
+            DegenerateKind::Merged(n) => n,
+        }
+    }
+}
+
+/// Numbers below this part of the largest are zero: what rounding leaves.
+const ROUNDING: f64 = 1e-12;
+
+/// All degenerate points between the centres of cells, row by row, of tensors interpolated component by component. Where
+/// whole cells are isotropic, connected ones are one point in their middle, with the index of the way around them; those at
+/// the border, whose way leaves the field, are left out, and so are points and lines around which the axes do not turn.
+#[must_use]
+pub fn degenerate_points(field: &Field<Tensor2>) -> Vec<DegeneratePoint> {
+    let grid = field.grid();
+    if grid.width() < 2 || grid.height() < 2 {
+        return Vec::new();
+    }
+    let conformal = |t: &Tensor2| [t.xx() + t.yy(), t.yx() - t.xy()];
+    let anticonformal = |t: &Tensor2| [t.xx() - t.yy(), t.xy() + t.yx()];
+    let largest = field.values().iter().map(Tensor2::max_abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let mut found = Vec::new();
+    for numbers in [field.map(anticonformal), field.map(conformal)] {
+        found.extend(Plane::new(grid, &numbers, ROUNDING * largest).zeros());
+    }
+    found.sort_by(|a, b| {
+        let key = |p: &DegeneratePoint| (p.position[1], p.position[0]);
+        key(a).partial_cmp(&key(b)).unwrap_or(core::cmp::Ordering::Equal)
+    });
+    found
+}
+
+/// A complex number in every cell.
+struct Plane<'a> {
+    grid: Grid,
+    numbers: &'a Field<[f64; 2]>,
+    /// Whether the number of a cell is zero.
+    zero: Vec<bool>,
+}
+
+/// The corners of a quad counter-clockwise (y downwards: left bottom, right bottom, right top, left top), relative to its
+/// upper left cell.
+const CORNERS: [(usize, usize); 4] = [(0, 1), (1, 1), (1, 0), (0, 0)];
+
+impl<'a> Plane<'a> {
+    fn new(grid: Grid, numbers: &'a Field<[f64; 2]>, tiny: f64) -> Self {
+        let zero = numbers.values().iter().map(|z| math::hypot(z[0], z[1]) <= tiny).collect();
+        Self { grid, numbers, zero }
+    }
+
+    fn corners(&self, quad: Cell) -> [Cell; 4] {
+        CORNERS.map(|(dx, dy)| Cell::new(quad.x + dx, quad.y + dy))
+    }
+
+    /// Magnitude of a cell's number, 0 where it is rounding.
+    fn size(&self, cell: Cell) -> f64 {
+        let [a, b] = *self.numbers.at(cell);
+        if self.is_zero(cell) { 0.0 } else { math::hypot(a, b) }
+    }
+
+    /// By how much the argument grows from one cell to the next, the short way; `None` where there is none.
+    fn turn(&self, from: Cell, to: Cell) -> Option<f64> {
+        if self.is_zero(from) || self.is_zero(to) {
+            return None;
+        }
+        let ([a, b], [c, d]) = (*self.numbers.at(from), *self.numbers.at(to));
+        let (cross, dot) = (a * d - b * c, a * c + b * d);
+        // Half a circle has no short way: real numbers of both signs, which are zero along lines and not in points.
+        let opposite = cross.abs() <= ROUNDING * dot.abs() && dot < 0.0;
+        let angle = math::atan2(cross, dot);
+        (angle.is_finite() && !opposite).then_some(angle)
+    }
+
+    fn is_zero(&self, cell: Cell) -> bool {
+        self.zero[self.grid.index(cell)]
+    }
+
+    /// Quads that share an edge without a short way are taken together: the number vanishes on that edge.
+    fn zeros(&self) -> Vec<DegeneratePoint> {
+        let mut found = Vec::new();
+        let mut seen = vec![false; self.grid.cells()];
+        for y in 0..self.grid.height() - 1 {
+            for x in 0..self.grid.width() - 1 {
+                let quad = Cell::new(x, y);
+                if !core::mem::replace(&mut seen[self.grid.index(quad)], true) {
+                    found.extend(self.around(quad, &mut seen));
+                }
+            }
+        }
+        found
+    }
+
+    /// The quad beyond each edge, if there is one: below, to the right, above, to the left.
+    fn beyond(&self, quad: Cell) -> [Option<Cell>; 4] {
+        [
+            (quad.y + 2 < self.grid.height()).then(|| Cell::new(quad.x, quad.y + 1)),
+            (quad.x + 2 < self.grid.width()).then(|| Cell::new(quad.x + 1, quad.y)),
+            quad.y.checked_sub(1).map(|y| Cell::new(quad.x, y)),
+            quad.x.checked_sub(1).map(|x| Cell::new(x, quad.y)),
+        ]
+    }
+
+    /// The point in a quad and those taken together with it, if the way around them lies inside and turns.
+    fn around(&self, first: Cell, seen: &mut [bool]) -> Option<DegeneratePoint> {
+        let mut quads = vec![first];
+        let (mut total, mut next, mut leaves) = (0.0, 0, false);
+        // Where the number vanishes on edges.
+        let (mut middle, mut count) = ([0.0; 2], 0.0);
+        while next < quads.len() {
+            let corners = self.corners(quads[next]);
+            for (i, beyond) in self.beyond(quads[next]).into_iter().enumerate() {
+                let (from, to) = (corners[i], corners[(i + 1) % 4]);
+                // Edges between two quads of the way cancel.
+                if let Some(turn) = self.turn(from, to) {
+                    total += turn;
+                    continue;
+                }
+                let (a, b) = (self.size(from), self.size(to));
+                let t = if a + b > 0.0 { a / (a + b) } else { 0.5 };
+                middle[0] += (1.0 - t) * from.x as f64 + t * to.x as f64;
+                middle[1] += (1.0 - t) * from.y as f64 + t * to.y as f64;
+                count += 1.0;
+                match beyond {
+                    None => leaves = true,
+                    Some(q) if !seen[self.grid.index(q)] => {
+                        seen[self.grid.index(q)] = true;
+                        quads.push(q);
+                    }
+                    Some(_) => {}
+                }
+            }
+            next += 1;
+        }
+        let half_turns = half_turns_of(total);
+        if leaves || half_turns == 0 {
+            return None;
+        }
+        let position = if count > 0.0 { middle.map(|v| v / count) } else { self.zero_in(first) };
+        Some(DegeneratePoint { position, kind: kind_of(half_turns) })
+    }
+
+    /// Where the bilinear number vanishes in a quad, by Newton's method; the middle where it does not get there.
+    fn zero_in(&self, quad: Cell) -> [f64; 2] {
+        let at = |dx: usize, dy: usize| *self.numbers.at(Cell::new(quad.x + dx, quad.y + dy));
+        let (a, b, c, d) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1));
+        // p + q u + r v + s u v
+        let coefficients = [0, 1].map(|i| (a[i], b[i] - a[i], c[i] - a[i], a[i] - b[i] - c[i] + d[i]));
+        let newton = |start: [f64; 2]| {
+            let [mut u, mut v] = start;
+            for _ in 0..30 {
+                let value = coefficients.map(|(p, q, r, s)| p + q * u + r * v + s * u * v);
+                let along_u = coefficients.map(|(_, q, _, s)| q + s * v);
+                let along_v = coefficients.map(|(_, _, r, s)| r + s * u);
+                let determinant = along_u[0] * along_v[1] - along_u[1] * along_v[0];
+                u -= (value[0] * along_v[1] - value[1] * along_v[0]) / determinant;
+                v -= (along_u[0] * value[1] - along_u[1] * value[0]) / determinant;
+            }
+            ((0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v)).then_some([u, v])
+        };
+        let starts = [[0.5, 0.5], [0.1, 0.1], [0.9, 0.1], [0.1, 0.9], [0.9, 0.9]];
+        let [u, v] = starts.into_iter().find_map(newton).unwrap_or([0.5; 2]);
+        [quad.x as f64 + u, quad.y as f64 + v]
+    }
+}
+
+/// Turns of a number by whole circles turn the axes by half circles.
+fn half_turns_of(angle: f64) -> i32 {
+    (angle / TAU).round() as i32
+}
+
+const fn kind_of(half_turns: i32) -> DegenerateKind {
+    match half_turns {
+        1 => DegenerateKind::Wedge,
+        -1 => DegenerateKind::Trisector,
+        n => DegenerateKind::Merged(n),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::PI;
+    use tigereye_core::Svd;
+    use tigereye_fields::{generate, parse_spec};
+
+    fn points(spec: &str) -> Vec<DegeneratePoint> {
+        let spec = parse_spec(spec).expect("a generator");
+        degenerate_points(&generate(&spec.name, &spec.arguments).expect("a field"))
+    }
+
+    #[test]
+    fn known_fields_have_their_points() {
+        for (spec, kind) in [
+            ("wedge:size=20", DegenerateKind::Wedge),
+            ("wedge:size=21", DegenerateKind::Wedge),
+            ("trisector:size=20", DegenerateKind::Trisector),
+            ("trisector:size=21", DegenerateKind::Trisector),
+        ] {
+            let found = points(spec);
+            assert_eq!(found.len(), 1, "{spec}: {found:?}");
+            assert_eq!(found[0].kind, kind, "{spec}");
+            let side: f64 = if spec.ends_with("20") { 20.0 } else { 21.0 };
+            let middle = 0.5 * (side - 1.0);
+            assert!(found[0].position.iter().all(|v| (v - middle).abs() < 1e-9), "{spec}: {found:?}");
+        }
+        // A rotation times a diagonal matrix is not symmetric: both of its numbers turn, each by its own point.
+        for (spec, half_turns) in [("inverse:size=21", -2), ("star:size=21", 2), ("rings:size=21", 2)] {
+            let found = points(spec);
+            assert_eq!(
+                found.iter().map(DegeneratePoint::half_turns).sum::<i32>(),
+                half_turns,
+                "{spec}: {found:?}"
+            );
+            assert!(found.iter().all(|p| (p.position[0] - 10.0).abs() < 1.0), "{spec}: {found:?}");
+        }
+        // What the pictures show: their ellipses.
+        for (spec, half_turns) in [
+            ("inverse:size=21", -2),
+            ("star:size=21", 2),
+            ("rings:size=21", 2),
+            ("wedge:size=21", 1),
+            ("trisector:size=21", -1),
+        ] {
+            let spec = parse_spec(spec).expect("a generator");
+            let ellipses = crate::ellipse_tensors(&generate(&spec.name, &spec.arguments).expect("a field"));
+            let found = degenerate_points(&ellipses);
+            assert_eq!(found.len(), 1, "{}: {found:?}", spec.name);
+            assert_eq!(
+                (found[0].position, found[0].half_turns()),
+                ([10.0, 10.0], half_turns),
+                "{}",
+                spec.name
+            );
+        }
+        for none in ["x:size=9", "isotropic:size=9", "step:size=15", "cross_x:size=15", "drain:size=20"] {
+            assert_eq!(points(none), [], "{none}");
+        }
+    }
+
+    /// Points are found between the cells, where linear components vanish.
+    #[test]
+    fn positions_are_exact_for_linear_components() {
+        let field = Field::from_fn(Grid::new(12, 9).expect("a size"), |c| {
+            let (x, y) = (c.x as f64 - 6.3, 4.45 - c.y as f64);
+            Tensor2::symmetric(50.0 + x + 0.4 * y, y, 50.0 - x - 0.4 * y)
+        });
+        let found = degenerate_points(&field);
+        assert_eq!(found.len(), 1);
+        assert!(
+            (found[0].position[0] - 6.3).abs() < 1e-9 && (found[0].position[1] - 4.45).abs() < 1e-9,
+            "{found:?}"
+        );
+    }
+
+    /// How often the axes turn along the border is what the points inside add up to, symmetric or not.
+    #[test]
+    fn indices_add_up_to_that_of_the_border() {
+        let mut seed = 11_u64;
+        let mut random = move || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        let mut with_points = 0;
+        for round in 0..40 {
+            let symmetric = round % 2 == 0;
+            let coarse: Vec<[f64; 4]> = (0..25).map(|_| [random(), random(), random(), random()]).collect();
+            // Smooth enough that axes turn by less than 45 degrees from cell to cell along the border.
+            let field = Field::from_fn(Grid::new(161, 161).expect("a size"), |c| {
+                let (u, v) = (c.x as f64 / 40.0001, c.y as f64 / 40.0001);
+                let (i, j) = (u.floor() as usize, v.floor() as usize);
+                let (u, v) = (u - i as f64, v - j as f64);
+                let mix = |k: usize| {
+                    let at = |i: usize, j: usize| coarse[j * 5 + i][k];
+                    (1.0 - v) * ((1.0 - u) * at(i, j) + u * at(i + 1, j))
+                        + v * ((1.0 - u) * at(i, j + 1) + u * at(i + 1, j + 1))
+                };
+                let (xy, yx) = (mix(1), mix(2));
+                // Symmetric ones positive: along a line of zero trace both axes are equally long too.
+                let more = if symmetric { 2.0 } else { 0.0 };
+                Tensor2::new(more + mix(0), xy, if symmetric { xy } else { yx }, more + mix(3))
+            });
+            let phi = |x: usize, y: usize| Svd::of(field.at(Cell::new(x, y))).phi_rad();
+            let mut way: Vec<f64> = (0..160).map(|x| phi(x, 160)).collect();
+            way.extend((0..160).map(|y| phi(160, 160 - y)));
+            way.extend((0..160).map(|x| phi(160 - x, 0)));
+            way.extend((0..160).map(|y| phi(0, y)));
+            let turn = |i: usize| {
+                let off = way[(i + 1) % way.len()] - way[i];
+                off - PI * (off / PI).round()
+            };
+            let border = ((0..way.len()).map(turn).sum::<f64>() / PI).round() as i32;
+            let inside: i32 = degenerate_points(&field).iter().map(DegeneratePoint::half_turns).sum();
+            assert_eq!(inside, border, "round {round}");
+            with_points += usize::from(!degenerate_points(&field).is_empty());
+        }
+        assert!(with_points > 30);
+    }
+
+    #[test]
+    fn thin_and_broken_fields_have_none() {
+        for (width, height) in [(1, 1), (1, 9), (9, 1), (2, 2)] {
+            for t in [Tensor2::ZERO, Tensor2::isotropic(f64::NAN), Tensor2::from_axes(1.0, 2.0, 1.0)] {
+                let field = Field::from_fn(Grid::new(width, height).expect("a size"), |_| t);
+                assert_eq!(degenerate_points(&field), []);
+            }
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! Tensors and their axes between the centres of cells.
+
+use tigereye_core::{Cell, Field, Svd, Tensor2};
+
+/// The symmetric tensor with the same ellipse in every cell: `U S U^T` for a tensor `U S V^T`, its left stretch tensor. The ellipse
+/// is all that light sees. Where tensors are not symmetric this is what to interpolate: their own components may cancel
+/// between cells whose ellipses agree.
+#[must_use]
+pub fn ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
+    field.map(|t| {
+        let svd = Svd::of(t);
+        if t.is_finite() { Tensor2::from_eigen(svd.phi_rad(), svd.s[0], svd.s[1]) } else { *t }
+    })
+}
+
+/// Which of the two half-axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// The longer one.
+    Major,
+    /// The shorter one.
+    Minor,
+}
+
+/// A field between its cells.
+#[derive(Clone, Copy, Debug)]
+pub struct Interpolated<'a> {
+    field: &'a Field<Tensor2>,
+}
+
+impl<'a> Interpolated<'a> {
+    /// Tensors between the centres of the cells of `field`.
+    #[must_use]
+    pub const fn new(field: &'a Field<Tensor2>) -> Self {
+        Self { field }
+    }
+
+    /// Largest x and y that lie between centres: width - 1 and height - 1.
+    #[must_use]
+    pub const fn extent(&self) -> [f64; 2] {
+        let grid = self.field.grid();
+        [(grid.width() - 1) as f64, (grid.height() - 1) as f64]
+    }
+
+    /// The tensor at a point, bilinear in every component; `None` outside of the centres of the outermost cells, and where
+    /// one of the four cells is not finite.
+    #[must_use]
+    pub fn at(&self, [x, y]: [f64; 2]) -> Option<Tensor2> {
+        let [right, bottom] = self.extent();
+        if !((0.0..=right).contains(&x) && (0.0..=bottom).contains(&y)) {
+            return None;
+        }
+        let before = |v: f64, last: f64| (v.floor()).min((last - 1.0).max(0.0)) as usize;
+        let (i, j) = (before(x, right), before(y, bottom));
+        let (u, v) = (x - i as f64, y - j as f64);
+        let grid = self.field.grid();
+        let corner = |di: usize, dj: usize| {
+            let cell = Cell::new((i + di).min(grid.width() - 1), (j + dj).min(grid.height() - 1));
+            self.field.at(cell).components()
+        };
+        let corners = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
+        let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
+        let mut t = [0.0; 4];
+        for (corner, weight) in corners.iter().zip(weights) {
+            t.iter_mut().zip(corner).for_each(|(t, c)| *t += weight * c);
+        }
+        let t = Tensor2::new(t[0], t[1], t[2], t[3]);
+        t.is_finite().then_some(t)
+    }
+
+    /// Direction (unit vector in cells, y downwards) of an axis at a point, with either sign. `None` as [`Self::at`], and where
+    /// the half-axes differ by less than the part `least` of the longer one.
+    #[must_use]
+    pub fn direction(&self, point: [f64; 2], family: Family, least: f64) -> Option<[f64; 2]> {
+        let svd = Svd::of(&self.at(point)?);
+        if svd.s[0] <= 0.0 || svd.s[0] - svd.s[1] < least * svd.s[0] {
+            return None;
+        }
+        let [x, y] = svd.major();
+        Some(match family {
+            Family::Major => [x, -y],
+            Family::Minor => [y, x],
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tigereye_core::Grid;
+
+    #[test]
+    fn linear_components_are_met_everywhere() {
+        let grid = Grid::new(5, 4).expect("a size");
+        let linear = |x: f64, y: f64| Tensor2::new(1.0 + x, 2.0 * y, x - y, 3.0 + x * y);
+        let field = Field::from_fn(grid, |c| linear(c.x as f64, c.y as f64));
+        let between = Interpolated::new(&field);
+        for p in [[0.0, 0.0], [4.0, 3.0], [1.25, 2.75], [3.999, 0.5]] {
+            let (found, expected) =
+                (between.at(p).expect("inside").components(), linear(p[0], p[1]).components());
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{p:?}");
+        }
+        for p in [[-0.01, 1.0], [4.01, 1.0], [1.0, 3.2], [f64::NAN, 1.0]] {
+            assert_eq!(between.at(p), None, "{p:?}");
+        }
+    }
+
+    #[test]
+    fn axes_point_up_where_the_tensor_does() {
+        let field = Field::from_fn(Grid::new(2, 2).expect("a size"), |_| Tensor2::from_axes(0.6, 3.0, 1.0));
+        let between = Interpolated::new(&field);
+        let major = between.direction([0.5, 0.5], Family::Major, 1e-3).expect("an axis");
+        let minor = between.direction([0.5, 0.5], Family::Minor, 1e-3).expect("an axis");
+        let along = |v: [f64; 2], phi: f64| {
+            (v[0] * tigereye_core::math::sin(phi) + v[1] * tigereye_core::math::cos(phi)).abs()
+        };
+        // y downwards: the direction of angle phi is (cos phi, -sin phi).
+        assert!(along(major, 0.6) < 1e-12 && along(minor, 0.6 + core::f64::consts::FRAC_PI_2) < 1e-12);
+        assert_eq!(between.direction([0.5, 0.5], Family::Major, 0.7), None, "too round");
+    }
+
+    #[test]
+    fn ellipses_stay_when_the_rest_goes() {
+        let tensors = [
+            Tensor2::new(1.0, 2.0, -0.5, 0.25),
+            Tensor2::from_axes(2.0, 3.0, 1.0),
+            Tensor2::symmetric(-1.0, 0.5, 2.0),
+            Tensor2::ZERO,
+        ];
+        for t in tensors {
+            let field = Field::from_fn(Grid::new(1, 1).expect("a size"), |_| t);
+            let s = *ellipse_tensors(&field).at(Cell::new(0, 0));
+            assert!(s.asymmetry() < 1e-15);
+            // Both make the same ellipse: t t^T = s s^T.
+            let square = |t: Tensor2| {
+                let [a, b, c, d] = t.components();
+                [a * a + b * b, a * c + b * d, c * c + d * d]
+            };
+            assert!(square(s).iter().zip(square(t)).all(|(a, b)| (a - b).abs() < 1e-12), "{t:?}");
+        }
+    }
+
+    #[test]
+    fn one_row_has_tensors_along_it() {
+        let field = Field::from_fn(Grid::new(3, 1).expect("a size"), |c| Tensor2::isotropic(c.x as f64));
+        assert_eq!(Interpolated::new(&field).at([1.5, 0.0]), Some(Tensor2::isotropic(1.5)));
+    }
+}

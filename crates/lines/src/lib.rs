@@ -1,0 +1,16 @@
+//! Lines along the axes of tensors, and the points where tensors have none.
+//!
+//! Points are `[x, y]` in cells: (0, 0) is the centre of the upper left cell, x to the right, y **downwards**. Between the
+//! centres of four cells tensors are interpolated component by component. The axes are the half-axes of the ellipse that
+//! a tensor makes of the unit circle (its left singular vectors), which are those of the eigenvectors where the tensor is
+//! symmetric and positive. They have no sign: a line goes on in the direction that is nearer to where it came from.
+
+mod degenerate;
+mod interpolated;
+mod seeding;
+mod tensor_line;
+
+pub use degenerate::{DegenerateKind, DegeneratePoint, degenerate_points};
+pub use interpolated::{Family, Interpolated, ellipse_tensors};
+pub use seeding::evenly_spaced;
+pub use tensor_line::{LineEnd, LineOptions, TensorLine, tensor_line};

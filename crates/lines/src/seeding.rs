@@ -1,0 +1,149 @@
+//! Lines that cover a field evenly.
+
+use crate::tensor_line::distance;
+use crate::{Family, Interpolated, LineEnd, LineOptions, TensorLine, tensor_line};
+use std::collections::VecDeque;
+
+/// Lines end closer to each other than they begin, by this factor (Jobard and Lefer).
+const CLOSEST: f64 = 0.5;
+/// Lines shorter than this many distances are left out.
+const SHORTEST: f64 = 0.5;
+
+/// Lines about `separation` cells apart (at least 0.1), in an order that only depends on the field: seeds are tried beside the
+/// lines that are there, then in every cell (Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density, 1997).
+/// Fields without axes give no lines.
+#[must_use]
+pub fn evenly_spaced(
+    field: &Interpolated<'_>,
+    family: Family,
+    separation: f64,
+    options: &LineOptions,
+) -> Vec<TensorLine> {
+    let separation = if separation >= 0.1 { separation } else { 0.1 };
+    let [right, bottom] = field.extent();
+    let mut covered = Covered::new([right, bottom], separation);
+    let mut lines: Vec<TensorLine> = Vec::new();
+    let mut queue = VecDeque::new();
+    let middle = [0.5 * right, 0.5 * bottom];
+    let everywhere =
+        (0..=bottom as usize).flat_map(|y| (0..=right as usize).map(move |x| [x as f64, y as f64]));
+    for start in std::iter::once(middle).chain(everywhere) {
+        queue.push_back(start);
+        while let Some(seed) = queue.pop_front() {
+            if covered.is_near(seed, separation) {
+                continue;
+            }
+            let line =
+                tensor_line(field, seed, family, options, &mut |p| !covered.is_near(p, CLOSEST * separation));
+            if line.points.len() < 2 || line.length() < SHORTEST * separation {
+                continue;
+            }
+            line.points.iter().for_each(|p| covered.add(*p));
+            queue.extend(beside(&line, separation));
+            lines.push(line);
+        }
+    }
+    lines
+}
+
+/// Points to both sides of a line.
+fn beside(line: &TensorLine, separation: f64) -> Vec<[f64; 2]> {
+    let mut seeds = Vec::new();
+    for p in line.points.windows(2).step_by(4) {
+        let size = distance(p[0], p[1]);
+        if size > 0.0 {
+            let across = [-(p[1][1] - p[0][1]) / size, (p[1][0] - p[0][0]) / size];
+            // A little more, so that rounding does not make it too near.
+            for side in [1.0 + 1e-9, -1.0 - 1e-9] {
+                seeds.push([0, 1].map(|i| p[0][i] + side * separation * across[i]));
+            }
+        }
+    }
+    seeds
+}
+
+/// Points of finished lines, in squares.
+struct Covered {
+    squares: Vec<Vec<[f64; 2]>>,
+    columns: usize,
+    rows: usize,
+    side: f64,
+}
+
+impl Covered {
+    fn new([right, bottom]: [f64; 2], side: f64) -> Self {
+        let (columns, rows) = ((right / side) as usize + 1, (bottom / side) as usize + 1);
+        Self { squares: vec![Vec::new(); columns * rows], columns, rows, side }
+    }
+
+    fn square(&self, p: [f64; 2]) -> (usize, usize) {
+        let index = |v: f64, n: usize| ((v / self.side).max(0.0) as usize).min(n - 1);
+        (index(p[0], self.columns), index(p[1], self.rows))
+    }
+
+    fn add(&mut self, p: [f64; 2]) {
+        let (x, y) = self.square(p);
+        self.squares[y * self.columns + x].push(p);
+    }
+
+    /// Whether a point is within `reach`, at most a square's side.
+    fn is_near(&self, p: [f64; 2], reach: f64) -> bool {
+        let (x, y) = self.square(p);
+        let around = |v: usize, n: usize| v.saturating_sub(1)..(v + 2).min(n);
+        around(y, self.rows).any(|y| {
+            around(x, self.columns)
+                .any(|x| self.squares[y * self.columns + x].iter().any(|q| distance(p, *q) < reach))
+        })
+    }
+}
+
+impl TensorLine {
+    /// Whether it comes back to where it began.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.ends == [LineEnd::Closed; 2]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tigereye_core::{Field, Grid, Tensor2};
+
+    #[test]
+    fn lines_keep_their_distance_and_leave_no_gap() {
+        let field = Field::from_fn(Grid::new(31, 21).expect("a size"), |c| {
+            Tensor2::from_axes(0.05 * c.x as f64 - 0.03 * c.y as f64, 3.0, 1.0)
+        });
+        let between = Interpolated::new(&field);
+        let separation = 2.0;
+        let lines = evenly_spaced(&between, Family::Major, separation, &LineOptions::default());
+        for (i, a) in lines.iter().enumerate() {
+            for b in &lines[i + 1..] {
+                let closest = a.points.iter().flat_map(|p| b.points.iter().map(|q| distance(*p, *q)));
+                assert!(closest.fold(f64::INFINITY, f64::min) >= CLOSEST * separation - 1e-9);
+            }
+        }
+        for y in 0..21 {
+            for x in 0..31 {
+                let p = [f64::from(x), f64::from(y)];
+                let near = lines.iter().flat_map(|l| &l.points).map(|q| distance(p, *q));
+                assert!(near.fold(f64::INFINITY, f64::min) < 1.5 * separation, "{p:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn fields_without_axes_have_no_lines() {
+        for t in [Tensor2::ZERO, Tensor2::IDENTITY, Tensor2::isotropic(f64::NAN)] {
+            let field = Field::from_fn(Grid::new(12, 9).expect("a size"), |_| t);
+            let lines =
+                evenly_spaced(&Interpolated::new(&field), Family::Minor, 1.0, &LineOptions::default());
+            assert!(lines.is_empty());
+        }
+        let point = Field::from_fn(Grid::new(1, 1).expect("a size"), |_| Tensor2::from_axes(0.0, 2.0, 1.0));
+        assert!(
+            evenly_spaced(&Interpolated::new(&point), Family::Major, 1.0, &LineOptions::default()).is_empty()
+        );
+    }
+}

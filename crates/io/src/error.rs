@@ -497,15 +497,6 @@ pub enum IoError {
     },
 
     // ---- meaning
-    /// Three-dimensional data where an image is needed.
-    #[error(
-        "{} x {} x {} points: three-dimensional data need a plane, expected one layer in z",
-        dimensions[0], dimensions[1], dimensions[2]
-    )]
-    NeedsPlane {
-        /// Points along x, y and z.
-        dimensions: [usize; 3],
-    },
     /// No array of the wanted name or kind.
     #[error("no {wanted}: the arrays are {}", listed(available))]
     NoArray {
@@ -520,19 +511,13 @@ pub enum IoError {
         /// Names and components of the arrays that fit.
         candidates: Vec<String>,
     },
-    /// An array with a number of components that makes no tensor.
-    #[error("array `{array}` has {components} components: expected 9, 6, 4 or 3")]
+    /// An array without components.
+    #[error("array `{array}` has {components} components: expected at least one")]
     Components {
         /// Name of the array.
         array: String,
         /// Its components.
         components: usize,
-    },
-    /// Axes that are not parallel to x and y.
-    #[error("the image axes are rotated (Direction {direction:?}): expected axes along x and y")]
-    RotatedAxes {
-        /// Direction matrix, row by row.
-        direction: [f64; 9],
     },
     /// Slice indices that do not fit a volume.
     #[error(

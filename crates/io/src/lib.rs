@@ -1,9 +1,9 @@
 //! Bytes to tensor fields, and results to bytes.
 //!
 //! Every reader takes a byte slice and every writer returns bytes: nothing here opens a path, prints or starts a
-//! thread. Each format has one module; [`ImageData`] is what the image formats share, and [`tensors_from_image`] and
-//! its siblings connect it with core's types. Volumes of all formats become a [`volume::Lattice`], whose tensors are
-//! read in an order and a frame and cut to a plane.
+//! thread. Each format has one module; [`ImageData`] is what the image formats share. Tensors of all formats become a
+//! [`volume::Lattice`], are read in an order and a frame, and cut to a plane; a field goes back as a
+//! [`volume::TensorVolume`] of one layer.
 //!
 //! Files are untrusted. Sizes are multiplied in 128 bits and compared with the bytes that are really there, or with
 //! [`Limits`] where compression hides them, before anything is allocated; an array is read or refused by its name,
@@ -36,9 +36,8 @@ mod words;
 mod xml;
 
 pub use convert::{
-    Association, ComponentOrder, LTG_ARRAY, LtgImage, PROVENANCE, SLICES, TENSOR_ARRAY, TensorImage, Wanted,
-    image_from_light, image_from_ltg, image_from_tensors, image_of_energy, ltg_from_image,
-    tensors_from_image,
+    Association, LTG_ARRAY, LtgImage, PROVENANCE, SLICES, TENSOR_ARRAY, Wanted, image_from_light,
+    image_from_ltg, image_of_energy, ltg_from_image,
 };
 pub use error::IoError;
 pub use image::{ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData};

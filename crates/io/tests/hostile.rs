@@ -12,8 +12,7 @@ use tigereye_io::volume::{
     points_from_image,
 };
 use tigereye_io::{
-    DataArray, ImageData, IoError, Limits, Wanted, image_from_tensors, legacy, matrices, nifti, npy, nrrd,
-    vti, vtp,
+    DataArray, ImageData, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, vti, vtp,
 };
 
 #[test]
@@ -99,7 +98,7 @@ fn messages_name_the_byte() {
 fn small_image() -> ImageData {
     let grid = Grid::new(3, 2).unwrap();
     let field = Field::from_fn(grid, |c| Tensor2::symmetric(c.x as f64, 0.5, c.y as f64));
-    let mut image = image_from_tensors(&field, [0.0; 2], [1.0; 2]);
+    let mut image = support::image_of(&field, [0.0; 2], [1.0; 2]);
     image.push_text("tigereye", "{}");
     image.cell_arrays.push(DataArray::new("cells", 1, vec![1.0, 2.0]));
     image
@@ -356,7 +355,7 @@ fn read_as_everything(bytes: &[u8]) {
         }
     }
     if let Ok(image) = &vti::read(bytes) {
-        let _ = (tigereye_io::tensors_from_image(image, None), tigereye_io::ltg_from_image(image));
+        let _ = (support::field_of(image, None), tigereye_io::ltg_from_image(image));
         let _ = vti::write(image);
     }
     let _ = (npy::read_tensors(bytes), npy::read_array(bytes), matrices::read(bytes));

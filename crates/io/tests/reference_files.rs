@@ -10,8 +10,7 @@ use tigereye_io::volume::{
     Frame, Lattice, Plane, PlaneChoice, Reading, TensorVolume, lattice_from_image, lattice_from_points,
 };
 use tigereye_io::{
-    DataArray, ImageData, Wanted, legacy, ltg_from_image, matrices, nifti, npy, nrrd, tensors_from_image,
-    vti, vtp,
+    DataArray, ImageData, Wanted, legacy, ltg_from_image, matrices, nifti, npy, nrrd, vti, vtp,
 };
 
 /// Relative to the range: the files hold f32, text files fewer digits.
@@ -116,8 +115,8 @@ fn images_are_arrays_with_rows_reversed() {
     for name in names {
         let array = npy::read_tensors(&bytes(&data, &format!("{name}.npy"))).unwrap();
         let image = vti::read(&bytes(&data, &format!("{name}.vti"))).unwrap();
-        let read = tensors_from_image(&image, None).unwrap();
-        assert!(read.rows_flipped && !read.columns_flipped && read.components == 9, "{name}: {read}");
+        let read = support::field_of(&image, None).unwrap();
+        assert!(read.cut.rows_flipped && !read.cut.columns_flipped, "{name}");
         let grid = array.grid();
         let flipped = Field::from_fn(grid, |c| *array.at(Cell::new(c.x, grid.height() - 1 - c.y)));
         assert_eq!(read.field, flipped, "{name}");
@@ -247,8 +246,8 @@ fn wrong_orders_look_wrong() {
 fn layers_need_a_plane() {
     let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
     let image = vti::read(&bytes(&data, "pointload_ascii.vti")).unwrap();
-    let message = tensors_from_image(&image, None).unwrap_err().to_string();
-    assert_eq!(message, "20 x 20 x 20 points: three-dimensional data need a plane, expected one layer in z");
+    let error = support::field_of(&image, None).unwrap_err();
+    assert_eq!(error, tigereye_io::IoError::PlaneNeeded { size: [20; 3] });
 }
 
 #[test]

@@ -1,12 +1,14 @@
 //! What is written is read back exactly, and the same data give the same bytes.
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
+mod support;
+
 use proptest::prelude::*;
+use support::{field_of, image_of};
 use tigereye_core::{Cell, Directions, Field, Grid, LightDistribution, LtgVolume, Tensor2};
 use tigereye_io::{
-    ActiveArrays, Association, ComponentOrder, DataArray, FieldEntry, FieldValues, ImageData, IoError,
-    ScalarType, image_from_light, image_from_ltg, image_from_tensors, ltg_from_image, matrices, npy,
-    tensors_from_image, vti,
+    ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData, IoError, ScalarType, image_from_light,
+    image_from_ltg, ltg_from_image, matrices, npy, vti,
 };
 
 fn sample_field(width: usize, height: usize) -> Field<Tensor2> {
@@ -64,73 +66,79 @@ fn blocks_of_every_length_come_back() {
 #[test]
 fn tensors_survive_an_image() {
     let field = sample_field(4, 3);
-    let image = image_from_tensors(&field, [1.0, 2.0], [0.5, 0.25]);
+    let image = image_of(&field, [1.0, 2.0], [0.5, 0.25]);
     // VTK's first row is the bottom row.
     assert_eq!(image.point_arrays[0].values[0], field.at(Cell::new(0, 2)).xx());
     let read = vti::read(&vti::write(&image).unwrap()).unwrap();
-    let tensors = tensors_from_image(&read, None).unwrap();
+    let tensors = field_of(&read, None).unwrap();
     assert_eq!(tensors.field, field);
-    assert_eq!((tensors.array.as_str(), tensors.association), ("Tensors", Association::Points));
-    assert_eq!((tensors.origin, tensors.spacing), ([1.0, 2.0, 0.0], [0.5, 0.25, 1.0]));
-    assert_eq!(
-        tensors.to_string(),
-        "point array `Tensors`: by component names: xx = 0, xy = 1, yx = 3, yy = 4; xy plane; rows flipped, file runs upwards"
-    );
+    assert_eq!((tensors.cut.origin, tensors.cut.spacing), ([1.0, 2.0], [0.5, 0.25]));
+    assert!(tensors.cut.rows_flipped && !tensors.cut.columns_flipped);
 }
 
 #[test]
 fn component_orders_are_those_of_their_tools() {
-    let cases: [(usize, &[&str], ComponentOrder, [f64; 4]); 6] = [
-        (9, &[], ComponentOrder::Rows3, [0.0, 1.0, 3.0, 4.0]),
-        (6, &[], ComponentOrder::Vtk6, [0.0, 3.0, 3.0, 1.0]),
-        (4, &[], ComponentOrder::Rows2, [0.0, 1.0, 2.0, 3.0]),
-        (3, &[], ComponentOrder::Symmetric2, [0.0, 1.0, 1.0, 2.0]),
-        (3, &["XX", "YY", "XY"], ComponentOrder::Named([0, 2, 2, 1]), [0.0, 2.0, 2.0, 1.0]),
-        (3, &["a", "b", "c"], ComponentOrder::Symmetric2, [0.0, 1.0, 1.0, 2.0]),
+    let cases: [(usize, &[&str], [f64; 4]); 6] = [
+        (9, &[], [0.0, 1.0, 3.0, 4.0]),
+        (6, &[], [0.0, 3.0, 3.0, 1.0]),
+        (4, &[], [0.0, 1.0, 2.0, 3.0]),
+        (3, &[], [0.0, 1.0, 1.0, 2.0]),
+        (3, &["XX", "YY", "XY"], [0.0, 2.0, 2.0, 1.0]),
+        (3, &["a", "b", "c"], [0.0, 1.0, 1.0, 2.0]),
     ];
-    for (components, names, order, [xx, xy, yx, yy]) in cases {
+    for (components, names, [xx, xy, yx, yy]) in cases {
         let mut image = ImageData::empty([1, 1, 1]);
         let values = (0..components).map(|i| i as f64).collect();
         image.point_arrays.push(DataArray::new("t", components, values).with_component_names(names));
-        let read = tensors_from_image(&image, Some("t")).unwrap();
-        assert_eq!((read.order, *read.field.at(Cell::new(0, 0))), (order, Tensor2::new(xx, xy, yx, yy)));
+        let read = field_of(&image, Some("t")).unwrap();
+        assert_eq!(*read.field.at(Cell::new(0, 0)), Tensor2::new(xx, xy, yx, yy));
     }
 }
 
 #[test]
 fn reversed_axes_are_put_right() {
     let field = sample_field(3, 2);
-    let mut image = image_from_tensors(&field, [0.0; 2], [1.0; 2]);
+    let mut image = image_of(&field, [0.0; 2], [1.0; 2]);
     image.direction = Some([-1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0]);
-    let read = tensors_from_image(&image, None).unwrap();
-    assert!(read.columns_flipped && !read.rows_flipped);
+    let read = field_of(&image, None).unwrap();
+    assert!(read.cut.columns_flipped && !read.cut.rows_flipped);
     let turned = Field::from_fn(field.grid(), |c| *field.at(Cell::new(2 - c.x, 1 - c.y)));
     assert_eq!(read.field, turned);
-    image.direction = Some([0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
-    assert!(matches!(tensors_from_image(&image, None), Err(IoError::RotatedAxes { .. })));
+    // Reversed by spacing, by direction, or by both, which is not at all.
+    for (direction, spacing, reversed) in
+        [([1.0, -1.0], 1.0, true), ([1.0, 1.0], -1.0, true), ([1.0, -1.0], -1.0, false)]
+    {
+        let mut image = image_of(&field, [0.0; 2], [1.0; 2]);
+        image.direction = Some([direction[0], 0.0, 0.0, 0.0, direction[1], 0.0, 0.0, 0.0, 1.0]);
+        image.spacing[1] = spacing;
+        let read = field_of(&image, None).unwrap();
+        assert_eq!(read.cut.rows_flipped, !reversed, "{direction:?} {spacing}");
+        let upside_down = Field::from_fn(field.grid(), |c| *field.at(Cell::new(c.x, 1 - c.y)));
+        assert_eq!(read.field, if reversed { upside_down } else { field.clone() }, "{direction:?} {spacing}");
+    }
 }
 
 #[test]
 fn the_tensor_array_is_never_guessed() {
-    let mut image = image_from_tensors(&sample_field(2, 2), [0.0; 2], [1.0; 2]);
+    let mut image = image_of(&sample_field(2, 2), [0.0; 2], [1.0; 2]);
     image.point_active.tensors = None;
-    assert!(tensors_from_image(&image, None).is_ok());
+    assert!(field_of(&image, None).is_ok());
     image.point_arrays.push(DataArray::new("other", 4, vec![0.0; 16]));
-    let message = tensors_from_image(&image, None).unwrap_err().to_string();
+    let message = field_of(&image, None).unwrap_err().to_string();
     assert_eq!(
         message,
         "several arrays fit: `Tensors` (9 components), `other` (4 components): expected the name of one"
     );
-    let message = tensors_from_image(&image, Some("absent")).unwrap_err().to_string();
+    let message = field_of(&image, Some("absent")).unwrap_err().to_string();
     assert_eq!(message, "no array `absent`: the arrays are `Tensors` (9 components), `other` (4 components)");
     image.point_arrays[0] = DataArray::new("v", 3, vec![0.0; 12]);
     image.point_active.vectors = Some("v".into());
-    assert_eq!(tensors_from_image(&image, None).unwrap().array, "other");
+    assert!(field_of(&image, None).is_ok_and(|read| read.field.values()[0].is_zero()), "the other one");
     image.point_arrays.pop();
-    assert!(matches!(tensors_from_image(&image, None), Err(IoError::NoArray { .. })));
+    assert!(matches!(field_of(&image, None), Err(IoError::NoArray { .. })));
     image.point_arrays = vec![DataArray::new("five", 5, vec![0.0; 20])];
-    let components = tensors_from_image(&image, Some("five"));
-    assert_eq!(components, Err(IoError::Components { array: "five".into(), components: 5 }));
+    let components = field_of(&image, Some("five")).map(drop);
+    assert_eq!(components, Err(IoError::NoTensor { array: "five".into(), components: 5 }));
 }
 
 fn sample_volume(slices: Vec<usize>) -> LtgVolume {
@@ -228,8 +236,8 @@ proptest! {
         });
         prop_assert_eq!(&matrices::read(&matrices::write(&field).unwrap()).unwrap(), &field);
         prop_assert_eq!(&npy::read_tensors(&npy::write_tensors(&field)).unwrap(), &field);
-        let image = image_from_tensors(&field, [0.0; 2], [1.0; 2]);
+        let image = image_of(&field, [0.0; 2], [1.0; 2]);
         let read = vti::read(&vti::write(&image).unwrap()).unwrap();
-        prop_assert_eq!(tensors_from_image(&read, None).unwrap().field, field);
+        prop_assert_eq!(field_of(&read, None).unwrap().field, field);
     }
 }

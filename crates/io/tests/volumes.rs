@@ -10,9 +10,7 @@ use tigereye_io::volume::{
     Axis, Crop, Frame, Known, Lattice, Plane, PlaneChoice, Reading, TensorOrder, TensorVolume, World,
     image_from_volume, lattice_from_image,
 };
-use tigereye_io::{
-    IoError, ScalarType, Wanted, image_from_tensors, legacy, nifti, nrrd, tensors_from_image, vti,
-};
+use tigereye_io::{IoError, ScalarType, Wanted, legacy, nifti, nrrd, vti};
 
 const VOXELS: usize = 2 * 3 * 4;
 
@@ -388,28 +386,6 @@ fn crops_count_from_the_top_left() {
     assert_eq!(part.at(Cell::new(0, 0)), field.at(Cell::new(1, 0)));
     for (x, y) in [([0, 3], [0, 1]), ([1, 1], [0, 1]), ([2, 1], [0, 1]), ([0, 1], [0, 4])] {
         assert!(matches!(Crop { x, y }.of(&field), Err(IoError::CropRange { .. })));
-    }
-}
-
-/// The volume path and the path for flat images agree, whatever way the axes run.
-#[test]
-fn flat_images_are_read_alike() {
-    let field = volume().slice(PlaneChoice { plane: None, slice: Some((Axis::X, 0)) }).unwrap().field;
-    for direction in
-        [None, Some([-1., 0., 0., 0., 1., 0., 0., 0., 1.]), Some([1., 0., 0., 0., -1., 0., 0., 0., 1.])]
-    {
-        for spacing in [[1.0, 2.0, 1.0], [-1.0, 2.0, 1.0], [1.0, -2.0, 1.0]] {
-            let mut image = image_from_tensors(&field, [0.0; 2], [1.0; 2]);
-            (image.direction, image.spacing) = (direction, spacing);
-            let flat = tensors_from_image(&image, None).unwrap();
-            let lattice = lattice_from_image(&image, None, Wanted::Tensors).unwrap();
-            let slice = lattice.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap();
-            assert_eq!(slice.field, flat.field, "{direction:?} {spacing:?}");
-            assert_eq!(
-                (slice.cut.rows_flipped, slice.cut.columns_flipped),
-                (flat.rows_flipped, flat.columns_flipped)
-            );
-        }
     }
 }
 

@@ -4,7 +4,8 @@ use crate::support::{Place, has_keys, unit_text};
 use serde_json::Value;
 use std::path::PathBuf;
 use tigereye_core::{Cell, Tensor2};
-use tigereye_io::{matrices, npy, tensors_from_image};
+use tigereye_io::volume::{PlaneChoice, Reading, lattice_from_image};
+use tigereye_io::{Wanted, matrices, npy};
 
 /// 3 x 2 x 2 voxels of diagonal tensors: xx counts voxels from 1, yy = 20, zz = 30; xz = 0.5.
 fn nrrd() -> String {
@@ -38,9 +39,10 @@ fn slices_become_fields_with_up_on_top() {
     assert_eq!(*xy.at(Cell::new(2, 0)), Tensor2::symmetric(12.0, 0.0, 20.0));
     assert_eq!(*xy.at(Cell::new(0, 1)), Tensor2::symmetric(7.0, 0.0, 20.0));
     place.succeeds(&["convert", "v.nrrd", "xz.vti", "--plane", "xz", "--slice", "y=0", "--frame", "voxel"]);
-    let xz = tensors_from_image(&place.image("xz.vti"), None).unwrap();
+    let xz = lattice_from_image(&place.image("xz.vti"), None, Wanted::Tensors).unwrap();
+    let xz = xz.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap();
     assert_eq!(xz.field.values()[0], Tensor2::symmetric(7.0, 0.5, 30.0));
-    assert_eq!(xz.spacing[..2], [2.0, 4.0]);
+    assert_eq!(xz.cut.spacing, [2.0, 4.0]);
     assert!(place.image("xz.vti").text("tigereye").unwrap().contains("\"slice\":\"y=0\""));
     place.succeeds(&["convert", "xz.vti", "part.txt", "--crop", "1:3,1:2"]);
     let part = matrices::read(&place.read("part.txt")).unwrap();

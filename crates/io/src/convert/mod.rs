@@ -1,15 +1,13 @@
 //! Between [`crate::ImageData`] and core's types: what arrays mean, and which way rows run.
 
+mod choice;
 mod light;
 mod ltg;
-mod order;
-mod tensors;
 
+pub(crate) use choice::choose_array;
+pub use choice::{Association, TENSOR_ARRAY, Wanted};
 pub use light::{image_from_light, image_of_energy};
 pub use ltg::{LTG_ARRAY, LtgImage, SLICES, image_from_ltg, ltg_from_image};
-pub use order::ComponentOrder;
-pub(crate) use tensors::choose_array;
-pub use tensors::{Association, TENSOR_ARRAY, TensorImage, Wanted, image_from_tensors, tensors_from_image};
 
 /// Field data entry with the JSON text that says what made a file.
 pub const PROVENANCE: &str = "tigereye";

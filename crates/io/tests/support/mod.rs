@@ -4,6 +4,11 @@
 
 use std::io::Write as _;
 use std::path::PathBuf;
+use tigereye_core::{Field, Tensor2};
+use tigereye_io::volume::{
+    Frame, PlaneChoice, Reading, Slice, TensorVolume, image_from_volume, lattice_from_image,
+};
+use tigereye_io::{ImageData, IoError, Wanted};
 
 /// The folder named by the environment variable, or `../shared/<name>` beside the workspace; `None`, and a line that
 /// says so, where it is absent.
@@ -23,6 +28,18 @@ pub(crate) fn bytes(folder: &std::path::Path, file: &str) -> Vec<u8> {
 
 pub(crate) fn json(folder: &std::path::Path, file: &str) -> serde_json::Value {
     serde_json::from_slice(&bytes(folder, file)).unwrap_or_else(|e| panic!("{file}: {e}"))
+}
+
+/// The image that a field is written as.
+pub(crate) fn image_of(field: &Field<Tensor2>, origin: [f64; 2], spacing: [f64; 2]) -> ImageData {
+    image_from_volume(&TensorVolume::from_field(field, origin, spacing), Frame::World).unwrap()
+}
+
+/// The field in the only plane of an image.
+pub(crate) fn field_of(image: &ImageData, array: Option<&str>) -> Result<Slice<Tensor2>, IoError> {
+    lattice_from_image(image, array, Wanted::Tensors)?
+        .tensors(Reading::default())?
+        .slice(PlaneChoice::default())
 }
 
 /// A file of one array over `points` points along x.

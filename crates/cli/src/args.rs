@@ -39,6 +39,8 @@ pub(crate) enum Command {
     Convert(ConvertArgs),
     /// Difference of two results.
     Compare(CompareArgs),
+    /// What a change moved: numbers and figures of two results, or pending snapshots, on one page.
+    Review(ReviewArgs),
     /// The engine's speed beside the limits of this machine.
     Bench(BenchArgs),
 }
@@ -469,6 +471,30 @@ pub(crate) struct CompareArgs {
     /// Angular slices of volumes to leave out (sample indices).
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = parse_count)]
     pub(crate) except_slices: Vec<usize>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReviewArgs {
+    /// What was before: a results folder, as `reproduce --out` writes it, or a git revision, which is built and run.
+    #[arg(required_unless_present = "snapshots", conflicts_with = "snapshots")]
+    pub(crate) base: Option<String>,
+    /// What is now, in the same way.
+    #[arg(required_unless_present = "snapshots", conflicts_with = "snapshots")]
+    pub(crate) head: Option<String>,
+    /// Folder for the page and the summary, review.html and review.json.
+    #[arg(long, value_name = "DIR", default_value = "review")]
+    pub(crate) out: PathBuf,
+    /// Largest relative change of a number that is no movement.
+    #[arg(long, value_name = "REL", default_value = "1e-9", value_parser = parse_threshold, allow_hyphen_values = true)]
+    pub(crate) tolerance: f64,
+    /// Compare the pending snapshots (*.snap.new) of a folder with the accepted ones beside them.
+    #[arg(
+        long,
+        value_name = "FOLDER",
+        num_args = 0..=1,
+        default_missing_value = "crates/experiments/tests/snapshots"
+    )]
+    pub(crate) snapshots: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

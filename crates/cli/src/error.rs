@@ -33,6 +33,12 @@ pub(crate) enum CliError {
     },
 }
 
+impl From<tigereye_experiments::review::ReviewError> for CliError {
+    fn from(error: tigereye_experiments::review::ReviewError) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
 impl CliError {
     /// 130 for an interruption, 2 otherwise.
     pub(crate) const fn exit_code(&self) -> u8 {

@@ -11,22 +11,29 @@ const MAX_INPUT: u64 = 16 << 30;
 
 /// The bytes of a file.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, CliError> {
+    read_at_most(path, MAX_INPUT)
+}
+
+/// The bytes of a file that must not be larger than `limit`.
+pub(crate) fn read_at_most(path: &Path, limit: u64) -> Result<Vec<u8>, CliError> {
     let fault = |source| CliError::File { path: path.display().to_string(), action: "reading", source };
     let file = std::fs::File::open(path).map_err(fault)?;
     let mut bytes = Vec::new();
-    let read = file.take(MAX_INPUT + 1).read_to_end(&mut bytes).map_err(fault)?;
-    if read as u64 > MAX_INPUT {
-        return Err(CliError::input(
-            &path.display().to_string(),
-            format!("is larger than {MAX_INPUT} bytes"),
-        ));
+    let read = file.take(limit + 1).read_to_end(&mut bytes).map_err(fault)?;
+    if read as u64 > limit {
+        return Err(CliError::input(&path.display().to_string(), format!("is larger than {limit} bytes")));
     }
     Ok(bytes)
 }
 
 /// The text of a file.
 pub(crate) fn read_text(path: &Path) -> Result<String, CliError> {
-    String::from_utf8(read(path)?).map_err(|e| {
+    text_of(path, read(path)?)
+}
+
+/// The text that a file's bytes are.
+pub(crate) fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, CliError> {
+    String::from_utf8(bytes).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
         CliError::input(&path.display().to_string(), format!("byte {at}: expected UTF-8 text"))
     })

@@ -10,6 +10,7 @@ pub(crate) fn install() -> Result<(), CliError> {
     ctrlc::set_handler(|| {
         if ASKED.swap(true, Ordering::SeqCst) {
             crate::files::abandon();
+            crate::commands::review::abandon();
             std::process::exit(130);
         }
     })

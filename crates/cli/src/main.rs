@@ -48,6 +48,7 @@ fn dispatch(cli: Cli) -> Result<u8, CliError> {
         Command::Info(a) => commands::info::info(&a),
         Command::Convert(a) => commands::convert::convert(&a),
         Command::Compare(a) => commands::compare::compare(&a),
+        Command::Review(a) => commands::review::review(&a),
         Command::Bench(a) => commands::bench::bench(&a),
     }
 }

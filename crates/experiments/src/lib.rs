@@ -19,6 +19,7 @@ mod places;
 pub mod provenance;
 mod pulses;
 pub mod report;
+pub mod review;
 mod runs;
 pub mod settings;
 pub mod sheet;

@@ -11,6 +11,7 @@ pub(crate) mod ltg;
 pub(crate) mod merge;
 pub(crate) mod propagate;
 pub(crate) mod reproduce;
+pub(crate) mod review;
 pub(crate) mod volume;
 
 use crate::error::CliError;

@@ -12,6 +12,7 @@ mod own_fields;
 mod parts;
 mod reading;
 mod results;
+mod review;
 mod streams;
 mod support;
 mod volumes;

@@ -6,7 +6,7 @@ mod gallery;
 mod glossary;
 mod introduction;
 mod links;
-mod numbers;
+pub(crate) mod numbers;
 mod page;
 mod summary;
 mod tables;

@@ -5,6 +5,9 @@ use maud::{Markup, html};
 /// Digits after the first one that are shown.
 const FURTHER_DIGITS: usize = 5;
 
+/// Digits after the first one that tell any two numbers apart.
+const ALL_FURTHER_DIGITS: usize = 16;
+
 /// From this power of ten on, numbers are written with their exponent.
 const LARGE_EXPONENT: i32 = 7;
 
@@ -13,10 +16,15 @@ const SMALL_EXPONENT: i32 = -5;
 
 /// `value` with six significant digits; its full digits are kept for machines and, where they say more, as a
 /// tooltip.
-pub(super) fn number(value: f64) -> Markup {
+pub(crate) fn number(value: f64) -> Markup {
+    number_with(value, FURTHER_DIGITS)
+}
+
+/// [`number`] with `further` digits after the first one.
+pub(crate) fn number_with(value: f64, further: usize) -> Markup {
     let exact = format!("{value}");
-    let (digits, exponent) = shown(value);
-    let rounded = value.is_finite() && in_full(value).parse() != Ok(value);
+    let (digits, exponent) = shown(value, further);
+    let rounded = value.is_finite() && in_full(value, further).parse() != Ok(value);
     html! {
         data value=(exact) title=[rounded.then_some(&exact)] {
             (digits)
@@ -25,34 +33,42 @@ pub(super) fn number(value: f64) -> Markup {
     }
 }
 
+/// Digits after the first one that tell two numbers apart, six in all at the least.
+pub(crate) fn digits_apart(a: f64, b: f64) -> usize {
+    let apart = |further: &usize| shown(a, *further) != shown(b, *further);
+    (FURTHER_DIGITS..=ALL_FURTHER_DIGITS)
+        .find(apart)
+        .map_or(FURTHER_DIGITS, |n| (n + 1).min(ALL_FURTHER_DIGITS))
+}
+
 /// Mantissa and, if the number is written with one, exponent.
-fn shown(value: f64) -> (String, Option<i32>) {
+fn shown(value: f64, further: usize) -> (String, Option<i32>) {
     if value.is_nan() {
         return ("not a number".into(), None);
     }
     if value.is_infinite() {
         return (if value > 0.0 { "∞" } else { "−∞" }.into(), None);
     }
-    let (mantissa, exponent) = rounded(value);
+    let (mantissa, exponent) = rounded(value, further);
     if value == 0.0 || (exponent > SMALL_EXPONENT && exponent < LARGE_EXPONENT) {
-        let decimals = usize::try_from(FURTHER_DIGITS as i32 - exponent).unwrap_or(0);
+        let decimals = usize::try_from(further as i32 - exponent).unwrap_or(0);
         // Adding zero turns a negative zero into a plain one.
         return (with_minus(&trimmed(&format!("{:.decimals$}", value + 0.0))), None);
     }
     (with_minus(&trimmed(&mantissa)), Some(exponent))
 }
 
-/// The six digits that are shown, as a literal that can be read back.
-fn in_full(value: f64) -> String {
-    match shown(value) {
+/// The digits that are shown, as a literal that can be read back.
+fn in_full(value: f64, further: usize) -> String {
+    match shown(value, further) {
         (digits, None) => digits.replace('−', "-"),
         (digits, Some(exponent)) => format!("{}e{exponent}", digits.replace('−', "-")),
     }
 }
 
 /// Mantissa and exponent after rounding, so that 999 999.9 counts as a million.
-fn rounded(value: f64) -> (String, i32) {
-    let text = format!("{value:.FURTHER_DIGITS$e}");
+fn rounded(value: f64, further: usize) -> (String, i32) {
+    let text = format!("{value:.further$e}");
     match text.split_once('e') {
         Some((mantissa, exponent)) => (mantissa.to_owned(), exponent.parse().unwrap_or(0)),
         None => (text, 0),
@@ -73,7 +89,7 @@ fn with_minus(text: &str) -> String {
 }
 
 /// A count in groups of three digits.
-pub(super) fn count(n: u64) -> String {
+pub(crate) fn count(n: u64) -> String {
     let digits = n.to_string();
     let mut out = String::new();
     for (i, digit) in digits.chars().enumerate() {
@@ -87,12 +103,12 @@ pub(super) fn count(n: u64) -> String {
 }
 
 /// A count with its noun, which takes an s unless there is one.
-pub(super) fn counted(n: usize, noun: &str) -> String {
+pub(crate) fn counted(n: usize, noun: &str) -> String {
     format!("{} {noun}{}", count(n as u64), if n == 1 { "" } else { "s" })
 }
 
 /// A time span in the units a person would use.
-pub(super) fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     if !seconds.is_finite() || seconds < 0.0 {
         return "unknown".into();
     }
@@ -121,7 +137,7 @@ mod tests {
     use super::*;
 
     fn check(value: f64, expect: &str) {
-        let (digits, exponent) = shown(value);
+        let (digits, exponent) = shown(value, FURTHER_DIGITS);
         let text = exponent.map_or(digits.clone(), |e| format!("{digits} × 10^{e}"));
         assert_eq!(text, expect, "{value}");
     }
@@ -160,6 +176,16 @@ mod tests {
         assert!(number(1.0 / 3.0).into_string().contains("title=\"0.3333333333333333\""));
         assert!(!number(0.25).into_string().contains("title"));
         assert!(number(-1e-9).into_string().contains("<sup>−9</sup>"));
+    }
+
+    #[test]
+    fn numbers_that_differ_late_are_told_apart() {
+        assert_eq!(digits_apart(1.0, 2.0), FURTHER_DIGITS + 1);
+        assert_eq!(digits_apart(1.0, 1.0), FURTHER_DIGITS);
+        let (a, b) = (0.123_456_789_012, 0.123_456_789_013);
+        let digits = digits_apart(a, b);
+        assert!(digits <= 12 && shown(a, digits) != shown(b, digits));
+        assert_eq!(digits_apart(1.0, 1.0 + f64::EPSILON), ALL_FURTHER_DIGITS);
     }
 
     #[test]

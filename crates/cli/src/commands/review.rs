@@ -1,0 +1,128 @@
+//! `tigereye review`: what a change moved, as a page, as JSON and as a few lines.
+
+mod revision;
+
+pub(crate) use revision::abandon;
+
+use crate::args::ReviewArgs;
+use crate::commands::print_text;
+use crate::error::CliError;
+use crate::{files, interrupt};
+use revision::Workshop;
+use std::path::{Path, PathBuf};
+use tigereye_experiments::review::{self, MAX_FILE, Pending, Results, Review, Side};
+
+/// What `reproduce` writes for programs.
+const SUMMARY: &str = "summary.json";
+
+/// The ending of a snapshot that waits to be accepted.
+const PENDING: &str = ".snap.new";
+
+/// The ending of an accepted one.
+const ACCEPTED: &str = ".snap";
+
+pub(crate) fn review(args: &ReviewArgs) -> Result<u8, CliError> {
+    let review = match (&args.snapshots, &args.base, &args.head) {
+        (Some(folder), ..) => of_snapshots(folder, args.tolerance)?,
+        (None, Some(base), Some(head)) => of_results([base, head], args.tolerance)?,
+        _ => return Err(CliError::Input("expected BASE and HEAD, or --snapshots".to_owned())),
+    };
+    interrupt::check()?;
+    let (page, summary) = (review::html(&review), review::json(&review));
+    files::make_folder(&args.out)?;
+    files::write(&args.out.join("review.json"), summary.as_bytes())?;
+    let path = args.out.join("review.html");
+    files::write(&path, page.as_bytes())?;
+    print_text(&format!("{}page: {}\n", review::text(&review), path.display()))?;
+    Ok(u8::from(review.moved()))
+}
+
+/// Where one side's results are.
+enum Place {
+    Folder(PathBuf),
+    /// A revision by its name and commit.
+    Revision(String),
+}
+
+impl Place {
+    fn find(name: &str) -> Result<Self, CliError> {
+        let folder = Path::new(name);
+        if folder.join(SUMMARY).exists() {
+            return Ok(Self::Folder(folder.to_path_buf()));
+        }
+        match revision::commit(name)? {
+            Some(commit) => Ok(Self::Revision(commit)),
+            None => {
+                let problem =
+                    format!("is no git revision, and there is no {name}/{SUMMARY}: expected either");
+                Err(CliError::input(name, problem))
+            }
+        }
+    }
+}
+
+fn of_results(names: [&String; 2], tolerance: f64) -> Result<Review, CliError> {
+    // Both are looked for, and folders read, before anything is built.
+    let places = [Place::find(names[0])?, Place::find(names[1])?];
+    for place in &places {
+        if let Place::Folder(folder) = place {
+            results(folder)?;
+        }
+    }
+    let mut workshop = Workshop::default();
+    let [a, b] = places;
+    let folders = [(names[0], a), (names[1], b)].map(|(name, place)| match place {
+        Place::Folder(folder) => Ok(folder),
+        Place::Revision(commit) => workshop.results(name, &commit),
+    });
+    let [base, head] = folders;
+    let folders = [base?, head?];
+    let (base, head) = (results(&folders[0])?, results(&folders[1])?);
+    let mut figure = |side, path: &str| {
+        interrupt::check()?;
+        let folder = if side == Side::Base { &folders[0] } else { &folders[1] };
+        read(&folder.join(path))
+    };
+    review::results(names.map(String::as_str), &base, &head, tolerance, &mut figure)
+}
+
+fn results(folder: &Path) -> Result<Results, CliError> {
+    let path = folder.join(SUMMARY);
+    let text = files::text_of(&path, read(&path)?)?;
+    Ok(review::read(&path.display().to_string(), &text)?)
+}
+
+/// A file of results: nothing else is opened, a pipe least of all.
+fn read(path: &Path) -> Result<Vec<u8>, CliError> {
+    let fault = |source| CliError::File { path: path.display().to_string(), action: "reading", source };
+    if !std::fs::metadata(path).map_err(fault)?.is_file() {
+        return Err(CliError::input(&path.display().to_string(), "expected a file"));
+    }
+    files::read_at_most(path, MAX_FILE)
+}
+
+fn of_snapshots(folder: &Path, tolerance: f64) -> Result<Review, CliError> {
+    let fault = |source| CliError::File { path: folder.display().to_string(), action: "listing", source };
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(fault)? {
+        // A name that is no text is none of insta's.
+        names.extend(entry.map_err(fault)?.file_name().into_string());
+    }
+    names.sort();
+    let text = |name: &str| {
+        let path = folder.join(name);
+        files::text_of(&path, read(&path)?)
+    };
+    let mut pending = Vec::new();
+    for name in names.iter().filter_map(|n| n.strip_suffix(PENDING)) {
+        let accepted = format!("{name}{ACCEPTED}");
+        let accepted = names.contains(&accepted).then(|| text(&accepted)).transpose()?;
+        let new = text(&format!("{name}{PENDING}"))?;
+        pending.push(Pending { name: name.to_owned(), accepted, pending: new });
+    }
+    let accepted = names.iter().filter(|n| n.ends_with(ACCEPTED)).count();
+    let replaced = pending.iter().filter(|p| p.accepted.is_some()).count();
+    let sides = [ACCEPTED, PENDING].map(|ending| folder.join(format!("*{ending}")).display().to_string());
+    let sides = [sides[0].as_str(), sides[1].as_str()];
+    Ok(review::snapshots(sides, &pending, accepted - replaced, tolerance))
+}

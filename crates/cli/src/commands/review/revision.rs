@@ -1,0 +1,169 @@
+//! Results of a git revision: a worktree of its own, built and run, and removed again.
+
+use crate::error::CliError;
+use crate::{commands::quoted, interrupt};
+use std::ffi::{OsStr, OsString};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Duration;
+use tempfile::TempDir;
+
+/// How often a running program is looked at.
+const PAUSE: Duration = Duration::from_millis(50);
+
+/// The process group that is running, 0 for none.
+static RUNNING: AtomicU32 = AtomicU32::new(0);
+
+/// The commit of a revision; none where git knows no such revision.
+pub(super) fn commit(name: &str) -> Result<Option<String>, CliError> {
+    if name.is_empty() || name.starts_with('-') {
+        return Ok(None);
+    }
+    let mut git = Command::new("git");
+    git.args(["rev-parse", "--verify", "--quiet", "--end-of-options", &format!("{name}^{{commit}}")]);
+    let output = git.stdin(Stdio::null()).output().map_err(|e| not_started("git", &e))?;
+    let commit = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    let is_commit = commit.len() >= 40 && commit.bytes().all(|b| b.is_ascii_hexdigit());
+    Ok((output.status.success() && is_commit).then_some(commit))
+}
+
+/// A temporary folder for everything that revisions need, made for the first of them. Their common parts are built once.
+#[derive(Default)]
+pub(super) struct Workshop {
+    folder: Option<TempDir>,
+    /// Revisions made so far.
+    made: usize,
+}
+
+impl Workshop {
+    /// The results of a commit, in a folder that lasts as long as this.
+    pub(super) fn results(&mut self, name: &str, commit: &str) -> Result<PathBuf, CliError> {
+        let folder = self.folder()?;
+        self.made += 1;
+        let worktree = Worktree { path: folder.join(format!("worktree-{}", self.made)) };
+        let (results, target) = (folder.join(format!("results-{}", self.made)), folder.join("target"));
+        eprintln!("{name}: taking out {} into {}", &commit[..12], worktree.path.display());
+        let mut git = Command::new("git");
+        git.args(["worktree", "add", "--quiet", "--detach", "--force"]).arg(&worktree.path).arg(commit);
+        succeeds(name, git, &[0])?;
+
+        eprintln!("{name}: building");
+        let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo")));
+        cargo.args(["build", "--release", "--quiet", "-p", "tigereye-cli"]).current_dir(&worktree.path);
+        cargo.env("CARGO_TARGET_DIR", &target);
+        succeeds(name, cargo, &[0])?;
+
+        eprintln!("{name}: running reproduce");
+        let program = target.join("release").join(format!("tigereye{}", std::env::consts::EXE_SUFFIX));
+        let mut reproduce = Command::new(program);
+        // Its exit code is 1 where a check failed: that is a result, too.
+        reproduce.args([OsStr::new("reproduce"), OsStr::new("--out"), results.as_os_str()]);
+        succeeds(name, reproduce, &[0, 1])?;
+        Ok(results)
+    }
+
+    fn folder(&mut self) -> Result<PathBuf, CliError> {
+        if let Some(folder) = &self.folder {
+            return Ok(folder.path().to_path_buf());
+        }
+        let fault = |source| CliError::File {
+            path: std::env::temp_dir().display().to_string(),
+            action: "making a folder",
+            source,
+        };
+        let folder = tempfile::Builder::new().prefix("tigereye-review-").tempdir().map_err(fault)?;
+        // As git writes it: without links.
+        let path = folder.path().canonicalize().map_err(fault)?;
+        self.folder = Some(folder);
+        Ok(path)
+    }
+}
+
+/// A worktree, removed at the end, however that comes.
+struct Worktree {
+    path: PathBuf,
+}
+
+impl Drop for Worktree {
+    fn drop(&mut self) {
+        let git = |args: &[&OsStr]| {
+            let mut git = Command::new("git");
+            git.args(args).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+            // A second interrupt must not reach it halfway.
+            in_own_group(&mut git);
+            git.status().is_ok_and(|s| s.success())
+        };
+        let words = |words: [&'static str; 3]| words.map(OsStr::new);
+        let [a, b, c] = words(["worktree", "remove", "--force"]);
+        if !git(&[a, b, c, self.path.as_os_str()]) {
+            // Never added, or half: the folder goes with its parent, git forgets it here.
+            let _ = std::fs::remove_dir_all(&self.path);
+            git(&words(["worktree", "prune", "--expire=now"]));
+        }
+    }
+}
+
+/// Runs a program to its end; an interrupt ends it, too.
+fn succeeds(name: &str, mut command: Command, codes: &[i32]) -> Result<(), CliError> {
+    interrupt::check()?;
+    let program =
+        Path::new(command.get_program()).file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let words: Vec<String> = std::iter::once(program.clone())
+        .chain(command.get_args().map(|w| quoted(&w.to_string_lossy())))
+        .collect();
+    command.stdin(Stdio::null()).stdout(Stdio::null());
+    in_own_group(&mut command);
+    let mut child = command.spawn().map_err(|e| not_started(&program, &e))?;
+    RUNNING.store(child.id(), Ordering::SeqCst);
+    let status = wait(&mut child);
+    RUNNING.store(0, Ordering::SeqCst);
+    let status = status?;
+    if status.code().is_some_and(|c| codes.contains(&c)) {
+        Ok(())
+    } else {
+        Err(CliError::input(name, format!("`{}` ended with {status}", words.join(" "))))
+    }
+}
+
+fn wait(child: &mut Child) -> Result<ExitStatus, CliError> {
+    let fault =
+        |source| CliError::File { path: "a program".to_owned(), action: "waiting for its end", source };
+    let mut asked = false;
+    loop {
+        if let Some(status) = child.try_wait().map_err(fault)? {
+            return if asked { Err(CliError::Interrupted) } else { Ok(status) };
+        }
+        if interrupt::asked() && !asked {
+            asked = true;
+            end_group(child.id());
+        }
+        std::thread::sleep(PAUSE);
+    }
+}
+
+/// Ends what is running, for a process that ends right now. Worktrees stay; git forgets them once their folder is gone.
+pub(crate) fn abandon() {
+    end_group(RUNNING.load(Ordering::SeqCst));
+}
+
+/// Compilers are children of children: all of them end together, and not by a Ctrl-C that only we should answer.
+#[cfg(unix)]
+fn in_own_group(command: &mut Command) {
+    use std::os::unix::process::CommandExt;
+    command.process_group(0);
+}
+
+#[cfg(not(unix))]
+fn in_own_group(_command: &mut Command) {}
+
+fn end_group(id: u32) {
+    if id != 0 && cfg!(unix) {
+        // Where there is no `kill`, the programs end by themselves.
+        let _ = Command::new("kill").args(["-TERM", "--", &format!("-{id}")]).stderr(Stdio::null()).status();
+    }
+}
+
+fn not_started(program: &str, error: &std::io::Error) -> CliError {
+    CliError::Input(format!("cannot run {program}: {error}"))
+}

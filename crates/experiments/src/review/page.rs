@@ -1,0 +1,397 @@
+//! A review as one page: what moved in tables and pictures, nothing from outside.
+
+use super::words::counts;
+use super::{
+    Entry, ExperimentReview, FigureReview, Kind, NOISE, NumberReview, Picture, Review, Side, State, Subject,
+    Value,
+};
+use crate::report::numbers::{counted, digits_apart, duration, number, number_with};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
+
+/// Digits of a change after the first one.
+const CHANGE_DIGITS: usize = 1;
+
+/// Forbids everything that is not on the page.
+const POLICY: &str =
+    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+
+/// A review as one page that needs no other file: style, script and pictures are inside.
+///
+/// Those that moved stand in the order of how much they did, the unchanged ones in a closed list at the end. Without
+/// scripts, and in print, the pictures stand side by side.
+#[must_use]
+pub fn html(review: &Review) -> String {
+    let (moved, unchanged): (Vec<_>, Vec<_>) =
+        review.experiments.iter().partition(|e| e.state != State::Unchanged);
+    let page = markup! {
+        (DOCTYPE)
+        html lang="en" {
+            (head(moved.len(), review.subject))
+            body {
+                (masthead(review))
+                main {
+                    (result(review))
+                    @if !moved.is_empty() {
+                        (contents(&moved))
+                        section.experiments aria-labelledby="details" {
+                            h2 #details { "In detail" }
+                            @for (i, e) in moved.iter().enumerate() { (article(review, i, e)) }
+                        }
+                    }
+                    (list_of_unchanged(&unchanged))
+                }
+                footer.page {
+                    p {
+                        "Changes are relative to the larger of both values, or to " (number(NOISE))
+                        " where both are smaller. Seconds depend on the machine and never count."
+                        @if review.subject == Subject::Results { " review.json beside this page holds the same for programs." }
+                    }
+                }
+                script { (PreEscaped(include_str!("page.js"))) }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn head(moved: usize, subject: Subject) -> Markup {
+    markup! {
+        head {
+            meta charset="utf-8";
+            meta http-equiv="Content-Security-Policy" content=(POLICY);
+            meta name="viewport" content="width=device-width, initial-scale=1";
+            meta name="color-scheme" content="light dark";
+            title { "tigereye review: " (headline(moved, subject)) }
+            style { (PreEscaped(include_str!("../report/style.css"))) (PreEscaped(include_str!("page.css"))) }
+        }
+    }
+}
+
+fn headline(moved: usize, subject: Subject) -> String {
+    match moved {
+        0 => "nothing moved".to_owned(),
+        n => format!("{} moved", counted(n, subject.noun())),
+    }
+}
+
+fn masthead(review: &Review) -> Markup {
+    markup! {
+        header.page {
+            h1 { "What moved" }
+            dl.sides {
+                div { dt { (side(review, Side::Base)) } dd { code { (review.base) } } }
+                div { dt { (side(review, Side::Head)) } dd { code { (review.head) } } }
+                div { dt { "Tolerance" } dd { (number(review.tolerance)) ", relative" } }
+            }
+        }
+    }
+}
+
+/// What a side is called.
+const fn side(review: &Review, side: Side) -> &'static str {
+    match (review.subject, side) {
+        (Subject::Results, Side::Base) => "Before",
+        (Subject::Results, Side::Head) => "After",
+        (Subject::Snapshots { .. }, Side::Base) => "Accepted",
+        (Subject::Snapshots { .. }, Side::Head) => "Pending",
+    }
+}
+
+fn result(review: &Review) -> Markup {
+    let moved = review.experiments.len() - review.count(State::Unchanged);
+    let headline = headline(moved, review.subject);
+    let [states, numbers] = counts(review);
+    markup! {
+        section.result.(if moved > 0 { "moved" } else { "passed" }) aria-labelledby="result" {
+            h2 #result { "Result" }
+            p.headline { (headline[..1].to_uppercase()) (headline[1..]) "." }
+            p { (states) ". " (numbers) "." }
+        }
+    }
+}
+
+/// The experiments that moved, with what moved most.
+fn contents(moved: &[&ExperimentReview]) -> Markup {
+    markup! {
+        section.contents aria-labelledby="list" {
+            h2 #list { "By how much" }
+            div.scroll tabindex="0" role="region" aria-label="By how much" {
+                table.moved-list {
+                    thead {
+                        tr {
+                            th scope="col" { "Name" }
+                            th scope="col" { "State" }
+                            th.number scope="col" { "Largest change" }
+                            th scope="col" { "Of" }
+                        }
+                    }
+                    tbody {
+                        @for (i, e) in moved.iter().enumerate() {
+                            tr {
+                                th scope="row" { a href={ "#moved-" (i + 1) } { (e.title) } }
+                                td { (state(e)) }
+                                td.number { (change(e.change)) }
+                                td { (e.concern) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn state(e: &ExperimentReview) -> Markup {
+    let verdicts = e.verdicts_changed();
+    markup! {
+        span.state.(e.state.name()) { (e.state.name()) }
+        @if verdicts > 0 { ", " span.verdict.failed { (counted(verdicts, "verdict")) " changed" } }
+    }
+}
+
+fn change(change: f64) -> Markup {
+    if change.is_finite() {
+        number_with(change, CHANGE_DIGITS)
+    } else {
+        markup! { span aria-hidden="true" { "–" } span.unseen { "no number" } }
+    }
+}
+
+fn article(review: &Review, index: usize, e: &ExperimentReview) -> Markup {
+    let id = format!("moved-{}", index + 1);
+    let heading = format!("{id}--title");
+    let seconds = |s: Option<f64>| s.map_or_else(|| "none".to_owned(), duration);
+    let of_kind =
+        |work: bool| e.numbers.iter().filter(|n| (n.kind == Kind::Work) == work).collect::<Vec<_>>();
+    let (moved, still): (Vec<_>, Vec<_>) = e.figures.iter().partition(|f| f.state != State::Unchanged);
+    markup! {
+        article #(id) aria-labelledby=(heading) {
+            h3 #(heading) { (e.title) }
+            p.facts {
+                span { (state(e)) }
+                @if e.title != e.slug { span { (e.slug) } }
+                @if e.base_seconds.is_some() || e.head_seconds.is_some() {
+                    span { "Time: " (seconds(e.base_seconds)) " → " (seconds(e.head_seconds)) }
+                }
+            }
+            @for f in moved { (figure(review, e, f)) }
+            @if !still.is_empty() {
+                p.unchanged-figures {
+                    "Unchanged figures: "
+                    @for (i, f) in still.iter().enumerate() { @if i > 0 { ", " } (f.name) }
+                }
+            }
+            (numbers(review, &e.title, &of_kind(false)))
+            @let work = of_kind(true);
+            @if !work.is_empty() {
+                details {
+                    summary { "Work: " (counted(work.len(), "counter")) " moved" }
+                    (numbers(review, &format!("work of {}", e.title), &work))
+                }
+            }
+            @if e.still > 0 {
+                p.unchanged-figures { (counted(e.still, review.subject.number())) " within the tolerance" }
+            }
+        }
+    }
+}
+
+fn figure(review: &Review, e: &ExperimentReview, f: &FigureReview) -> Markup {
+    let alt = |side| match side {
+        Side::Base => format!("Figure {} of {} before, in {}", f.name, e.slug, review.base),
+        Side::Head => format!("Figure {} of {} after, in {}", f.name, e.slug, review.head),
+    };
+    let shown = |picture: &Picture, at: Side| {
+        markup! {
+            figure {
+                (image(&picture.png, picture.size, &alt(at)))
+                figcaption { (side(review, at)) ": " (review_side(review, at)) }
+            }
+        }
+    };
+    markup! {
+        div.figure {
+            @match (&f.base, &f.head, &f.difference) {
+                (Some(base), Some(head), Some(d)) => {
+                    @let share = 100.0 * d.differing as f64 / d.pixels.max(1) as f64;
+                    p {
+                        b { "Figure " (f.name) ": " }
+                        (counted(usize::try_from(d.differing).unwrap_or(usize::MAX), "pixel"))
+                        " of " (crate::report::numbers::count(d.pixels)) " differ"
+                        @if d.differing == 1 { "s" }
+                        " (" (number_with(share, 2)) " %), by " (d.largest) " of 255 at most"
+                    }
+                    div.beside.pair.wide[base.size[0] > 2 * base.size[1]] {
+                        div.slider {
+                            div.stack.beside { (shown(base, Side::Base)) (shown(head, Side::Head)) }
+                            div.bar {
+                                label for=(input_id(e, f)) {
+                                    "Divider: left of it " (side(review, Side::Base).to_lowercase())
+                                    ", right of it " (side(review, Side::Head).to_lowercase())
+                                    " (figure " (f.name) ")"
+                                }
+                                span aria-hidden="true" { (side(review, Side::Base)) }
+                                input #(input_id(e, f)) type="range" min="0" max="100" step="1" value="50";
+                                span aria-hidden="true" { (side(review, Side::Head)) }
+                            }
+                        }
+                        figure {
+                            (image(&d.map, base.size, &format!(
+                                "Map of the {} pixels in which figure {} of {} differs", d.differing, f.name, e.slug
+                            )))
+                            figcaption {
+                                "Difference: " span.legend aria-hidden="true" {} " red, amplified so that " (d.largest)
+                                " of 255 is full red, on the faded figure"
+                            }
+                        }
+                    }
+                },
+                (Some(base), Some(head), None) => {
+                    p {
+                        b { "Figure " (f.name) ": " } "differs in size, "
+                        (size(base.size)) " → " (size(head.size)) " pixels"
+                    }
+                    div.beside { (shown(base, Side::Base)) (shown(head, Side::Head)) }
+                },
+                (base, head, _) => {
+                    p { b { "Figure " (f.name) ": " } span.state.(f.state.name()) { (f.state.name()) } }
+                    div.beside {
+                        @if let Some(base) = base { (shown(base, Side::Base)) }
+                        @if let Some(head) = head { (shown(head, Side::Head)) }
+                    }
+                },
+            }
+        }
+    }
+}
+
+fn review_side(review: &Review, side: Side) -> &str {
+    match side {
+        Side::Base => &review.base,
+        Side::Head => &review.head,
+    }
+}
+
+/// An id that no other figure has: slugs and names have neither colon.
+fn input_id(e: &ExperimentReview, f: &FigureReview) -> String {
+    let plain = |text: &str| text.bytes().map(|b| format!("{b:02x}")).collect::<String>();
+    format!("divider-{}-{}", plain(&e.slug), plain(&f.name))
+}
+
+fn size([width, height]: [u32; 2]) -> String {
+    format!("{width} × {height}")
+}
+
+fn image(png: &[u8], [width, height]: [u32; 2], alt: &str) -> Markup {
+    markup! {
+        div.plate {
+            img src={ "data:image/png;base64," (STANDARD.encode(png)) } alt=(alt) width=(width) height=(height)
+                style={ "--width:" (width) "px" };
+        }
+    }
+}
+
+/// The numbers that moved.
+fn numbers(review: &Review, title: &str, numbers: &[&NumberReview]) -> Markup {
+    let has =
+        |what: fn(&Entry) -> bool| numbers.iter().any(|n| [&n.base, &n.head].into_iter().flatten().any(what));
+    let checks = numbers.iter().any(|n| n.kind == Kind::Check);
+    let (verdicts, expected) = (has(|e| e.passed.is_some()), has(|e| e.expected.is_some()));
+    let what = match (checks, review.subject) {
+        (true, _) => "Check",
+        (_, Subject::Snapshots { .. }) => "Line",
+        _ => "Counter",
+    };
+    markup! {
+        @if !numbers.is_empty() {
+            div.scroll tabindex="0" role="region" aria-label={ "What moved: " (title) } {
+                table {
+                    thead {
+                        tr {
+                            th scope="col" { (what) }
+                            th.number scope="col" { (side(review, Side::Base)) }
+                            th.number scope="col" { (side(review, Side::Head)) }
+                            th.number scope="col" { "Relative change" }
+                            @if verdicts { th scope="col" { "Verdict" } }
+                            @if expected { th scope="col" { "Expected" } }
+                        }
+                    }
+                    tbody { @for n in numbers { (row(n, verdicts, expected)) } }
+                }
+            }
+        }
+    }
+}
+
+fn row(n: &NumberReview, verdicts: bool, expected: bool) -> Markup {
+    let digits = match (&n.base, &n.head) {
+        (Some(Entry { value: Value::Number(a), .. }), Some(Entry { value: Value::Number(b), .. })) => {
+            digits_apart(*a, *b)
+        }
+        _ => digits_apart(0.0, 0.0),
+    };
+    let there = |state: State| markup! { span.state.(state.name()) { (state.name()) } };
+    markup! {
+        tr.failing[n.verdict_changed()] {
+            th scope="row" { (n.name) }
+            (cell(n.base.as_ref(), digits))
+            (cell(n.head.as_ref(), digits))
+            td.number {
+                @match n.state {
+                    State::Added | State::Gone => (there(n.state)),
+                    _ => (change(n.change)),
+                }
+            }
+            @if verdicts { td { (both(n, |e| e.passed.map(verdict))) } }
+            @if expected { td { (both(n, |e| e.expected.as_ref().map(|e| markup! { (e) }))) } }
+        }
+    }
+}
+
+fn cell(entry: Option<&Entry>, digits: usize) -> Markup {
+    match entry.map(|e| &e.value) {
+        None => markup! { td.number { span aria-hidden="true" { "–" } span.unseen { "none" } } },
+        Some(Value::Number(x)) => markup! { td.number { (number_with(*x, digits)) } },
+        Some(Value::Words(words)) => markup! { td.words { (words) } },
+    }
+}
+
+fn verdict(passed: bool) -> Markup {
+    let (class, sign) = if passed { ("passed", "✓") } else { ("failed", "✗") };
+    markup! { span.verdict.(class) { span aria-hidden="true" { (sign) " " } (class) } }
+}
+
+/// What both sides say, once where they say the same.
+fn both(n: &NumberReview, what: impl Fn(&Entry) -> Option<Markup>) -> Markup {
+    let [base, head] = [&n.base, &n.head].map(|e| e.as_ref().and_then(&what).map(PreEscaped::into_string));
+    let plain = |html: &Option<String>| html.as_ref().map(|h| PreEscaped(h.clone())).unwrap_or_default();
+    if base.is_none() || head.is_none() || base == head {
+        return plain(&head.or(base));
+    }
+    markup! { (plain(&base)) " " span.arrow { "→" } " " (plain(&head)) }
+}
+
+fn list_of_unchanged(unchanged: &[&ExperimentReview]) -> Markup {
+    markup! {
+        @if !unchanged.is_empty() {
+            section.note aria-labelledby="unchanged" {
+                h2 #unchanged { "Unchanged" }
+                details {
+                    summary { (unchanged.len()) " without movement beyond the tolerance" }
+                    ul {
+                        @for e in unchanged {
+                            li {
+                                (e.title)
+                                @if e.title != e.slug { " (" (e.slug) ")" }
+                                ": " (counted(e.still, "number")) ", " (counted(e.figures.len(), "figure"))
+                                @if e.change > 0.0 { ", largest change " (change(e.change)) }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

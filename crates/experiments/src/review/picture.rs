@@ -1,0 +1,180 @@
+//! Where two pictures differ, pixel by pixel.
+
+use super::{MAX_FILE, Picture, ReviewError};
+use std::io::Cursor;
+
+/// Largest picture, pixels.
+const MAX_PIXELS: u64 = 1 << 26;
+
+/// Red of the map's largest difference.
+const RED: [u8; 3] = [200, 0, 30];
+
+/// Share of red that the smallest difference has, of 255: it must be seen on a page.
+const LEAST_RED: u32 = 72;
+
+/// How two pictures of one size differ.
+#[derive(Clone, Debug)]
+pub(super) struct Difference {
+    pub(super) pixels: u64,
+    pub(super) differing: u64,
+    /// Largest difference of a channel, of 255.
+    pub(super) largest: u8,
+    /// Mean over all pixels of the largest difference of a channel, of 1.
+    pub(super) mean: f64,
+    /// A PNG: the first picture, faded to grey, red where they differ.
+    pub(super) map: Vec<u8>,
+}
+
+/// Red, green, blue and opacity of every pixel, row by row.
+pub(super) struct Pixels {
+    size: [u32; 2],
+    rgba: Vec<[u8; 4]>,
+}
+
+impl Pixels {
+    /// Decodes a PNG of 8 bits a channel or fewer.
+    pub(super) fn decode(file: &str, png: &[u8]) -> Result<Self, ReviewError> {
+        let fault = |problem: String| ReviewError::Picture { file: file.to_owned(), problem };
+        let limits = png::Limits { bytes: MAX_FILE as usize };
+        let mut decoder = png::Decoder::new_with_limits(Cursor::new(png), limits);
+        // Palettes and bits become bytes.
+        decoder.set_transformations(png::Transformations::EXPAND);
+        let mut reader = decoder.read_info().map_err(|e| fault(e.to_string()))?;
+        let size = [reader.info().width, reader.info().height];
+        let pixels = u64::from(size[0]) * u64::from(size[1]);
+        if pixels > MAX_PIXELS {
+            return Err(fault(format!("{pixels} pixels: expected at most {MAX_PIXELS}")));
+        }
+        if reader.info().interlaced {
+            return Err(fault("it is interlaced: expected plain rows".to_owned()));
+        }
+        let (colour, depth) = reader.output_color_type();
+        if depth != png::BitDepth::Eight {
+            return Err(fault("more than 8 bits a channel: expected 8".to_owned()));
+        }
+        let mut rgba = Vec::new();
+        // Row by row, so that memory grows with what is really there.
+        while let Some(row) = reader.next_row().map_err(|e| fault(e.to_string()))? {
+            rgba.extend(row.data().chunks_exact(colour.samples()).map(|p| match *p {
+                [grey] => [grey, grey, grey, 255],
+                [grey, a] => [grey, grey, grey, a],
+                [r, g, b] => [r, g, b, 255],
+                [r, g, b, a, ..] => [r, g, b, a],
+                [] => [0; 4],
+            }));
+        }
+        if rgba.len() as u64 != pixels {
+            return Err(fault("the rows do not fill the picture".to_owned()));
+        }
+        Ok(Self { size, rgba })
+    }
+
+    pub(super) fn picture(&self, png: Vec<u8>) -> Picture {
+        Picture { png, size: self.size }
+    }
+}
+
+/// How `head` differs from `base`; none where their sizes differ.
+pub(super) fn difference(base: &Pixels, head: &Pixels) -> Option<Difference> {
+    if base.size != head.size {
+        return None;
+    }
+    let of_pixel = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).map(|i| a[i].abs_diff(b[i])).max().unwrap_or(0);
+    let differences: Vec<u8> = base.rgba.iter().zip(&head.rgba).map(of_pixel).collect();
+    let largest = differences.iter().copied().max().unwrap_or(0);
+    let sum: u64 = differences.iter().map(|d| u64::from(*d)).sum();
+    let pixels = differences.len() as u64;
+    let map = base.rgba.iter().zip(&differences).flat_map(|(p, d)| colour(faded(*p), *d, largest)).collect();
+    Some(Difference {
+        pixels,
+        differing: differences.iter().filter(|d| **d > 0).count() as u64,
+        largest,
+        mean: sum as f64 / (pixels.max(1) as f64 * 255.0),
+        map: encode(base.size, map),
+    })
+}
+
+/// Brightness on white, in the upper quarter of the range.
+fn faded([r, g, b, a]: [u8; 4]) -> u8 {
+    let brightness = (54 * u32::from(r) + 183 * u32::from(g) + 19 * u32::from(b)) / 256;
+    let on_white = 255 - (255 - brightness) * u32::from(a) / 255;
+    (191 + on_white / 4) as u8
+}
+
+/// The map's pixel: red in proportion to the difference, grey where there is none.
+fn colour(grey: u8, difference: u8, largest: u8) -> [u8; 3] {
+    if difference == 0 {
+        return [grey; 3];
+    }
+    let red = LEAST_RED + (255 - LEAST_RED) * u32::from(difference) / u32::from(largest.max(1));
+    RED.map(|c| ((u32::from(c) * red + u32::from(grey) * (255 - red)) / 255) as u8)
+}
+
+/// A PNG of three bytes a pixel.
+fn encode([width, height]: [u32; 2], rgb: Vec<u8>) -> Vec<u8> {
+    let mut png = Vec::new();
+    let mut encoder = png::Encoder::new(&mut png, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&rgb));
+    written.expect("memory takes every picture of the size that was just decoded");
+    png
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(size: [u32; 2], colour: png::ColorType, data: &[u8]) -> Vec<u8> {
+        let mut png = Vec::new();
+        let mut encoder = png::Encoder::new(&mut png, size[0], size[1]);
+        encoder.set_color(colour);
+        encoder.write_header().and_then(|mut w| w.write_image_data(data)).expect("a PNG");
+        png
+    }
+
+    fn pixels(size: [u32; 2], colour: png::ColorType, data: &[u8]) -> Pixels {
+        Pixels::decode("p.png", &picture(size, colour, data)).expect("pixels")
+    }
+
+    #[test]
+    fn differences_are_counted_and_measured() {
+        let base = pixels([2, 2], png::ColorType::Grayscale, &[0, 10, 20, 255]);
+        let head = pixels([2, 2], png::ColorType::Grayscale, &[0, 13, 20, 204]);
+        let d = difference(&base, &head).expect("one size");
+        assert_eq!((d.pixels, d.differing, d.largest), (4, 2, 51));
+        assert!((d.mean - 54.0 / 1020.0).abs() < 1e-15);
+        let map = Pixels::decode("map", &d.map).expect("a map");
+        let reddish = |i: usize| map.rgba[i][0] > map.rgba[i][1];
+        assert_eq!([reddish(0), reddish(1), reddish(2), reddish(3)], [false, true, false, true]);
+        assert_eq!(map.rgba[3][..3], RED);
+    }
+
+    #[test]
+    fn colours_in_other_words_are_equal() {
+        let grey = pixels([1, 1], png::ColorType::Grayscale, &[7]);
+        let rgba = pixels([1, 1], png::ColorType::Rgba, &[7, 7, 7, 255]);
+        assert_eq!(difference(&grey, &rgba).map(|d| (d.differing, d.largest)), Some((0, 0)));
+        let clear = pixels([1, 1], png::ColorType::GrayscaleAlpha, &[7, 250]);
+        assert_eq!(difference(&grey, &clear).map(|d| (d.differing, d.largest)), Some((1, 5)));
+    }
+
+    #[test]
+    fn sizes_must_agree() {
+        let [a, b] = [[2, 1], [1, 2]].map(|size| pixels(size, png::ColorType::Grayscale, &[0, 0]));
+        assert!(difference(&a, &b).is_none());
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused() {
+        let good = picture([2, 2], png::ColorType::Grayscale, &[1, 2, 3, 4]);
+        for end in 0..good.len() - 12 {
+            assert!(Pixels::decode("a/b.png", &good[..end]).is_err(), "{end}");
+        }
+        let error = Pixels::decode("a/b.png", b"text").err().expect("refused").to_string();
+        assert!(error.starts_with("a/b.png: "), "{error}");
+        // A header of a picture that no memory holds.
+        let mut huge = good;
+        huge[16..24].copy_from_slice(&[0x7f, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff]);
+        assert!(Pixels::decode("a/b.png", &huge).is_err());
+    }
+}

@@ -1,4 +1,4 @@
-//! The README's commands work as they stand.
+//! The commands of the README and of the tutorial work as they stand.
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
 use std::path::Path;
@@ -9,8 +9,8 @@ use std::process::Command;
 struct Instructions {
     /// Name and text of each file.
     files: Vec<(String, String)>,
-    /// Words of each command line, the program's name left out.
-    commands: Vec<Vec<String>>,
+    /// Words of each command line, the program's name left out, and the exit code it must have.
+    commands: Vec<(Vec<String>, i32)>,
 }
 
 impl Instructions {
@@ -62,16 +62,19 @@ fn joined(block: &[&str]) -> Vec<String> {
     lines
 }
 
-fn command(line: &str) -> Option<Vec<String>> {
+/// A line that ends in `# ends with 1` is to find a difference.
+fn command(line: &str) -> Option<(Vec<String>, i32)> {
     let line = line.trim();
+    let code = i32::from(line.ends_with("# ends with 1"));
     let rest = line.strip_prefix("$ ").unwrap_or(line).strip_prefix("tigereye ")?;
     let words = words(rest);
     // The whole reproduction has a test of its own.
-    Some(if words == ["reproduce"] {
+    let words = if words == ["reproduce"] {
         ["reproduce", "--only", "fig-3-1-emitters"].map(String::from).to_vec()
     } else {
         words
-    })
+    };
+    Some((words, code))
 }
 
 /// `NAME.ron` in backticks.
@@ -110,12 +113,12 @@ fn follow(instructions: &Instructions, folder: &Path) -> Result<(), String> {
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         std::fs::write(path, text).unwrap();
     }
-    for words in &instructions.commands {
+    for (words, code) in &instructions.commands {
         let output =
             Command::new(env!("CARGO_BIN_EXE_tigereye")).args(words).current_dir(folder).output().unwrap();
-        if output.status.code() != Some(0) {
+        if output.status.code() != Some(*code) {
             return Err(format!(
-                "tigereye {}\nends with {}:\n{}",
+                "tigereye {}\nends with {}, not {code}:\n{}",
                 words.join(" "),
                 output.status,
                 String::from_utf8_lossy(&output.stderr)
@@ -127,14 +130,22 @@ fn follow(instructions: &Instructions, folder: &Path) -> Result<(), String> {
 
 #[test]
 fn readme_commands_succeed_in_their_order() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../README.md");
-    let markdown = std::fs::read_to_string(&path).unwrap_or_else(|e| {
-        panic!("{}: {e}: the README whose commands are tested is missing", path.display())
-    });
+    follow_page("README.md");
+}
+
+#[test]
+fn tutorial_commands_succeed_in_their_order() {
+    follow_page("docs/tutorial.md");
+}
+
+fn follow_page(name: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name);
+    let markdown = std::fs::read_to_string(&path)
+        .unwrap_or_else(|e| panic!("{}: {e}: the page whose commands are tested is missing", path.display()));
     let instructions = Instructions::of(&markdown);
-    assert!(!instructions.commands.is_empty(), "README.md has no line `tigereye ...` in a ```sh block");
+    assert!(!instructions.commands.is_empty(), "{name} has no line `tigereye ...` in a ```sh block");
     let folder = tempfile::tempdir().unwrap();
-    follow(&instructions, folder.path()).unwrap_or_else(|problem| panic!("README.md: {problem}"));
+    follow(&instructions, folder.path()).unwrap_or_else(|problem| panic!("{name}: {problem}"));
 }
 
 const SAMPLE: &str = "\
@@ -147,6 +158,7 @@ tigereye reproduce   # everything
   tigereye info 'a b' \"c d\"  it\\'s ''
 tigereye field \\
     list
+tigereye compare a b # ends with 1
 ```
 
 tigereye not a command
@@ -183,13 +195,15 @@ tigereye ignored
 #[test]
 fn instructions_are_found_in_blocks_only() {
     let found = Instructions::of(SAMPLE);
-    let commands: [&[&str]; 4] = [
-        &["reproduce", "--only", "fig-3-1-emitters"],
-        &["info", "a b", "c d", "it's", ""],
-        &["field", "list"],
-        &["check", "b.ron"],
+    let commands: [(&[&str], i32); 5] = [
+        (&["reproduce", "--only", "fig-3-1-emitters"], 0),
+        (&["info", "a b", "c d", "it's", ""], 0),
+        (&["field", "list"], 0),
+        (&["compare", "a", "b"], 1),
+        (&["check", "b.ron"], 0),
     ];
-    assert_eq!(found.commands, commands);
+    let words = |words: &[&str]| words.iter().map(ToString::to_string).collect::<Vec<_>>();
+    assert_eq!(found.commands, commands.map(|(command, code)| (words(command), code)));
     let files = [("swirl.ron", "(a: 1)\n"), ("deep/b.ron", "(\n    b: 2,\n)\n")];
     assert_eq!(found.files, files.map(|(name, text)| (name.to_owned(), text.to_owned())));
 }
@@ -203,6 +217,8 @@ fn instructions_that_fail_are_named() {
     let bad = Instructions::of("```sh\ntigereye info nothing\n```\n");
     let problem = follow(&bad, folder.path()).unwrap_err();
     assert!(problem.contains("tigereye info nothing") && problem.contains("`nothing`"), "{problem}");
+    let same = Instructions::of("```sh\ntigereye compare x:size=4 x:size=4 # ends with 1\n```\n");
+    assert!(follow(&same, folder.path()).unwrap_err().contains("not 1"));
 }
 
 #[test]

@@ -80,7 +80,7 @@ pub(crate) struct FieldShowArgs {
     #[arg(long, value_name = "X,Y", value_parser = parse_cell)]
     pub(crate) light: Option<[usize; 2]>,
     /// Direction of the gradient, degrees, a multiple of 22.5.
-    #[arg(long, value_name = "DEG", default_value_t = 90.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 90.0)]
     pub(crate) slice_deg: f64,
     /// Scaling of transmission profiles; as `ltg` by default.
     #[arg(long, value_name = "RULE", value_parser = parse_normalization)]

@@ -3,7 +3,8 @@
 use crate::{interrupt, system};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 use tigereye_experiments::{Host, library};
 use tigereye_transport::Level;
@@ -30,6 +31,7 @@ pub(crate) struct FileHost {
     bar: ProgressBar,
     prefix: String,
     start: Instant,
+    opened: Mutex<Vec<String>>,
 }
 
 impl FileHost {
@@ -39,7 +41,19 @@ impl FileHost {
         let bar = ProgressBar::new(0);
         bar.set_style(sweep_style());
         bar.set_message(prefix.clone());
-        Self { folder, bar, prefix, start: Instant::now() }
+        Self { folder, bar, prefix, start: Instant::now(), opened: Mutex::default() }
+    }
+
+    /// Names of the files that were read.
+    pub(crate) fn opened(&self) -> Vec<String> {
+        self.opened.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    fn bytes(&self, file: &Path) -> Result<Vec<u8>, String> {
+        let bytes = crate::files::read(file).map_err(|e| e.to_string())?;
+        let name = file.to_string_lossy().into_owned();
+        self.opened.lock().unwrap_or_else(PoisonError::into_inner).push(name);
+        Ok(bytes)
     }
 
     /// Removes the progress line.
@@ -63,7 +77,7 @@ impl Host for FileHost {
 
     fn read(&self, path: &str) -> Result<Vec<u8>, String> {
         if let Some(file) = reference_file(path) {
-            return crate::files::read(&file).map_err(|e| e.to_string());
+            return self.bytes(&file);
         }
         let mut tried = Vec::new();
         let mut folder = self.folder.clone();
@@ -71,7 +85,7 @@ impl Host for FileHost {
             let Some(here) = folder else { break };
             let candidate = here.join(path);
             if candidate.is_file() {
-                return crate::files::read(&candidate).map_err(|e| e.to_string());
+                return self.bytes(&candidate);
             }
             folder = here.canonicalize().ok().and_then(|p| p.parent().map(PathBuf::from));
             tried.push(here.display().to_string());

@@ -11,7 +11,7 @@ use tigereye_experiments::input::{
     Derived, InputError, PlaneField, Reading, TEXT_MATRICES, TensorFile, is_readable, open,
 };
 use tigereye_experiments::provenance::hash_of_field;
-use tigereye_experiments::settings::{defined_plane, is_field_file, make_field};
+use tigereye_experiments::settings::{defined_plane, is_field_file, make_plane};
 use tigereye_experiments::spec::load_field;
 
 /// What INPUT is, before a plane is chosen.
@@ -80,6 +80,8 @@ pub(crate) struct Input {
     /// Position of the first point and distance between points, x and y.
     pub(crate) origin: [f64; 2],
     pub(crate) spacing: [f64; 2],
+    /// What a field file calls it.
+    pub(crate) title: Option<String>,
     /// Names of the files it was read from.
     pub(crate) files: Vec<String>,
     /// The format or `generator`.
@@ -129,6 +131,7 @@ impl Input {
             oblong,
             origin,
             spacing,
+            title: None,
             files: Vec::new(),
             kind,
             blake3,
@@ -156,33 +159,38 @@ impl Input {
         Ok(input)
     }
 
-    /// A field that is made and not read: a generator's, or that of a field file.
+    /// A generator's field.
     fn generated(text: &str, reading: &Reading) -> Result<Self, CliError> {
         let spec = tigereye_fields::parse_spec(text).map_err(|e| CliError::Input(e.to_string()))?;
         let field = tigereye_fields::generate(&spec.name, &spec.arguments)
             .map_err(|e| CliError::Input(e.to_string()))?;
-        Self::defined(text, field, reading, GENERATOR)
+        let story = vec!["made by a generator, row 0 on top, x right, y up".to_owned()];
+        Self::defined(text, PlaneField::new(field, story), reading, GENERATOR)
     }
 
-    /// The field of a `.field.ron`.
+    /// The field of a `.field.ron`. One that names a data file keeps what that file says of itself.
     fn of_field_file(name: &str, reading: &Reading) -> Result<Self, CliError> {
         let path = Path::new(name);
         let file = load_field(name, &files::read_text(path)?).map_err(|e| CliError::Input(e.to_string()))?;
         let host = FileHost::new(Some(files::folder_of(path).to_path_buf()), name.to_owned());
-        let field = make_field(&file.field, &host).map_err(|e| CliError::input(name, e))?;
+        let made = make_plane(&file.field, &host);
         host.finish();
-        let input = Self::defined(name, field, reading, FIELD_FILE)?;
-        Ok(Self { files: vec![name.to_owned()], ..input })
+        let (plane, kind) = made.map_err(|e| CliError::input(name, e))?;
+        let mut input = Self::defined(name, plane, reading, kind.unwrap_or(FIELD_FILE))?;
+        input.files = host.opened();
+        input.files.push(name.to_owned());
+        input.title = Some(file.title);
+        Ok(input)
     }
 
     fn defined(
         name: &str,
-        field: Field<Tensor2>,
+        plane: PlaneField,
         reading: &Reading,
         kind: &'static str,
     ) -> Result<Self, CliError> {
-        let blake3 = hash_of_field(&field);
-        let plane = defined_plane(field, reading).map_err(|e| CliError::input(name, e))?;
+        let blake3 = hash_of_field(&plane.field);
+        let plane = defined_plane(plane, reading).map_err(|e| CliError::input(name, e))?;
         Ok(Self::placed(name.to_owned(), plane, Vec::new(), kind, blake3))
     }
 

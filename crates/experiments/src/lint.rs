@@ -1,12 +1,13 @@
 //! What is odd about a tensor field, before light runs through it.
 
 use tigereye_core::{Cell, Eigenvalues, Field, Svd, Tensor2, is_totally_anisotropic};
+use tigereye_lines::ellipse_tensors;
 
 /// Something that may be meant so, or not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Oddity {
-    /// Short name: `discontinuous`, `indefinite`, `negative`, `zero`, `determinant`, `total-anisotropy`, `isotropic`,
-    /// `asymmetric`, `thin`.
+    /// Short name: `not-finite`, `zero`, `total-anisotropy`, `indefinite`, `negative`, `discontinuous`, `determinant`,
+    /// `asymmetric`, `isotropic`, `thin`.
     pub kind: &'static str,
     /// What it is and what follows, in a sentence.
     pub words: String,
@@ -91,12 +92,8 @@ pub fn lint(field: &Field<Tensor2>) -> Vec<Oddity> {
 /// a rotation times its axes: ellipses are compared, not components.
 fn jumps(field: &Field<Tensor2>) -> Option<Oddity> {
     let grid = field.grid();
-    let ellipse = |cell: Cell| {
-        let t = field.at(cell);
-        let [a, b, c, d] = t.components();
-        // t times its transpose.
-        [a * a + b * b, a * c + b * d, c * c + d * d]
-    };
+    let ellipses = ellipse_tensors(field);
+    let ellipse = |cell: Cell| ellipses.at(cell).components();
     let mut pairs = Vec::new();
     for cell in grid.iter() {
         // Directions 0 and 6: to the right and down.
@@ -188,6 +185,11 @@ mod tests {
             Tensor2::from_axes(if c.y < 5 { 0.3 } else { 0.3 + core::f64::consts::PI }, 2.0, 0.5)
         });
         assert!(!flipped.iter().any(|f| f.0 == "discontinuous"), "{flipped:?}");
+        // A third is not a half, and strength does not matter.
+        let third = kinds(12, |c| Tensor2::isotropic(if c.y < 5 { 1.0 } else { 0.7 }));
+        assert!(!third.iter().any(|f| f.0 == "discontinuous"), "{third:?}");
+        let strong = kinds(12, |c| Tensor2::isotropic(if c.y < 5 { 1e200 } else { 1e199 }));
+        assert!(strong.contains(&("discontinuous", 12)), "{strong:?}");
         let white =
             kinds(12, |c| if (c.x + c.y) % 2 == 0 { Tensor2::IDENTITY } else { Tensor2::isotropic(9.0) });
         assert!(!white.iter().any(|f| f.0 == "discontinuous"), "all are: {white:?}");

@@ -539,34 +539,54 @@ pub fn profile_of_expression(text: &str, directions: Directions) -> Result<Polar
 /// # Errors
 /// A sentence saying what is wrong with it.
 pub fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, String> {
+    make_plane(source, host).map(|(plane, _)| plane.field)
+}
+
+/// The field of a source with where it lies and what was read, and the format of its data file, where it has one.
+///
+/// # Errors
+/// A sentence saying what is wrong with it.
+pub fn make_plane(
+    source: &FieldSource,
+    host: &dyn Host,
+) -> Result<(PlaneField, Option<&'static str>), String> {
+    let made = |field| {
+        let story = vec!["made by a generator or formulas, row 0 on top, x right, y up".to_owned()];
+        (PlaneField::new(field, story), None)
+    };
     match source {
         FieldSource::Generator { name, parameters } => {
             let arguments = arguments_of(parameters)?;
-            tigereye_fields::generate(name, &arguments).map_err(|e| e.to_string())
+            tigereye_fields::generate(name, &arguments).map(made).map_err(|e| e.to_string())
         }
         FieldSource::Axes { width, height, phi, s1, s2 } => {
             let form = Form::Axes { phi: phi.clone(), s1: s1.clone(), s2: s2.clone() };
-            ExpressionField { width: *width, height: *height, form }.build().map_err(|e| e.to_string())
+            let field = ExpressionField { width: *width, height: *height, form }.build();
+            field.map(made).map_err(|e| e.to_string())
         }
         FieldSource::Components { width, height, xx, xy, yx, yy } => {
             let form = Form::Components { xx: xx.clone(), xy: xy.clone(), yx: yx.clone(), yy: yy.clone() };
-            ExpressionField { width: *width, height: *height, form }.build().map_err(|e| e.to_string())
+            let field = ExpressionField { width: *width, height: *height, form }.build();
+            field.map(made).map_err(|e| e.to_string())
         }
         FieldSource::File { path, stride, .. } => {
             let fault = |e: &dyn std::fmt::Display| format!("{path}: {e}");
             let reading = reading_of(source).map_err(|e| fault(&e))?;
-            if is_field_file(path) {
-                let field = field_in_file(path, host)?;
-                let plane = defined_plane(field, &reading).map_err(|e| fault(&e))?;
-                return strided(&plane.field, *stride).map_err(|e| fault(&e));
-            }
-            let file = input::open(path, &reading, &mut |name| host.read(name)).map_err(|e| fault(&e))?;
-            let plane = file.plane(&reading).map_err(|e| fault(&e))?;
-            file.remarks()
-                .iter()
-                .chain(&plane.oblong())
-                .for_each(|words| host.remark(&format!("{path}: {words}")));
-            strided(&plane.field, *stride).map_err(|e| fault(&e))
+            let (mut plane, kind) = if is_field_file(path) {
+                let (plane, kind) = plane_in_file(path, host)?;
+                (defined_plane(plane, &reading).map_err(|e| fault(&e))?, kind)
+            } else {
+                let file = input::open(path, &reading, &mut |name| host.read(name)).map_err(|e| fault(&e))?;
+                let plane = file.plane(&reading).map_err(|e| fault(&e))?;
+                file.remarks()
+                    .iter()
+                    .chain(&plane.oblong())
+                    .for_each(|words| host.remark(&format!("{path}: {words}")));
+                (plane, Some(file.kind))
+            };
+            plane.field = strided(&plane.field, *stride).map_err(|e| fault(&e))?;
+            plane.spacing = plane.spacing.map(|s| s * *stride as f64);
+            Ok((plane, kind))
         }
     }
 }
@@ -578,24 +598,36 @@ pub fn is_field_file(name: &str) -> bool {
 }
 
 /// The field that a file of its own defines.
-fn field_in_file(path: &str, host: &dyn Host) -> Result<Field<Tensor2>, String> {
+fn plane_in_file(path: &str, host: &dyn Host) -> Result<(PlaneField, Option<&'static str>), String> {
     let text = String::from_utf8(host.read(path)?).map_err(|_| format!("{path}: expected UTF-8 text"))?;
-    let file = spec::load_field(path, &text).map_err(|e| e.to_string())?;
-    match &file.field {
+    let mut file = spec::load_field(path, &text).map_err(|e| e.to_string())?;
+    if let FieldSource::File { path: other, mask, .. } = &mut file.field {
         // One might lead back to the first.
-        FieldSource::File { path: other, .. } if is_field_file(other) => {
-            Err(format!("{path}: its field is in {other}: expected a generator, formulas or a data file"))
+        if is_field_file(other) {
+            return Err(format!(
+                "{path}: its field is in {other}: expected a generator, formulas or a data file"
+            ));
         }
-        source => make_field(source, host).map_err(|e| format!("{path}: {e}")),
+        // Names are those of files beside it, where they are there.
+        for name in std::iter::once(other).chain(mask) {
+            if let Some(folder) = path.rfind(['/', '\\']) {
+                let beside = format!("{}{name}", &path[..=folder]);
+                if host.has(&beside) {
+                    *name = beside;
+                }
+            }
+        }
     }
+    make_plane(&file.field, host).map_err(|e| format!("{path}: {e}"))
 }
 
 /// A field that needs no reading, cropped and resampled.
 ///
 /// # Errors
 /// [`input::InputError::Needless`] for what only data files have, and as [`PlaneField::cropped`] and [`PlaneField::resampled`].
-pub fn defined_plane(field: Field<Tensor2>, reading: &Reading) -> Result<PlaneField, input::InputError> {
-    let choice = reading.choice.resolve([field.grid().width(), field.grid().height(), 1])?;
+pub fn defined_plane(plane: PlaneField, reading: &Reading) -> Result<PlaneField, input::InputError> {
+    let grid = plane.field.grid();
+    let choice = reading.choice.resolve([grid.width(), grid.height(), 1])?;
     let of_files = [
         (choice.0 != Plane::Xy, "--plane"),
         (reading.order.is_some(), "--order"),
@@ -608,11 +640,10 @@ pub fn defined_plane(field: Field<Tensor2>, reading: &Reading) -> Result<PlaneFi
         (reading.limit.is_some(), "--limit"),
     ];
     if let Some((_, option)) = of_files.into_iter().find(|(is_given, _)| *is_given) {
-        let why = "a generator's or formula's tensors lie in the plane xy and need no reading";
+        let why = "the field is made by a generator or a field file and lies in the plane xy";
         return Err(input::InputError::Needless { option, why });
     }
-    let story = vec!["made by a generator or formulas, row 0 on top, x right, y up".to_owned()];
-    PlaneField::new(field, story).cropped(reading)?.resampled(reading)
+    plane.cropped(reading)?.resampled(reading)
 }
 
 /// What an experiment says about a file; nothing for other sources.

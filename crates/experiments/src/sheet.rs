@@ -50,7 +50,7 @@ pub enum SheetError {
         height: usize,
     },
     /// A direction that is no sample.
-    #[error("a slice at {deg} degrees does not exist: expected a multiple of {step}")]
+    #[error("a slice at {deg} degrees does not exist: expected a multiple of {step} from 0 to {}", 360.0 - step)]
     Slice {
         /// Degrees asked for.
         deg: f64,
@@ -75,6 +75,8 @@ pub enum SheetError {
 const SAMPLES: usize = 16;
 /// Longest side of the field that the gradient is computed of; larger ones are averaged to it, so that a sheet takes seconds.
 const LONGEST: usize = 31;
+/// The same for the light.
+const LONGEST_LIT: usize = 128;
 /// Most steps of the light, and of a pulse of the gradient; light that is caught in rings would take thousands.
 const STEPS: usize = 1000;
 const PULSE_STEPS: usize = 200;
@@ -113,7 +115,7 @@ pub fn sheet(
             }),
         ),
         ("determinant".to_owned(), determinant(field)),
-        (format!("light of cell ({}, {})", light.x, light.y), lit(field, options, directions, light)?),
+        lit(field, options, directions, light)?,
         gradient(field, options, directions, sample as usize, observer)?,
     ];
     Ok(small_multiples(&panels, 2, &options.title))
@@ -199,20 +201,41 @@ fn lit(
     options: &SheetOptions,
     directions: Directions,
     light: Cell,
-) -> Result<Picture, SheetError> {
+) -> Result<(String, Picture), SheetError> {
+    let (coarse, size) = averaged(field, LONGEST_LIT)?;
+    let place = |at: usize, before: usize, after: usize| (at * after / before).min(after - 1);
+    let (before, after) = (field.grid(), coarse.grid());
+    let source = Cell::new(
+        place(light.x, before.width(), after.width()),
+        place(light.y, before.height(), after.height()),
+    );
+    let field = &coarse;
     let transmission = TransmissionField::from_tensors(field, directions, options.normalization)?;
     let scheme = Scheme::new(directions, SharedWeights::Thesis);
     let stopping = Stopping { rule: StoppingRule::FluxChange { threshold: 1e-3 }, max_iterations: STEPS };
-    let lights = [Light::continuous(light, PolarProfile::constant(directions, 1.0))];
+    let lights = [Light::continuous(source, PolarProfile::constant(directions, 1.0))];
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
     let outcome = EightLobe.propagate(&problem)?;
     let heat = HeatOptions {
         quantity: "energy of a cell / W".to_owned(),
         scale: HeatScale::Logarithmic { decades: 4.0 },
-        sources: vec![light],
+        sources: vec![source],
         ..HeatOptions::default()
     };
-    Ok(heat_map(&outcome.distribution.energy(), &heat))
+    let title = format!("light of cell ({}, {}){size}", light.x, light.y);
+    Ok((title, heat_map(&outcome.distribution.energy(), &heat)))
+}
+
+/// The field, or a smaller one that it is averaged to, with words that say so.
+fn averaged(field: &Field<Tensor2>, most: usize) -> Result<(Field<Tensor2>, String), SheetError> {
+    let (width, height) = (field.grid().width(), field.grid().height());
+    let longest = width.max(height);
+    if longest <= most {
+        return Ok((field.clone(), String::new()));
+    }
+    let fit = |n: usize| (n * most).div_ceil(longest).max(1);
+    let size = format!(", of the field averaged to {} × {} cells", fit(width), fit(height));
+    Ok((resampled(field, fit(width), fit(height))?, size))
 }
 
 fn gradient(
@@ -222,11 +245,8 @@ fn gradient(
     sample: usize,
     observer: &dyn SweepObserver,
 ) -> Result<(String, Picture), SheetError> {
-    let (width, height) = (field.grid().width(), field.grid().height());
-    let longest = width.max(height);
-    let fit = |n: usize| (n * LONGEST).div_ceil(longest).max(1);
-    let coarse = (longest > LONGEST).then(|| resampled(field, fit(width), fit(height))).transpose()?;
-    let field = coarse.as_ref().unwrap_or(field);
+    let (coarse, size) = averaged(field, LONGEST)?;
+    let field = &coarse;
     let transmission = TransmissionField::from_tensors(field, directions, options.normalization)?;
     let scheme = Scheme::new(directions, SharedWeights::Thesis);
     let settings = LtgSettings {
@@ -245,11 +265,6 @@ fn gradient(
         quantity: "LTG / (W/rad)".to_owned(),
         missing: Some("border, 0 by definition".to_owned()),
         ..HeatOptions::default()
-    };
-    let size = if coarse.is_some() {
-        format!(", of the field averaged to {} × {} cells", grid.width(), grid.height())
-    } else {
-        String::new()
     };
     Ok((format!("light transport gradient, {}°{size}", options.slice_deg), heat_map(&inner, &heat)))
 }

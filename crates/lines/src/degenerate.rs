@@ -41,7 +41,7 @@ impl DegeneratePoint {
     }
 }
 
-/// Numbers below this part of the largest are zero: what rounding leaves.
+/// Numbers below this part of their tensor's largest component are zero: what rounding leaves.
 const ROUNDING: f64 = 1e-12;
 
 /// All degenerate points between the centres of cells, row by row, of tensors interpolated component by component. Where
@@ -55,10 +55,9 @@ pub fn degenerate_points(field: &Field<Tensor2>) -> Vec<DegeneratePoint> {
     }
     let conformal = |t: &Tensor2| [t.xx() + t.yy(), t.yx() - t.xy()];
     let anticonformal = |t: &Tensor2| [t.xx() - t.yy(), t.xy() + t.yx()];
-    let largest = field.values().iter().map(Tensor2::max_abs).filter(|v| v.is_finite()).fold(0.0, f64::max);
     let mut found = Vec::new();
     for numbers in [field.map(anticonformal), field.map(conformal)] {
-        found.extend(Plane::new(grid, &numbers, ROUNDING * largest).zeros());
+        found.extend(Plane::new(field, &numbers).zeros());
     }
     found.sort_by(|a, b| {
         let key = |p: &DegeneratePoint| (p.position[1], p.position[0]);
@@ -80,9 +79,10 @@ struct Plane<'a> {
 const CORNERS: [(usize, usize); 4] = [(0, 1), (1, 1), (1, 0), (0, 0)];
 
 impl<'a> Plane<'a> {
-    fn new(grid: Grid, numbers: &'a Field<[f64; 2]>, tiny: f64) -> Self {
-        let zero = numbers.values().iter().map(|z| math::hypot(z[0], z[1]) <= tiny).collect();
-        Self { grid, numbers, zero }
+    fn new(field: &Field<Tensor2>, numbers: &'a Field<[f64; 2]>) -> Self {
+        let is_zero = |(z, t): (&[f64; 2], &Tensor2)| math::hypot(z[0], z[1]) <= ROUNDING * t.max_abs();
+        let zero = numbers.values().iter().zip(field.values()).map(is_zero).collect();
+        Self { grid: field.grid(), numbers, zero }
     }
 
     fn corners(&self, quad: Cell) -> [Cell; 4] {
@@ -153,6 +153,8 @@ impl<'a> Plane<'a> {
                     continue;
                 }
                 let (a, b) = (self.size(from), self.size(to));
+                // Nothing is known of a way around cells that are no numbers.
+                leaves |= !(a + b).is_finite();
                 let t = if a + b > 0.0 { a / (a + b) } else { 0.5 };
                 middle[0] += (1.0 - t) * from.x as f64 + t * to.x as f64;
                 middle[1] += (1.0 - t) * from.y as f64 + t * to.y as f64;
@@ -331,6 +333,33 @@ mod tests {
             with_points += usize::from(!degenerate_points(&field).is_empty());
         }
         assert!(with_points > 30);
+    }
+
+    /// What is around a cell without numbers is not known.
+    #[test]
+    fn broken_cells_hide_what_is_around_them() {
+        for bad in [f64::NAN, f64::INFINITY] {
+            let spec = parse_spec("wedge:size=21").expect("a generator");
+            let mut field = generate(&spec.name, &spec.arguments).expect("a field");
+            let broken = field.grid().index(Cell::new(10, 10));
+            field.values_mut()[broken] = Tensor2::isotropic(bad);
+            assert_eq!(degenerate_points(&field), []);
+            // Elsewhere it is no matter.
+            let mut field = generate(&spec.name, &spec.arguments).expect("a field");
+            let broken = field.grid().index(Cell::new(3, 15));
+            field.values_mut()[broken] = Tensor2::isotropic(bad);
+            assert_eq!(degenerate_points(&field).len(), 1);
+        }
+    }
+
+    /// Weak tensors have their points too.
+    #[test]
+    fn strength_does_not_matter() {
+        let spec = parse_spec("wedge:size=20").expect("a generator");
+        let plain = generate(&spec.name, &spec.arguments).expect("a field");
+        let mut strong = plain.map(|t| t.scaled(1e-9));
+        strong.values_mut()[0] = Tensor2::symmetric(1e9, 0.0, 1.0);
+        assert_eq!(degenerate_points(&strong).len(), degenerate_points(&plain).len());
     }
 
     #[test]

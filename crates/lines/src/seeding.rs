@@ -10,8 +10,9 @@ const CLOSEST: f64 = 0.5;
 const SHORTEST: f64 = 0.5;
 
 /// Lines about `separation` cells apart (at least 0.1), in an order that only depends on the field: seeds are tried beside the
-/// lines that are there, then in every cell (Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density, 1997).
-/// Fields without axes give no lines.
+/// lines that are there, then all over the field (Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density,
+/// 1997). A line keeps away from the others, not from itself: one that winds inwards does so to its longest length. Fields
+/// without axes give no lines.
 #[must_use]
 pub fn evenly_spaced(
     field: &Interpolated<'_>,
@@ -25,8 +26,10 @@ pub fn evenly_spaced(
     let mut lines: Vec<TensorLine> = Vec::new();
     let mut queue = VecDeque::new();
     let middle = [0.5 * right, 0.5 * bottom];
-    let everywhere =
-        (0..=bottom as usize).flat_map(|y| (0..=right as usize).map(move |x| [x as f64, y as f64]));
+    // Half a distance leaves no gap that a line would fit into.
+    let stride = (0.5 * separation).max(1.0);
+    let along = move |last: f64| (0..=(last / stride) as usize).map(move |i| i as f64 * stride);
+    let everywhere = along(bottom).flat_map(|y| along(right).map(move |x| [x, y]));
     for start in std::iter::once(middle).chain(everywhere) {
         queue.push_back(start);
         while let Some(seed) = queue.pop_front() {
@@ -38,7 +41,7 @@ pub fn evenly_spaced(
             if line.points.len() < 2 || line.length() < SHORTEST * separation {
                 continue;
             }
-            line.points.iter().for_each(|p| covered.add(*p));
+            covered.add(&line.points);
             queue.extend(beside(&line, separation));
             lines.push(line);
         }
@@ -68,12 +71,20 @@ struct Covered {
     columns: usize,
     rows: usize,
     side: f64,
+    /// Points of a line that are nearer to each other than this are one.
+    grain: f64,
 }
 
+/// Most squares along a side.
+const MAX_SQUARES: f64 = 1024.0;
+/// Distance of the points that are kept of a line, in parts of the distance of the lines.
+const GRAIN: f64 = 0.1;
+
 impl Covered {
-    fn new([right, bottom]: [f64; 2], side: f64) -> Self {
+    fn new([right, bottom]: [f64; 2], separation: f64) -> Self {
+        let side = separation.max(right.max(bottom) / MAX_SQUARES);
         let (columns, rows) = ((right / side) as usize + 1, (bottom / side) as usize + 1);
-        Self { squares: vec![Vec::new(); columns * rows], columns, rows, side }
+        Self { squares: vec![Vec::new(); columns * rows], columns, rows, side, grain: GRAIN * separation }
     }
 
     fn square(&self, p: [f64; 2]) -> (usize, usize) {
@@ -81,19 +92,26 @@ impl Covered {
         (index(p[0], self.columns), index(p[1], self.rows))
     }
 
-    fn add(&mut self, p: [f64; 2]) {
-        let (x, y) = self.square(p);
-        self.squares[y * self.columns + x].push(p);
+    fn add(&mut self, line: &[[f64; 2]]) {
+        let mut last = None;
+        for (i, p) in line.iter().enumerate() {
+            if i + 1 < line.len() && last.is_some_and(|q| distance(*p, q) < self.grain) {
+                continue;
+            }
+            last = Some(*p);
+            let (x, y) = self.square(*p);
+            self.squares[y * self.columns + x].push(*p);
+        }
     }
 
     /// Whether a point is within `reach`, at most a square's side.
     fn is_near(&self, p: [f64; 2], reach: f64) -> bool {
         let (x, y) = self.square(p);
         let around = |v: usize, n: usize| v.saturating_sub(1)..(v + 2).min(n);
-        around(y, self.rows).any(|y| {
-            around(x, self.columns)
-                .any(|x| self.squares[y * self.columns + x].iter().any(|q| distance(p, *q) < reach))
-        })
+        let near =
+            |q: &[f64; 2]| (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) < reach * reach;
+        around(y, self.rows)
+            .any(|y| around(x, self.columns).any(|x| self.squares[y * self.columns + x].iter().any(near)))
     }
 }
 
@@ -121,7 +139,9 @@ mod tests {
         for (i, a) in lines.iter().enumerate() {
             for b in &lines[i + 1..] {
                 let closest = a.points.iter().flat_map(|p| b.points.iter().map(|q| distance(*p, *q)));
-                assert!(closest.fold(f64::INFINITY, f64::min) >= CLOSEST * separation - 1e-9);
+                // Half of a grain may lie between the points that are compared.
+                let least = (CLOSEST - 0.5 * GRAIN) * separation;
+                assert!(closest.fold(f64::INFINITY, f64::min) >= least);
             }
         }
         for y in 0..21 {

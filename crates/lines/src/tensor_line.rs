@@ -55,11 +55,13 @@ impl TensorLine {
 
 /// Cosine of the largest turn within a step, 60 degrees.
 const LARGEST_TURN: f64 = 0.5;
+/// Longest line, in steps.
+const MAX_STEPS: f64 = 1e7;
 /// A step that would leave the field is halved as often, so that lines end at the border.
 const HALVINGS: usize = 16;
 
 /// The line through `seed`, followed in both directions by the classical Runge-Kutta method of fourth order with a fixed
-/// step. A seed outside of the field, or where the tensor has no axis, is a line of one point. Lines end where `keep` says
+/// step. A step that is not positive, or a length of more than 10^7 steps, gives a line of one point. A seed outside of the field, or where the tensor has no axis, is a line of one point. Lines end where `keep` says
 /// no to their next point.
 #[must_use]
 pub fn tensor_line(
@@ -69,6 +71,11 @@ pub fn tensor_line(
     options: &LineOptions,
     keep: &mut dyn FnMut([f64; 2]) -> bool,
 ) -> TensorLine {
+    // Steps that lead nowhere, or so many that they do not end.
+    let steps = options.length / options.step;
+    if !(options.step > 0.0 && options.step.is_finite() && steps <= MAX_STEPS) {
+        return TensorLine { points: vec![seed], seed: 0, ends: [LineEnd::Length; 2] };
+    }
     let Some(start) = field.direction(seed, family, options.least_anisotropy) else {
         let end = if field.at(seed).is_some() { LineEnd::Degenerate } else { LineEnd::Border };
         return TensorLine { points: vec![seed], seed: 0, ends: [end; 2] };
@@ -259,7 +266,16 @@ mod tests {
     #[test]
     fn impossible_steps_end_at_once() {
         let field = wedge();
-        for (step, length) in [(f64::NAN, 10.0), (0.1, f64::NAN), (f64::INFINITY, 10.0)] {
+        let impossible = [
+            (f64::NAN, 10.0),
+            (0.1, f64::NAN),
+            (f64::INFINITY, 10.0),
+            (0.0, 10.0),
+            (-0.1, 10.0),
+            (0.1, f64::INFINITY),
+            (1e-300, 1.0),
+        ];
+        for (step, length) in impossible {
             let options = LineOptions { step, length, ..LineOptions::default() };
             assert_eq!(follow(&field, [10.0, 10.0], Family::Major, &options).points.len(), 1);
         }

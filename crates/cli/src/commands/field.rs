@@ -68,7 +68,7 @@ pub(crate) fn show(args: &FieldShowArgs) -> Result<u8, CliError> {
     let input = Input::open_for_light(&args.input, &args.reading)?;
     input.check_apart(std::slice::from_ref(&args.output))?;
     let options = SheetOptions {
-        title: input.name.clone(),
+        title: input.title.clone().unwrap_or_else(|| input.name.clone()),
         normalization: input.normalization(args.normalization),
         light: args.light.map(|[x, y]| Cell::new(x, y)),
         slice_deg: args.slice_deg,

@@ -56,6 +56,27 @@ fn field_files_stand_where_generators_do() {
         &["--order has nothing to do"],
     );
     place.refuses(&["ltg", "inverse.field.ron", "-o", "inverse.field.ron"], &["inverse.field.ron"]);
+    // One that names a data file is that file, in every respect.
+    place.write(
+        "in/data.npy",
+        tigereye_io::npy::write_array(&[4, 4, 2, 2], &[2.0, 0.0, 0.0, 1.0].repeat(16)).unwrap(),
+    );
+    place.write(
+        "in/data.field.ron",
+        r#"(format: 1, title: "HEADING", field: File(path: "data.npy", resample: (8, 8)))"#,
+    );
+    let facts = |name: &str| place.succeeds(&["info", name, "--json"]).json();
+    let (field, data) = (facts("in/data.field.ron"), facts("in/data.npy"));
+    assert_eq!((&field["kind"], &field["spacing"]), (&data["kind"], &json!([0.5, 0.5])));
+    assert!(field["assumptions"].to_string().contains("[row][column]"), "{field:#}");
+    place.refuses(
+        &["convert", "in/data.field.ron", "in/data.npy", "--force"],
+        &["in/data.npy", "is an input"],
+    );
+    place.succeeds(&["field", "show", "in/data.field.ron", "-o", "sheet.svg"]);
+    assert!(String::from_utf8(place.read("sheet.svg")).unwrap().contains("HEADING"));
+    place.write("above.field.ron", r#"(format: 1, title: "t", field: File(path: "in/data.npy"))"#);
+    place.succeeds(&["compare", "above.field.ron", "in/data.npy", "--tolerance", "0"]);
     // Fields may lie beside experiments in a folder, and name data beside themselves.
     place.write("own/data.txt", "1 0 2 0\n0 1 0 1\n");
     place.write("own/two.field.ron", r#"(format: 1, title: "two", field: File(path: "data.txt"))"#);
@@ -67,6 +88,8 @@ fn field_files_stand_where_generators_do() {
         )
     };
     place.write("own/two.ron", experiment("two.field.ron", "2"));
+    place.write("outer.ron", experiment("own/two.field.ron", "2"));
+    place.succeeds(&["check", "outer.ron"]);
     assert_eq!(place.tigereye(&["reproduce", "--experiments", "own", "--out", "r"]).code, 0);
     assert_eq!(place.json("r/summary.json")["experiments"].as_array().map(Vec::len), Some(1));
 }
@@ -140,7 +163,7 @@ fn sheets_and_oddities_are_told_of_anything_readable() {
     );
     place.refuses(
         &["field", "show", "small.field.ron", "-o", "n.png", "--slice-deg", "50"],
-        &["50 degrees", "22.5"],
+        &["50 degrees", "22.5 from 0 to 337.5"],
     );
     place.refuses(&["field", "show", "small.field.ron", "-o", "n.png", "--light", "a"], &["X,Y"]);
 }

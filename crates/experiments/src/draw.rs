@@ -60,7 +60,12 @@ pub(crate) fn draw_figure(
     scene.description = alt_of_panels.join(" ");
     let png = scene.to_png(PNG_SCALE).map_err(failed)?;
     let svg = scene.to_svg().map_err(failed)?;
+    let draws_seconds = |panel: &Panel| match panel {
+        Panel::Chart { series, .. } => series.iter().any(|s| matches!(s, SeriesSource::Seconds { .. })),
+        _ => false,
+    };
     let figure = Figure {
+        timed: figure.panels.iter().any(draws_seconds),
         name: figure.name.clone(),
         caption: figure.caption.clone(),
         alt: scene.description.clone(),

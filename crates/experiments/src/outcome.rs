@@ -52,6 +52,8 @@ pub struct Figure {
     pub width_px: f64,
     /// Height at scale 1, pixels.
     pub height_px: f64,
+    /// Whether it draws seconds, which are others in every run.
+    pub timed: bool,
     /// The picture as PNG.
     pub png: Vec<u8>,
     /// The picture as SVG.

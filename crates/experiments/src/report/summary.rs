@@ -34,6 +34,8 @@ struct Experiment<'a> {
     seconds: f64,
     passed: bool,
     figures: Vec<String>,
+    /// Those among them that draw seconds.
+    timed_figures: Vec<String>,
     checks: Vec<Check<'a>>,
     command: &'a str,
     work: Work<'a>,
@@ -50,6 +52,7 @@ impl<'a> Experiment<'a> {
             seconds: outcome.seconds,
             passed: outcome.passed(),
             figures: outcome.figures.iter().flat_map(|f| files(&f.name)).collect(),
+            timed_figures: outcome.figures.iter().filter(|f| f.timed).flat_map(|f| files(&f.name)).collect(),
             checks: outcome.checks.iter().map(Check::of).collect(),
             command: &outcome.command,
             work: Work(&outcome.work),

@@ -22,6 +22,7 @@ fn check(name: &str, value: f64, expected: Expected) -> CheckOutcome {
 
 fn outcome(slug: &str, section: &str, checks: Vec<CheckOutcome>) -> ExperimentOutcome {
     let figure = Figure {
+        timed: false,
         name: "light map".into(),
         caption: "Light after ten steps.".into(),
         alt: "A bright spot".into(),
@@ -97,7 +98,7 @@ fn summary_keys_stand_in_a_fixed_order() {
     let text = summary_json(&mixed()[..1], 1.0);
     let keys: Vec<&str> =
         text.lines().filter_map(|l| l.trim().strip_prefix('"')?.split_once("\": ")).map(|(k, _)| k).collect();
-    let expect = "passed seconds experiments slug title source seconds passed figures checks \
+    let expect = "passed seconds experiments slug title source seconds passed figures timed_figures checks \
                   name value expected tolerance passed kind basis command work steps cells steps (2)";
     assert_eq!(keys.join(" "), expect);
 }

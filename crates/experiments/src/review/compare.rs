@@ -59,6 +59,11 @@ fn experiment(at: &At<'_>) -> Result<Experiment, ReviewError> {
         None => Vec::new(),
         Some(list) => list.items()?.iter().map(At::path).collect::<Result<Vec<_>, _>>()?,
     };
+    // Seconds never count as movement, drawn or not.
+    let timed = match at.get("timed_figures") {
+        None => Vec::new(),
+        Some(list) => list.items()?.iter().map(At::path).collect::<Result<Vec<_>, _>>()?,
+    };
     let work = match at.get("work") {
         None => Vec::new(),
         Some(counters) => counters.members()?,
@@ -66,7 +71,7 @@ fn experiment(at: &At<'_>) -> Result<Experiment, ReviewError> {
     Ok(Experiment {
         title: at.get("title").map_or_else(|| Ok(slug.clone()), |t| t.words())?,
         seconds: at.get("seconds").map(|s| s.number()).transpose()?,
-        figures: figures.into_iter().filter(|f| f.ends_with(".png")).collect(),
+        figures: figures.into_iter().filter(|f| f.ends_with(".png") && !timed.contains(f)).collect(),
         checks: at.need("checks")?.items()?.iter().map(check).collect::<Result<_, _>>()?,
         work: work
             .iter()

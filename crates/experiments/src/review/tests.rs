@@ -360,3 +360,12 @@ fn snapshots_are_compared_line_by_line() {
     assert!(page.contains("Pending") && page.contains("1.00000001"), "{page}");
     assert!(!page.contains("http:") && !page.contains("https:"));
 }
+
+/// Seconds never count as movement, drawn or not.
+#[test]
+fn figures_of_seconds_are_left_out() {
+    let text = r#"{"experiments": [{"slug": "a", "checks": [],
+        "figures": ["a/x.png", "a/x.svg", "a/t.png", "a/t.svg"], "timed_figures": ["a/t.png", "a/t.svg"]}]}"#;
+    let results = read("summary.json", text).expect("results");
+    assert!(format!("{results:?}").contains(r#"figures: ["a/x.png"]"#), "{results:?}");
+}

@@ -47,7 +47,7 @@ const FORBIDDEN: &[(&str, &[&str])] = &[
     ("tigereye-fields", &["serde", "rayon", "clap", "plotters", "tiny-skia", "ron"]),
     ("tigereye-transport", &["serde", "rayon", "clap", "plotters", "tiny-skia", "ron"]),
     ("tigereye-ltg", &["serde", "clap", "plotters", "tiny-skia", "ron"]),
-    ("tigereye-lines", &["serde", "rayon", "clap", "plotters", "tiny-skia", "ron"]),
+    ("tigereye-lines", &["serde", "clap", "plotters", "tiny-skia", "ron"]),
     ("tigereye-render", &["serde", "rayon", "clap", "ron"]),
     ("tigereye-io", &["rayon", "clap", "plotters", "tiny-skia", "ron"]),
     ("tigereye-experiments", &["clap", "indicatif"]),

@@ -1,5 +1,6 @@
 //! Tensors and their axes between the centres of cells.
 
+use crate::{Axes, Family, Frame};
 use tigereye_core::{Cell, Field, Svd, Tensor2};
 
 /// The symmetric tensor with the same ellipse in every cell: `U S U^T` for a tensor `U S V^T`, its left stretch tensor. The ellipse
@@ -13,26 +14,24 @@ pub fn ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     })
 }
 
-/// Which of the two half-axes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
-    /// The longer one.
-    Major,
-    /// The shorter one.
-    Minor,
-}
-
 /// A field between its cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Interpolated<'a> {
     field: &'a Field<Tensor2>,
+    axes: Axes,
 }
 
 impl<'a> Interpolated<'a> {
-    /// Tensors between the centres of the cells of `field`.
+    /// Tensors between the centres of the cells of `field`, and their half-axes.
     #[must_use]
     pub const fn new(field: &'a Field<Tensor2>) -> Self {
-        Self { field }
+        Self { field, axes: Axes::HalfAxes }
+    }
+
+    /// The same field with other axes.
+    #[must_use]
+    pub const fn with_axes(self, axes: Axes) -> Self {
+        Self { axes, ..self }
     }
 
     /// Largest x and y that lie between centres: width - 1 and height - 1.
@@ -68,19 +67,17 @@ impl<'a> Interpolated<'a> {
         t.is_finite().then_some(t)
     }
 
-    /// Direction (unit vector in cells, y downwards) of an axis at a point, with either sign. `None` as [`Self::at`], and where
-    /// the half-axes differ by less than the part `least` of the longer one.
+    /// The axes at a point (see [`Axes::of`] for `least`), y upwards; `None` as [`Self::at`], and where there are none.
+    #[must_use]
+    pub fn frame(&self, point: [f64; 2], least: f64) -> Option<Frame> {
+        self.axes.of(&self.at(point)?, least)
+    }
+
+    /// Direction (unit vector in cells, y downwards) of an axis at a point, with either sign; `None` as [`Self::frame`].
     #[must_use]
     pub fn direction(&self, point: [f64; 2], family: Family, least: f64) -> Option<[f64; 2]> {
-        let svd = Svd::of(&self.at(point)?);
-        if svd.s[0] <= 0.0 || svd.s[0] - svd.s[1] < least * svd.s[0] {
-            return None;
-        }
-        let [x, y] = svd.major();
-        Some(match family {
-            Family::Major => [x, -y],
-            Family::Minor => [y, x],
-        })
+        let [x, y] = self.frame(point, least)?.axes[family as usize];
+        Some([x, -y])
     }
 }
 

@@ -5,12 +5,14 @@
 //! a tensor makes of the unit circle (its left singular vectors), which are those of the eigenvectors where the tensor is
 //! symmetric and positive. They have no sign: a line goes on in the direction that is nearer to where it came from.
 
+mod axes;
 mod degenerate;
 mod interpolated;
 mod seeding;
 mod tensor_line;
 
+pub use axes::{Axes, Decomposition, Domain, Family, Frame};
 pub use degenerate::{DegenerateKind, DegeneratePoint, degenerate_points};
-pub use interpolated::{Family, Interpolated, ellipse_tensors};
+pub use interpolated::{Interpolated, ellipse_tensors};
 pub use seeding::evenly_spaced;
-pub use tensor_line::{LineEnd, LineOptions, TensorLine, tensor_line};
+pub use tensor_line::{Inertia, LineEnd, LineOptions, Method, TensorLine, half_line, tensor_line};

@@ -2,20 +2,48 @@
 
 use crate::{Family, Interpolated};
 
+/// How a line is integrated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// The classical Runge-Kutta method of fourth order, every step of the same length.
+    RungeKutta4,
+    /// The pair of orders five and four of Dormand and Prince (A family of embedded Runge-Kutta formulae, 1980), with steps as
+    /// long as the error allows.
+    DormandPrince {
+        /// Largest difference of the two orders within a step, cells.
+        tolerance: f64,
+    },
+}
+
 /// How lines are followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineOptions {
-    /// Length of a step, cells.
+    /// How steps are made.
+    pub method: Method,
+    /// Length of a step, cells; the longest one of [`Method::DormandPrince`].
     pub step: f64,
     /// Longest line in each direction, cells.
     pub length: f64,
-    /// Lines end where the half-axes differ by less than this part of the longer one.
+    /// Lines end where the axes differ by less, see [`crate::Axes::of`].
     pub least_anisotropy: f64,
+    /// Inertia of tensorlines (Weinstein, Kindlmann and Lundberg, Tensorlines, 1999), which keeps them straight where the
+    /// tensor is round. `None` follows the axes alone.
+    pub inertia: Option<Inertia>,
+}
+
+/// What a line does where the tensor says little: with the anisotropy `c = 1 - |v2| / |v1|` of the half-lengths it goes on along
+/// `c e + (1 - c) ((1 - w) i + w D i)`, where e is the axis, i the direction it comes from, and D i that direction turned
+/// towards the axis by the tensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inertia {
+    /// The weight w of the tensor's turning (the paper's puncture weight), 0 to 1; 0 is pure inertia.
+    pub puncture: f64,
 }
 
 impl Default for LineOptions {
     fn default() -> Self {
-        Self { step: 0.1, length: 1000.0, least_anisotropy: 1e-3 }
+        let method = Method::RungeKutta4;
+        Self { method, step: 0.1, length: 1000.0, least_anisotropy: 1e-3, inertia: None }
     }
 }
 
@@ -43,6 +71,8 @@ pub struct TensorLine {
     pub seed: usize,
     /// Why it ends at its first and at its last point.
     pub ends: [LineEnd; 2],
+    /// How far a closed line passes its seed by, cells; 0 for others. The last point of a closed line is its seed again.
+    pub gap: f64,
 }
 
 impl TensorLine {
@@ -51,18 +81,24 @@ impl TensorLine {
     pub fn length(&self) -> f64 {
         self.points.windows(2).map(|p| distance(p[0], p[1])).sum()
     }
+
+    fn alone(seed: [f64; 2], end: LineEnd) -> Self {
+        Self { points: vec![seed], seed: 0, ends: [end; 2], gap: 0.0 }
+    }
 }
 
 /// Cosine of the largest turn within a step, 60 degrees.
 const LARGEST_TURN: f64 = 0.5;
 /// Longest line, in steps.
 const MAX_STEPS: f64 = 1e7;
-/// A step that would leave the field is halved as often, so that lines end at the border.
+/// A step that would leave the field, or is not exact enough, is halved as often, so that lines end at the border.
 const HALVINGS: usize = 16;
+/// A line that passes its seed at this distance or nearer, in its first direction, is closed; cells.
+const CLOSING: f64 = 0.05;
 
-/// The line through `seed`, followed in both directions by the classical Runge-Kutta method of fourth order with a fixed
-/// step. A step that is not positive, or a length of more than 10^7 steps, gives a line of one point. A seed outside of the field, or where the tensor has no axis, is a line of one point. Lines end where `keep` says
-/// no to their next point.
+/// The line through `seed`, followed in both directions. A step that is not positive, or a length of more than 10^7 steps,
+/// gives a line of one point. A seed outside of the field, or where the tensor has no axis, is a line of one point. Lines end
+/// where `keep` says no to their next point.
 #[must_use]
 pub fn tensor_line(
     field: &Interpolated<'_>,
@@ -71,28 +107,62 @@ pub fn tensor_line(
     options: &LineOptions,
     keep: &mut dyn FnMut([f64; 2]) -> bool,
 ) -> TensorLine {
-    // Steps that lead nowhere, or so many that they do not end.
-    let steps = options.length / options.step;
-    if !(options.step > 0.0 && options.step.is_finite() && steps <= MAX_STEPS) {
-        return TensorLine { points: vec![seed], seed: 0, ends: [LineEnd::Length; 2] };
+    if !options.are_possible() {
+        return TensorLine::alone(seed, LineEnd::Length);
     }
     let Some(start) = field.direction(seed, family, options.least_anisotropy) else {
         let end = if field.at(seed).is_some() { LineEnd::Degenerate } else { LineEnd::Border };
-        return TensorLine { points: vec![seed], seed: 0, ends: [end; 2] };
+        return TensorLine::alone(seed, end);
     };
     let walk = Walk { field, family, options };
-    let (forth, last) = walk.from(seed, start, keep);
-    if last == LineEnd::Closed {
-        let mut points = vec![seed];
-        points.extend(forth);
-        return TensorLine { points, seed: 0, ends: [LineEnd::Closed; 2] };
+    let mut forth = walk.from(seed, start, keep);
+    if forth.end == LineEnd::Closed {
+        forth.points.insert(0, seed);
+        return TensorLine { points: forth.points, seed: 0, ends: [LineEnd::Closed; 2], gap: forth.gap };
     }
-    let (mut points, first) = walk.from(seed, [-start[0], -start[1]], keep);
+    let back = walk.from(seed, [-start[0], -start[1]], keep);
+    let mut points = back.points;
     points.reverse();
     let seed_at = points.len();
     points.push(seed);
-    points.extend(forth);
-    TensorLine { points, seed: seed_at, ends: [first, last] }
+    points.extend(forth.points);
+    TensorLine { points, seed: seed_at, ends: [back.end, forth.end], gap: 0.0 }
+}
+
+/// The line from `start` in one direction: along the axis there, with the sign that is nearer to `towards` (any length, not 0).
+/// Its first point is `start`; the second of its ends says why it ends.
+#[must_use]
+pub fn half_line(
+    field: &Interpolated<'_>,
+    start: [f64; 2],
+    towards: [f64; 2],
+    family: Family,
+    options: &LineOptions,
+) -> TensorLine {
+    let size = distance(towards, [0.0; 2]);
+    if !(options.are_possible() && size > 0.0) {
+        return TensorLine::alone(start, LineEnd::Length);
+    }
+    let walk = Walk { field, family, options };
+    match walk.slope(start, towards.map(|v| v / size)) {
+        Err(end) => TensorLine::alone(start, end),
+        Ok(direction) => {
+            let mut line = walk.from(start, direction, &mut |_| true);
+            line.points.insert(0, start);
+            TensorLine { points: line.points, seed: 0, ends: [LineEnd::Stopped, line.end], gap: line.gap }
+        }
+    }
+}
+
+impl LineOptions {
+    /// Neither steps that lead nowhere, nor so many that they do not end.
+    fn are_possible(&self) -> bool {
+        let tolerance = match self.method {
+            Method::RungeKutta4 => true,
+            Method::DormandPrince { tolerance } => tolerance > 0.0,
+        };
+        tolerance && self.step > 0.0 && self.step.is_finite() && self.length / self.step <= MAX_STEPS
+    }
 }
 
 struct Walk<'a> {
@@ -101,59 +171,127 @@ struct Walk<'a> {
     options: &'a LineOptions,
 }
 
+/// What is behind a seed in one direction.
+struct Way {
+    points: Vec<[f64; 2]>,
+    end: LineEnd,
+    gap: f64,
+}
+
+/// Where a step leads, the direction there, and by how much two orders differ.
+struct Step {
+    to: [f64; 2],
+    direction: [f64; 2],
+    error: f64,
+}
+
+/// Coefficients of Dormand and Prince: of the slopes before each stage, and the difference of both orders.
+const STAGES: [&[f64]; 6] = [
+    &[1.0 / 5.0],
+    &[3.0 / 40.0, 9.0 / 40.0],
+    &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
+    &[19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0],
+    &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
+    &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+];
+const ERROR: [f64; 7] =
+    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
+
 impl Walk<'_> {
     /// The points behind `seed` in a direction.
-    fn from(
-        &self,
-        seed: [f64; 2],
-        start: [f64; 2],
-        keep: &mut dyn FnMut([f64; 2]) -> bool,
-    ) -> (Vec<[f64; 2]>, LineEnd) {
+    fn from(&self, seed: [f64; 2], start: [f64; 2], keep: &mut dyn FnMut([f64; 2]) -> bool) -> Way {
         let (mut points, mut at, mut towards, mut gone) = (Vec::new(), seed, start, 0.0);
-        // Not a number is no length either.
-        while gone + self.options.step <= self.options.length {
-            let mut step = self.options.step;
-            let mut next = self.step(at, towards, step);
-            for _ in 0..HALVINGS {
-                if next != Err(LineEnd::Border) {
-                    break;
-                }
-                step *= 0.5;
-                next = self.step(at, towards, step);
-            }
-            let (to, direction) = match next {
-                Ok(next) => next,
-                Err(end) => return (points, end),
+        let mut step = self.options.step;
+        let end = |points, end| Way { points, end, gap: 0.0 };
+        // Rounding of the sum is no step of its own. Not a number is no length either.
+        while self.options.length - gone > 1e-9 * self.options.step && points.len() as f64 <= MAX_STEPS {
+            let (made, length) = match self.fitting(at, towards, step.min(self.options.length - gone)) {
+                Ok(made) => made,
+                Err(why) => return end(points, why),
             };
-            if !keep(to) {
-                return (points, LineEnd::Stopped);
-            }
-            gone += step;
-            points.push(to);
-            let comes_back = direction[0] * start[0] + direction[1] * start[1] > LARGEST_TURN;
-            if gone > 4.0 * self.options.step && comes_back && distance(to, seed) < 0.75 * self.options.step {
+            if let Some(gap) = passes(seed, start, at, made.to).filter(|_| !points.is_empty()) {
                 points.push(seed);
-                return (points, LineEnd::Closed);
+                return Way { points, end: LineEnd::Closed, gap };
             }
-            (at, towards) = (to, direction);
+            if !keep(made.to) {
+                return end(points, LineEnd::Stopped);
+            }
+            gone += length;
+            points.push(made.to);
+            (at, towards, step) = (made.to, made.direction, self.longer(length, made.error));
         }
-        (points, LineEnd::Length)
+        end(points, LineEnd::Length)
     }
 
-    /// The axis at a point, with the sign that is nearer to `towards`.
+    /// The longest step up to `length` that stays inside and is exact enough, and its length.
+    fn fitting(&self, at: [f64; 2], towards: [f64; 2], mut length: f64) -> Result<(Step, f64), LineEnd> {
+        let adaptive = matches!(self.options.method, Method::DormandPrince { .. });
+        let mut why = LineEnd::Degenerate;
+        for _ in 0..=HALVINGS {
+            match self.step(at, towards, length) {
+                Ok(step) if step.error <= 1.0 => return Ok((step, length)),
+                Err(LineEnd::Degenerate) if !adaptive => return Err(LineEnd::Degenerate),
+                Ok(_) => {}
+                Err(end) => why = end,
+            }
+            length *= 0.5;
+        }
+        Err(why)
+    }
+
+    /// The step to try next: by the error of the last one, relative to the tolerance.
+    fn longer(&self, length: f64, error: f64) -> f64 {
+        match self.options.method {
+            Method::RungeKutta4 => self.options.step,
+            Method::DormandPrince { .. } => {
+                let factor = 0.9 * tigereye_core::math::pow(error.max(1e-10), -0.2);
+                (length * factor.clamp(0.2, 5.0)).min(self.options.step)
+            }
+        }
+    }
+
+    /// The direction at a point, coming from `towards`.
     fn slope(&self, at: [f64; 2], towards: [f64; 2]) -> Result<[f64; 2], LineEnd> {
-        let Some(d) = self.field.direction(at, self.family, self.options.least_anisotropy) else {
-            return Err(if self.field.at(at).is_some() { LineEnd::Degenerate } else { LineEnd::Border });
+        let least = if self.options.inertia.is_some() { 0.0 } else { self.options.least_anisotropy };
+        let Some(frame) = self.field.frame(at, least) else {
+            return match (self.field.at(at), self.options.inertia) {
+                // A tensor without axes lets a line with inertia pass, unless it is zero.
+                (Some(t), Some(_)) if !t.is_zero() => Ok(towards),
+                (Some(_), _) => Err(LineEnd::Degenerate),
+                (None, _) => Err(LineEnd::Border),
+            };
         };
-        let along = d[0] * towards[0] + d[1] * towards[1];
-        if along.abs() < LARGEST_TURN {
-            return Err(LineEnd::Degenerate);
-        }
-        Ok(if along < 0.0 { [-d[0], -d[1]] } else { d })
+        let downwards = |[x, y]: [f64; 2]| [x, -y];
+        let along = downwards(frame.axes[self.family as usize]);
+        let cosine = along[0] * towards[0] + along[1] * towards[1];
+        let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
+        let along = along.map(|v| sign * v);
+        let Some(inertia) = self.options.inertia else {
+            return if cosine.abs() < LARGEST_TURN { Err(LineEnd::Degenerate) } else { Ok(along) };
+        };
+        let across = downwards(frame.axes[1 - self.family as usize]);
+        let [longer, shorter] = {
+            let [a, b] = frame.values.map(f64::abs);
+            [a.max(b), a.min(b)]
+        };
+        let ratio = if longer > 0.0 { shorter / longer } else { 1.0 };
+        let other = across[0] * towards[0] + across[1] * towards[1];
+        // The component along the line's own axis stays, the other one shrinks.
+        let turned = unit([0, 1].map(|i| cosine.abs() * along[i] + ratio * other * across[i]));
+        let w = inertia.puncture;
+        let mixed =
+            [0, 1].map(|i| (1.0 - ratio) * along[i] + ratio * ((1.0 - w) * towards[i] + w * turned[i]));
+        Ok(unit(mixed))
     }
 
-    /// One step: where it leads, and the direction there.
-    fn step(&self, at: [f64; 2], towards: [f64; 2], h: f64) -> Result<([f64; 2], [f64; 2]), LineEnd> {
+    fn step(&self, at: [f64; 2], towards: [f64; 2], h: f64) -> Result<Step, LineEnd> {
+        match self.options.method {
+            Method::RungeKutta4 => self.runge_kutta(at, towards, h),
+            Method::DormandPrince { tolerance } => self.dormand_prince(at, towards, h, tolerance),
+        }
+    }
+
+    fn runge_kutta(&self, at: [f64; 2], towards: [f64; 2], h: f64) -> Result<Step, LineEnd> {
         let ahead = |k: [f64; 2], h: f64| [at[0] + h * k[0], at[1] + h * k[1]];
         let a = self.slope(at, towards)?;
         let b = self.slope(ahead(a, 0.5 * h), a)?;
@@ -161,9 +299,43 @@ impl Walk<'_> {
         let d = self.slope(ahead(c, h), c)?;
         let mean = [0, 1].map(|i| (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]) / 6.0);
         let to = ahead(mean, h);
-        let direction = self.slope(to, d)?;
-        Ok((to, direction))
+        Ok(Step { to, direction: self.slope(to, d)?, error: 0.0 })
     }
+
+    fn dormand_prince(
+        &self,
+        at: [f64; 2],
+        towards: [f64; 2],
+        h: f64,
+        tolerance: f64,
+    ) -> Result<Step, LineEnd> {
+        let mut slopes = [[0.0; 2]; 7];
+        slopes[0] = self.slope(at, towards)?;
+        let mut to = at;
+        for (i, weights) in STAGES.iter().enumerate() {
+            to = [0, 1].map(|k| at[k] + h * weights.iter().zip(&slopes).map(|(w, s)| w * s[k]).sum::<f64>());
+            slopes[i + 1] = self.slope(to, slopes[i])?;
+        }
+        let off = [0, 1].map(|k| h * ERROR.iter().zip(&slopes).map(|(w, s)| w * s[k]).sum::<f64>());
+        Ok(Step { to, direction: slopes[6], error: distance(off, [0.0; 2]) / tolerance })
+    }
+}
+
+/// At which distance the way from `a` to `b` passes the seed in the direction in which the line began, if it is a small one.
+fn passes(seed: [f64; 2], start: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Option<f64> {
+    let ahead = |p: [f64; 2]| (p[0] - seed[0]) * start[0] + (p[1] - seed[1]) * start[1];
+    let (before, after) = (ahead(a), ahead(b));
+    if !(before < 0.0 && after >= 0.0) {
+        return None;
+    }
+    let t = before / (before - after);
+    let gap = distance([0, 1].map(|i| a[i] + t * (b[i] - a[i])), seed);
+    (gap <= CLOSING).then_some(gap)
+}
+
+fn unit(v: [f64; 2]) -> [f64; 2] {
+    let size = distance(v, [0.0; 2]);
+    if size > 0.0 { v.map(|c| c / size) } else { v }
 }
 
 pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -210,6 +382,88 @@ mod tests {
         };
         let (coarse, fine) = (worst(0.8), worst(0.4));
         assert!(coarse < 1e-4 && coarse / fine > 12.0 && coarse / fine < 20.0, "{coarse} {fine}");
+    }
+
+    /// The error of a line follows the tolerance of its steps, and long steps suffice.
+    #[test]
+    fn adaptive_steps_are_as_exact_as_they_are_told() {
+        let field = wedge();
+        let constant = |p: &[f64; 2]| {
+            let (x, y) = place(*p);
+            tigereye_core::math::hypot(x, y) - x
+        };
+        let worst = |tolerance: f64| {
+            let method = Method::DormandPrince { tolerance };
+            let options = LineOptions { method, step: 5.0, length: 15.0, ..LineOptions::default() };
+            let line = follow(&field, [24.0, 14.0], Family::Major, &options);
+            let first = constant(&[24.0, 14.0]);
+            let off = line.points.iter().map(|p| (constant(p) - first).abs()).fold(0.0, f64::max);
+            (off, line.points.len())
+        };
+        for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+            let (off, points) = worst(tolerance);
+            // A line has some ten to hundred steps, each with an error of the tolerance at most.
+            assert!(off < points as f64 * tolerance, "{tolerance}: {off} in {points}");
+        }
+        let fixed = LineOptions { step: 0.1, length: 15.0, ..LineOptions::default() };
+        assert!(8 * worst(1e-6).1 < follow(&field, [24.0, 14.0], Family::Major, &fixed).points.len());
+    }
+
+    /// Between two regions of the same axis lies one without: a line with inertia crosses it.
+    #[test]
+    fn inertia_crosses_round_tensors() {
+        let field = Field::from_fn(Grid::new(31, 9).expect("a size"), |c| match c.x {
+            0..12 | 19..31 => Tensor2::from_axes(0.0, 3.0, 1.0),
+            _ => Tensor2::IDENTITY,
+        });
+        let plain = LineOptions::default();
+        let stops = follow(&field, [4.0, 4.0], Family::Major, &plain);
+        assert_eq!(stops.ends[1], LineEnd::Degenerate);
+        for puncture in [0.0, 0.5, 1.0] {
+            let options = LineOptions { inertia: Some(Inertia { puncture }), ..plain };
+            let line = follow(&field, [4.0, 4.0], Family::Major, &options);
+            assert_eq!(line.ends, [LineEnd::Border; 2], "{puncture}");
+            let last = line.points[line.points.len() - 1];
+            assert!(last[0] > 29.9 && (last[1] - 4.0).abs() < 1e-9, "{last:?}");
+        }
+        // Nothing lies at the end of zeros.
+        let dark = field.map(|t| if *t == Tensor2::IDENTITY { Tensor2::ZERO } else { *t });
+        let options = LineOptions { inertia: Some(Inertia { puncture: 0.5 }), ..plain };
+        assert_eq!(follow(&dark, [4.0, 4.0], Family::Major, &options).ends[1], LineEnd::Degenerate);
+    }
+
+    /// Where tensors are flat, inertia changes nothing.
+    #[test]
+    fn inertia_leaves_flat_tensors_alone() {
+        let field = Field::from_fn(Grid::new(41, 41).expect("a size"), |c| {
+            Tensor2::from_eigen(0.02 * (c.x + c.y) as f64, 1.0, 0.0)
+        });
+        let seed = [24.0, 14.0];
+        let plain = follow(&field, seed, Family::Major, &LineOptions::default());
+        let options = LineOptions { inertia: Some(Inertia { puncture: 0.2 }), ..LineOptions::default() };
+        let line = follow(&field, seed, Family::Major, &options);
+        // Tensors that differ by 0.02 rad mix to one with half-axes 1 : 0.0001.
+        let off = plain.points.iter().zip(&line.points).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max);
+        assert!(plain.points.len() > 100 && off < 1e-4 * 40.0, "{off}");
+    }
+
+    #[test]
+    fn half_lines_go_one_way() {
+        let field = wedge();
+        let options = LineOptions { length: 3.0, ..LineOptions::default() };
+        let whole = follow(&field, [24.0, 14.0], Family::Major, &options);
+        let seed = whole.points[whole.seed];
+        for (side, next) in [(1, whole.points[whole.seed + 1]), (0, whole.points[whole.seed - 1])] {
+            let towards = [next[0] - seed[0], next[1] - seed[1]];
+            let half = half_line(&Interpolated::new(&field), seed, towards, Family::Major, &options);
+            assert_eq!(half.ends, [LineEnd::Stopped, whole.ends[side]]);
+            let end = if side == 1 { whole.points[whole.points.len() - 1] } else { whole.points[0] };
+            assert!(distance(half.points[half.points.len() - 1], end) < 1e-12);
+        }
+        let nowhere = half_line(&Interpolated::new(&field), [-3.0, 0.0], [1.0, 0.0], Family::Major, &options);
+        assert_eq!((nowhere.points.len(), nowhere.ends), (1, [LineEnd::Border; 2]));
+        let aimless = half_line(&Interpolated::new(&field), seed, [0.0, 0.0], Family::Major, &options);
+        assert_eq!(aimless.points.len(), 1);
     }
 
     #[test]

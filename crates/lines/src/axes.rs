@@ -1,0 +1,316 @@
+//! Which two axes a tensor has.
+//!
+//! With the numbers `F = (xx - yy) + i (xy + yx)` and `E = (xx + yy) + i (yx - xy)` a tensor stretches by `|F| / 2` along
+//! `arg F / 2`, turns by `Im E / 2` and scales by `Re E / 2`. Its half-axes, eigenvectors and dual eigenvectors are closed
+//! formulas of the two (Zheng and Pang, 2D asymmetric tensor analysis, 2005; Zhang, Yeh, Lin and Laramee, Asymmetric tensor
+//! analysis for flow visualization, 2009).
+
+use tigereye_core::{Tensor2, math};
+
+/// Which of the two axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// The longer half-axis, or the larger eigenvalue.
+    Major,
+    /// The other one.
+    Minor,
+}
+
+/// The axes that lines follow.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Axes {
+    /// The half-axes of the ellipse that a tensor makes of the unit circle: its left singular vectors, which is what light
+    /// sees. The longer one is major.
+    #[default]
+    HalfAxes,
+    /// Eigenvectors, the one of the larger eigenvalue (with its sign) major: the axes of classical tensor lines. Where
+    /// eigenvalues are complex (the turning is stronger than the stretching) the pseudo-eigenvectors: the diagonals of the
+    /// smallest rectangle around the ellipses along which the linear flow of the tensor turns.
+    Eigenvectors,
+    /// Dual eigenvectors: the directions halfway between the eigenvectors, and the axes of the ellipses along which the linear
+    /// flow turns where eigenvalues are complex, the longer one major. Symmetric tensors have none, as they turn nothing.
+    DualEigenvectors,
+}
+
+/// Whether eigenvalues are real.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Domain {
+    /// Two real eigenvalues: the tensor stretches at least as much as it turns.
+    Real,
+    /// A complex pair.
+    Complex,
+}
+
+/// What a tensor does: scale, turn, and stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decomposition {
+    /// Isotropic scaling, half the trace.
+    pub scaling: f64,
+    /// Rotation, half of `yx - xy`; counter-clockwise is positive.
+    pub rotation: f64,
+    /// Anisotropic stretching, at least 0.
+    pub stretching: f64,
+}
+
+impl Decomposition {
+    /// The three strengths of a tensor (eq. 3 of Zhang et al. 2009).
+    #[must_use]
+    pub fn of(t: &Tensor2) -> Self {
+        let Numbers { f, e } = Numbers::of(t);
+        Self { scaling: 0.5 * e[0], rotation: 0.5 * e[1], stretching: 0.5 * size(f) }
+    }
+
+    /// Where the eigenvalues lie.
+    #[must_use]
+    pub fn domain(&self) -> Domain {
+        if self.stretching >= self.rotation.abs() { Domain::Real } else { Domain::Complex }
+    }
+}
+
+/// The axes of one tensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// Unit vectors, major first, in the tensor's frame (y up), each with either sign.
+    pub axes: [[f64; 2]; 2],
+    /// Their half-lengths: for [`Axes::Eigenvectors`] the eigenvalues with their signs, or their real part where they are
+    /// complex; for dual eigenvectors the half-axes of the stretching and turning part.
+    pub values: [f64; 2],
+}
+
+struct Numbers {
+    f: [f64; 2],
+    e: [f64; 2],
+}
+
+impl Numbers {
+    fn of(t: &Tensor2) -> Self {
+        Self { f: [t.xx() - t.yy(), t.xy() + t.yx()], e: [t.xx() + t.yy(), t.yx() - t.xy()] }
+    }
+}
+
+impl Axes {
+    /// The axes of a tensor. `None` where it is not finite, and where it has none: the part of the larger half-axis by which
+    /// they differ (or, for the others, by which the tensor stretches, and turns) is not more than `least`.
+    #[must_use]
+    pub fn of(self, t: &Tensor2, least: f64) -> Option<Frame> {
+        // A power of two keeps squares in range and every direction as it is.
+        let scale = math::scale_by_power_of_two(1.0, -math::binary_exponent(t.max_abs()));
+        if !(t.is_finite() && t.max_abs() > 0.0 && scale.is_finite() && scale > 0.0) {
+            return None;
+        }
+        let numbers = Numbers::of(&t.scaled(scale));
+        let mut frame = match self {
+            Self::HalfAxes => half_axes(&numbers, least),
+            Self::Eigenvectors => eigenvectors(&numbers, least),
+            Self::DualEigenvectors => dual_eigenvectors(&numbers, least),
+        }?;
+        frame.values = frame.values.map(|v| v / scale);
+        Some(frame)
+    }
+}
+
+fn half_axes(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
+    let (stretch, rest) = (size(*f), size(*e));
+    let longer = 0.5 * (stretch + rest);
+    if stretch.min(rest) <= least * longer {
+        return None;
+    }
+    let major = half_angle([f[0] * e[0] - f[1] * e[1], f[0] * e[1] + f[1] * e[0]]);
+    let values = [longer, 0.5 * (stretch - rest).abs()];
+    Some(Frame { axes: [major, quarter_turned(major)], values })
+}
+
+fn eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
+    let (stretch, rest) = (size(*f), size(*e));
+    if stretch <= least * 0.5 * (stretch + rest) {
+        return None;
+    }
+    let (stretching, turning) = (0.5 * stretch, 0.5 * e[1].abs());
+    let (sum, difference) = (stretching + turning, stretching - turning);
+    // Rotated from the bisector by 45 degrees less, and more, the angle whose tangent is sqrt(|difference| / sum).
+    let (c, s) = (sum.sqrt(), difference.abs().sqrt());
+    let (c, s) = (c / math::hypot(c, s), s / math::hypot(c, s));
+    let side = if e[1] < 0.0 { -1.0 } else { 1.0 };
+    let bisector = half_angle(*f);
+    let diagonal = core::f64::consts::FRAC_1_SQRT_2;
+    let about = |cos: f64, sin: f64| {
+        [bisector[0] * cos - side * bisector[1] * sin, bisector[1] * cos + side * bisector[0] * sin]
+    };
+    let major = about(diagonal * (c + s), diagonal * (c - s));
+    let minor = about(diagonal * (c - s), diagonal * (c + s));
+    let root = if difference > 0.0 { (sum * difference).sqrt() } else { 0.0 };
+    Some(Frame { axes: [major, minor], values: [0.5 * e[0] + root, 0.5 * e[0] - root] })
+}
+
+fn dual_eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
+    let (stretch, rest) = (size(*f), size(*e));
+    let whole = 0.5 * (stretch + rest);
+    if stretch <= least * whole || e[1].abs() <= least * whole {
+        return None;
+    }
+    // A quarter turn of F is an eighth turn of its axis.
+    let turned = if e[1] < 0.0 { [f[1], -f[0]] } else { [-f[1], f[0]] };
+    let major = half_angle(turned);
+    let values = [0.5 * (stretch + e[1].abs()), 0.5 * (stretch - e[1].abs()).abs()];
+    Some(Frame { axes: [major, quarter_turned(major)], values })
+}
+
+fn size(z: [f64; 2]) -> f64 {
+    math::hypot(z[0], z[1])
+}
+
+/// The unit vector at half the angle of a number, without the angle.
+fn half_angle(z: [f64; 2]) -> [f64; 2] {
+    let r = size(z);
+    if z[0] >= 0.0 {
+        let c = (0.5 * (r + z[0])).sqrt();
+        let s = 0.5 * z[1] / c;
+        let n = r.sqrt();
+        [c / n, s / n]
+    } else {
+        let s = (0.5 * (r - z[0])).sqrt();
+        let c = 0.5 * z[1] / s;
+        let n = r.sqrt();
+        [c / n, s / n]
+    }
+}
+
+const fn quarter_turned(v: [f64; 2]) -> [f64; 2] {
+    [-v[1], v[0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tigereye_core::{Eigenvalues, Svd};
+
+    /// Tensors of all kinds, from a fixed sequence.
+    fn tensors() -> Vec<Tensor2> {
+        let mut seed = 5_u64;
+        let mut random = move || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            2.0 * ((seed >> 11) as f64 / (1_u64 << 53) as f64) - 1.0
+        };
+        let mut all: Vec<Tensor2> =
+            (0..500).map(|_| Tensor2::new(random(), random(), random(), random())).collect();
+        all.extend((0..500).map(|_| Tensor2::symmetric(random(), random(), random())));
+        all.extend([
+            Tensor2::from_axes(0.0, 3.0, 1.0),
+            Tensor2::from_axes(core::f64::consts::FRAC_PI_2, 3.0, 1.0),
+            Tensor2::symmetric(-1.0, 0.0, -3.0),
+            Tensor2::new(0.0, -2.0, 1.0, 0.0),
+            Tensor2::new(0.0, 1.0, -2.0, 0.0),
+            Tensor2::new(1e-200, 2e-200, 0.0, 1e-200),
+            Tensor2::new(1e200, 2e200, 0.0, 1e200),
+        ]);
+        all
+    }
+
+    fn sine_between(a: [f64; 2], b: [f64; 2]) -> f64 {
+        (a[0] * b[1] - a[1] * b[0]).abs()
+    }
+
+    fn applied(t: &Tensor2, v: [f64; 2]) -> [f64; 2] {
+        [t.xx() * v[0] + t.xy() * v[1], t.yx() * v[0] + t.yy() * v[1]]
+    }
+
+    #[test]
+    fn half_axes_are_the_singular_vectors() {
+        for t in tensors() {
+            let (frame, svd) = (Axes::HalfAxes.of(&t, 0.0).expect("axes"), Svd::of(&t));
+            let tolerance = 1e-14 * svd.s[0] / (svd.s[0] - svd.s[1]);
+            assert!(sine_between(frame.axes[0], svd.major()) < tolerance, "{t:?}");
+            for (a, b) in frame.values.iter().zip(svd.s) {
+                assert!((a - b).abs() < 1e-14 * svd.s[0], "{t:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn eigenvectors_keep_their_direction() {
+        let mut real = 0;
+        for t in tensors().into_iter().filter(|t| Decomposition::of(t).domain() == Domain::Real) {
+            let (frame, values) = (Axes::Eigenvectors.of(&t, 0.0).expect("axes"), Eigenvalues::of(&t));
+            for (axis, value) in frame.axes.into_iter().zip(frame.values) {
+                let image = applied(&t, axis);
+                let off = (0..2).map(|i| (image[i] - value * axis[i]).abs()).fold(0.0, f64::max);
+                // Eigenvectors are as uncertain as the square root of what separates their eigenvalues.
+                assert!(off < 1e-13 * t.max_abs(), "{t:?}: {off}");
+            }
+            let mut known = values.real_parts();
+            known.sort_by(|a, b| b.total_cmp(a));
+            assert!(known.iter().zip(frame.values).all(|(a, b)| (a - b).abs() < 1e-7 * t.max_abs()), "{t:?}");
+            real += 1;
+        }
+        assert!(real > 600);
+    }
+
+    /// Symmetric tensors: the classical axes, the larger eigenvalue first whatever its size.
+    #[test]
+    fn symmetric_tensors_are_ordered_with_their_signs() {
+        let t = Tensor2::symmetric(-1.0, 0.0, -3.0);
+        let frame = Axes::Eigenvectors.of(&t, 0.0).expect("axes");
+        assert_eq!((frame.values, frame.axes[0][0].abs()), ([-1.0, -3.0], 1.0));
+        let half = Axes::HalfAxes.of(&t, 0.0).expect("axes");
+        assert_eq!((half.values, half.axes[0][1].abs()), ([3.0, 1.0], 1.0));
+        assert_eq!(Axes::DualEigenvectors.of(&t, 1e-12), None, "nothing turns");
+    }
+
+    #[test]
+    fn dual_eigenvectors_lie_between_the_eigenvectors() {
+        for t in tensors() {
+            let Some(dual) = Axes::DualEigenvectors.of(&t, 1e-6) else { continue };
+            let frame = Axes::Eigenvectors.of(&t, 0.0).expect("axes");
+            let [a, b] = frame.axes;
+            let cosine = |v: [f64; 2]| (v[0] * dual.axes[0][0] + v[1] * dual.axes[0][1]).abs();
+            assert!((cosine(a) - cosine(b)).abs() < 1e-12, "{t:?}");
+        }
+    }
+
+    /// The linear flow of a turning tensor runs along ellipses: the square of the speed is extremal on their axes.
+    #[test]
+    fn dual_eigenvectors_are_the_axes_of_elliptic_flow() {
+        // x' = -2 y, y' = x keeps x^2 + 2 y^2: the longer axis lies along x.
+        let flat = Axes::DualEigenvectors.of(&Tensor2::new(0.0, -2.0, 1.0, 0.0), 0.0).expect("axes");
+        assert!(sine_between(flat.axes[0], [1.0, 0.0]) < 1e-15);
+        // Clockwise the same.
+        let back = Axes::DualEigenvectors.of(&Tensor2::new(0.0, 2.0, -1.0, 0.0), 0.0).expect("axes");
+        assert!(sine_between(back.axes[0], [1.0, 0.0]) < 1e-15);
+        // The rectangle around that ellipse has sides sqrt(2) : 1.
+        let frame = Axes::Eigenvectors.of(&Tensor2::new(0.0, -2.0, 1.0, 0.0), 0.0).expect("axes");
+        for axis in frame.axes {
+            assert!((axis[0].abs() / axis[1].abs() - 2.0_f64.sqrt()).abs() < 1e-14, "{axis:?}");
+        }
+    }
+
+    /// Where real eigenvalues become complex both axes go over into one.
+    #[test]
+    fn axes_do_not_jump_between_the_domains() {
+        let at = |rotation: f64| Tensor2::new(1.0 + 0.6, 0.8 - rotation, 0.8 + rotation, 1.0 - 0.6);
+        for side in [1.0, -1.0] {
+            let [inside, outside] =
+                [0.999_999, 1.000_001].map(|r| Axes::Eigenvectors.of(&at(side * r), 0.0).expect("axes"));
+            for (a, b) in inside.axes.into_iter().zip(outside.axes) {
+                assert!(sine_between(a, b) < 3e-3, "{a:?} {b:?}");
+            }
+            assert!(sine_between(inside.axes[0], inside.axes[1]) < 3e-3);
+        }
+    }
+
+    #[test]
+    fn tensors_without_axes_have_none() {
+        let none = [
+            Tensor2::ZERO,
+            Tensor2::IDENTITY,
+            Tensor2::isotropic(f64::NAN),
+            Tensor2::isotropic(f64::INFINITY),
+        ];
+        for axes in [Axes::HalfAxes, Axes::Eigenvectors, Axes::DualEigenvectors] {
+            for t in &none {
+                assert_eq!(axes.of(t, 1e-9), None, "{axes:?} {t:?}");
+            }
+        }
+        assert_eq!(Axes::HalfAxes.of(&Tensor2::symmetric(1.0, 0.0, -1.0), 1e-9), None, "equally long");
+        assert!(Axes::Eigenvectors.of(&Tensor2::symmetric(1.0, 0.0, -1.0), 1e-9).is_some());
+    }
+}

@@ -49,16 +49,28 @@ const ROUNDING: f64 = 1e-12;
 /// the border, whose way leaves the field, are left out, and so are points and lines around which the axes do not turn.
 #[must_use]
 pub fn degenerate_points(field: &Field<Tensor2>) -> Vec<DegeneratePoint> {
+    zeros(field, &[field.map(anticonformal), field.map(conformal)])
+}
+
+/// The points where eigenvectors, and dual eigenvectors, have no direction: where nothing stretches.
+pub(crate) fn points_of_stretching(field: &Field<Tensor2>) -> Vec<DegeneratePoint> {
+    zeros(field, &[field.map(anticonformal)])
+}
+
+fn conformal(t: &Tensor2) -> [f64; 2] {
+    [t.xx() + t.yy(), t.yx() - t.xy()]
+}
+
+fn anticonformal(t: &Tensor2) -> [f64; 2] {
+    [t.xx() - t.yy(), t.xy() + t.yx()]
+}
+
+fn zeros(field: &Field<Tensor2>, numbers: &[Field<[f64; 2]>]) -> Vec<DegeneratePoint> {
     let grid = field.grid();
     if grid.width() < 2 || grid.height() < 2 {
         return Vec::new();
     }
-    let conformal = |t: &Tensor2| [t.xx() + t.yy(), t.yx() - t.xy()];
-    let anticonformal = |t: &Tensor2| [t.xx() - t.yy(), t.xy() + t.yx()];
-    let mut found = Vec::new();
-    for numbers in [field.map(anticonformal), field.map(conformal)] {
-        found.extend(Plane::new(field, &numbers).zeros());
-    }
+    let mut found: Vec<DegeneratePoint> = numbers.iter().flat_map(|n| Plane::new(field, n).zeros()).collect();
     found.sort_by(|a, b| {
         let key = |p: &DegeneratePoint| (p.position[1], p.position[0]);
         key(a).partial_cmp(&key(b)).unwrap_or(core::cmp::Ordering::Equal)

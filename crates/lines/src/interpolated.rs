@@ -34,6 +34,18 @@ impl<'a> Interpolated<'a> {
         Self { axes, ..self }
     }
 
+    /// The axes.
+    #[must_use]
+    pub const fn axes(&self) -> Axes {
+        self.axes
+    }
+
+    /// The field.
+    #[must_use]
+    pub const fn field(&self) -> &'a Field<Tensor2> {
+        self.field
+    }
+
     /// Largest x and y that lie between centres: width - 1 and height - 1.
     #[must_use]
     pub const fn extent(&self) -> [f64; 2] {

@@ -7,12 +7,16 @@
 
 mod axes;
 mod degenerate;
+mod hyperstreamline;
 mod interpolated;
 mod seeding;
 mod tensor_line;
+mod topology;
 
 pub use axes::{Axes, Decomposition, Domain, Family, Frame};
 pub use degenerate::{DegenerateKind, DegeneratePoint, degenerate_points};
+pub use hyperstreamline::half_widths;
 pub use interpolated::{Interpolated, ellipse_tensors};
 pub use seeding::evenly_spaced;
 pub use tensor_line::{Inertia, LineEnd, LineOptions, Method, TensorLine, half_line, tensor_line};
+pub use topology::{Separatrix, Topology};

@@ -91,8 +91,9 @@ impl TensorLine {
 const LARGEST_TURN: f64 = 0.5;
 /// Longest line, in steps.
 const MAX_STEPS: f64 = 1e7;
-/// A step that would leave the field, or is not exact enough, is halved as often, so that lines end at the border.
-const HALVINGS: usize = 16;
+/// A step that would leave the field, or is not exact enough, is halved down to this part of the longest one, so that lines end at
+/// the border.
+const SHORTEST: f64 = 1.0 / 65536.0;
 /// A line that passes its seed at this distance or nearer, in its first direction, is closed; cells.
 const CLOSING: f64 = 0.05;
 
@@ -226,17 +227,20 @@ impl Walk<'_> {
     /// The longest step up to `length` that stays inside and is exact enough, and its length.
     fn fitting(&self, at: [f64; 2], towards: [f64; 2], mut length: f64) -> Result<(Step, f64), LineEnd> {
         let adaptive = matches!(self.options.method, Method::DormandPrince { .. });
-        let mut why = LineEnd::Degenerate;
-        for _ in 0..=HALVINGS {
+        loop {
+            let is_shortest = 0.5 * length < self.shortest();
             match self.step(at, towards, length) {
-                Ok(step) if step.error <= 1.0 => return Ok((step, length)),
+                // What the tolerance asks beyond the shortest step is rounding, or a kink between cells.
+                Ok(step) if step.error <= 1.0 || is_shortest => return Ok((step, length)),
                 Err(LineEnd::Degenerate) if !adaptive => return Err(LineEnd::Degenerate),
-                Ok(_) => {}
-                Err(end) => why = end,
+                Err(end) if is_shortest => return Err(end),
+                _ => length *= 0.5,
             }
-            length *= 0.5;
         }
-        Err(why)
+    }
+
+    fn shortest(&self) -> f64 {
+        self.options.step * SHORTEST
     }
 
     /// The step to try next: by the error of the last one, relative to the tolerance.
@@ -245,7 +249,7 @@ impl Walk<'_> {
             Method::RungeKutta4 => self.options.step,
             Method::DormandPrince { .. } => {
                 let factor = 0.9 * tigereye_core::math::pow(error.max(1e-10), -0.2);
-                (length * factor.clamp(0.2, 5.0)).min(self.options.step)
+                (length * factor.clamp(0.2, 5.0)).clamp(self.shortest(), self.options.step)
             }
         }
     }

@@ -1,0 +1,47 @@
+//! Hyperstreamlines: lines along one axis, as wide as the other.
+
+use crate::{Family, Interpolated, TensorLine};
+
+/// Half of a hyperstreamline's width at every point of its line, cells: `scale` times the half-length of the other axis, or the
+/// magnitude of the other eigenvalue (Delmarcelle and Hesselink, Visualizing second-order tensor fields with hyperstreamlines,
+/// 1993, where the line is a tube with the two other ones as its cross section). 0 where the tensor is zero, not a number where it
+/// is none; where both axes are equally long, what they have in common.
+#[must_use]
+pub fn half_widths(field: &Interpolated<'_>, line: &TensorLine, family: Family, scale: f64) -> Vec<f64> {
+    let width = |p: &[f64; 2]| {
+        let Some(t) = field.at(*p) else { return f64::NAN };
+        // Without axes, every direction is as long as the tensor's mean.
+        let other = field.axes().of(&t, 0.0).map(|f| f.values[1 - family as usize].abs());
+        scale * other.unwrap_or_else(|| t.determinant().abs().sqrt())
+    };
+    line.points.iter().map(width).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Axes, LineOptions, tensor_line};
+    use tigereye_core::{Field, Grid, Tensor2};
+
+    /// Along x the major axis grows, across the minor one.
+    #[test]
+    fn width_is_the_other_axis() {
+        let field = Field::from_fn(Grid::new(11, 11).expect("a size"), |c| {
+            Tensor2::symmetric(30.0 + c.x as f64, 0.0, -(1.0 + c.x as f64))
+        });
+        for axes in [Axes::HalfAxes, Axes::Eigenvectors] {
+            let between = Interpolated::new(&field).with_axes(axes);
+            let line =
+                tensor_line(&between, [2.0, 5.0], Family::Major, &LineOptions::default(), &mut |_| true);
+            let widths = half_widths(&between, &line, Family::Major, 0.1);
+            assert!(line.points.len() > 50);
+            for (p, w) in line.points.iter().zip(&widths) {
+                assert!((w - 0.1 * (1.0 + p[0])).abs() < 1e-12, "{p:?} {w}");
+            }
+            let across =
+                tensor_line(&between, [2.0, 5.0], Family::Minor, &LineOptions::default(), &mut |_| true);
+            let widths = half_widths(&between, &across, Family::Minor, 0.1);
+            assert!(widths.iter().all(|w| (w - 3.2).abs() < 1e-12));
+        }
+    }
+}

@@ -5,6 +5,7 @@
 //! up, nothing optional left), run, and reported. This crate opens no files and reads no clocks: the program hands it
 //! both through [`Host`].
 
+pub mod classical;
 mod digest;
 mod draw;
 mod evaluate;

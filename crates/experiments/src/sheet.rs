@@ -1,18 +1,16 @@
 //! One page about a tensor field: ellipses, lines, anisotropy, determinant, one light, a gradient.
 
+use crate::classical::{line_overlay, point_overlays};
 use thiserror::Error;
 use tigereye_core::{
     Anisotropy, Cell, CoreError, Directions, Field, Normalization, PolarProfile, Tensor2, TransmissionField,
 };
 use tigereye_fields::{FieldError, images::resampled};
-use tigereye_lines::{
-    DegenerateKind, DegeneratePoint, Family, Interpolated, LineOptions, degenerate_points, ellipse_tensors,
-    evenly_spaced,
-};
+use tigereye_lines::{Family, Interpolated, LineOptions, degenerate_points, ellipse_tensors, evenly_spaced};
 use tigereye_ltg::{LtgError, LtgSettings, SweepObserver, omega_step_of_slices, sweep};
 use tigereye_render::{
-    GlyphColour, GlyphOptions, HeatOptions, HeatScale, Marker, OrientationOptions, Overlay, Rgba,
-    Scene as Picture, glyphs, heat_map, orientation_map, small_multiples,
+    GlyphColour, GlyphOptions, HeatOptions, HeatScale, OrientationOptions, Overlay, Scene as Picture, glyphs,
+    heat_map, orientation_map, small_multiples,
 };
 use tigereye_transport::{
     EightLobe, Engine, Level, Light, Problem, Scattering, Scheme, SharedWeights, Stopping, StoppingRule,
@@ -164,27 +162,9 @@ fn line_overlays(field: &Field<Tensor2>) -> Vec<Overlay> {
     let separation = (longest / LINES_A_SIDE).max(0.5);
     let options =
         LineOptions { step: 0.2 * separation.min(1.0), length: 4.0 * longest, ..LineOptions::default() };
-    let mut overlays = vec![Overlay { colour: Rgba::hex(0x262626), width_px: 1.0, ..Overlay::default() }];
-    for line in evenly_spaced(&between, Family::Major, separation, &options) {
-        overlays[0].points.extend(line.points);
-        overlays[0].points.push([f64::NAN; 2]);
-    }
-    let points = degenerate_points(&ellipses);
-    for (label, marker, half_turns) in [
-        ("wedge (index 1/2)", Marker::Circle, Some(1)),
-        ("trisector (index −1/2)", Marker::Triangle, Some(-1)),
-        ("merged (other index)", Marker::Diamond, None),
-    ] {
-        let is_kind = |p: &&DegeneratePoint| match half_turns {
-            Some(n) => p.half_turns() == n,
-            None => matches!(p.kind, DegenerateKind::Merged(_)),
-        };
-        let points: Vec<[f64; 2]> = points.iter().filter(is_kind).map(|p| p.position).collect();
-        if !points.is_empty() {
-            let (label, colour) = (label.to_owned(), Rgba::hex(0xd55e00));
-            overlays.push(Overlay { label, points, marker: Some(marker), colour, ..Overlay::default() });
-        }
-    }
+    let lines = evenly_spaced(&between, Family::Major, separation, &options);
+    let mut overlays = vec![line_overlay(&lines, Family::Major, "")];
+    overlays.extend(point_overlays(&degenerate_points(&ellipses)));
     overlays
 }
 

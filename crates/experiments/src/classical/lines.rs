@@ -1,0 +1,180 @@
+//! Tensor lines and hyperstreamlines.
+
+use super::{Followed, Placement, axes_name, counts, family_name, line_overlay, push_line, push_story};
+use tigereye_core::{Anisotropy, Field, Tensor2};
+use tigereye_io::{DataArray, PolyData};
+use tigereye_lines::{
+    Axes, Family, LineEnd, LineOptions, TensorLine, evenly_spaced, half_widths, tensor_line,
+};
+use tigereye_render::{HeatOptions, Scene, heat_map};
+
+/// Where lines begin.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Seeds {
+    /// All over the field, that many cells apart.
+    Even(f64),
+    /// At these points, in cells, y downwards.
+    At(Vec<[f64; 2]>),
+}
+
+/// Which lines of a field.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinesRequest {
+    /// The axes to follow.
+    pub axes: Axes,
+    /// One family or both.
+    pub families: Vec<Family>,
+    /// Where they begin.
+    pub seeds: Seeds,
+    /// How they are followed.
+    pub options: LineOptions,
+    /// Half of a hyperstreamline's width in cells for the largest half-axis, or eigenvalue, of the field; none for plain lines.
+    pub ribbon: Option<f64>,
+}
+
+/// Lines with what is known along them.
+#[derive(Clone, Debug)]
+pub struct FieldLines {
+    /// The lines, one family after the other.
+    pub lines: Vec<FieldLine>,
+    followed: Followed,
+}
+
+/// A line of a family.
+#[derive(Clone, Debug)]
+pub struct FieldLine {
+    /// The family.
+    pub family: Family,
+    /// Its points and ends.
+    pub line: TensorLine,
+    /// Half of its width at every point, cells; empty for plain lines.
+    pub half_widths: Vec<f64>,
+}
+
+/// Follows the lines that are asked for. Seeds where there is no axis give none.
+#[must_use]
+pub fn lines(field: &Field<Tensor2>, request: &LinesRequest) -> FieldLines {
+    let followed = Followed::new(field, request.axes);
+    let between = followed.interpolated();
+    let scale = request.ribbon.map(|widest| {
+        let largest = field.values().iter().filter_map(|t| request.axes.of(t, 0.0));
+        let largest = largest.map(|f| f.values[0].abs().max(f.values[1].abs())).fold(0.0, f64::max);
+        if largest > 0.0 { widest / largest } else { 0.0 }
+    });
+    let mut lines = Vec::new();
+    for &family in &request.families {
+        let found = match &request.seeds {
+            Seeds::Even(separation) => evenly_spaced(&between, family, *separation, &request.options),
+            Seeds::At(seeds) => seeds
+                .iter()
+                .map(|&seed| tensor_line(&between, seed, family, &request.options, &mut |_| true))
+                .filter(|line| line.points.len() > 1)
+                .collect(),
+        };
+        lines.extend(found.into_iter().map(|line| {
+            let half_widths = scale.map(|s| half_widths(&between, &line, family, s)).unwrap_or_default();
+            FieldLine { family, line, half_widths }
+        }));
+    }
+    FieldLines { lines, followed }
+}
+
+impl FieldLines {
+    /// The lines over the anisotropy of the field.
+    #[must_use]
+    pub fn picture(&self, field: &Field<Tensor2>, title: &str) -> Scene {
+        let overlays = [Family::Major, Family::Minor].into_iter().filter_map(|family| {
+            let lines: Vec<&TensorLine> =
+                self.lines.iter().filter(|l| l.family == family).map(|l| &l.line).collect();
+            let label = format!("{} lines ({})", family_name(family), axes_words(self.axes()));
+            (!lines.is_empty()).then(|| line_overlay(lines, family, &label))
+        });
+        let options = HeatOptions {
+            title: title.to_owned(),
+            quantity: "linear anisotropy (s₁ − s₂) / (s₁ + s₂)".to_owned(),
+            range: Some((0.0, 1.0)),
+            overlays: overlays.collect(),
+            ..HeatOptions::default()
+        };
+        heat_map(&field.map(|t| Anisotropy::of(t).linear), &options)
+    }
+
+    fn axes(&self) -> Axes {
+        self.followed.interpolated().axes()
+    }
+
+    /// The lines as polylines. Point arrays: `values` (both half-lengths or eigenvalues, major first) and, for hyperstreamlines,
+    /// `half_width` (in the unit of the smaller cell side). Cell arrays: `family` (0 major, 1 minor) and `ends` (why a line
+    /// ends: 0 border, 1 degenerate, 2 length, 3 closed, 4 stopped beside another line).
+    #[must_use]
+    pub fn poly_data(&self, placement: &Placement, story: &str) -> PolyData {
+        let mut data = PolyData::default();
+        let between = self.followed.interpolated();
+        let unit = placement.spacing[0].abs().min(placement.spacing[1].abs());
+        let (mut values, mut widths) = (Vec::new(), Vec::new());
+        for line in &self.lines {
+            push_line(&mut data, line.line.points.iter().map(|p| placement.place(*p)));
+            for p in &line.line.points {
+                values.extend(between.frame(*p, 0.0).map_or([f64::NAN; 2], |f| f.values));
+            }
+            widths.extend(line.half_widths.iter().map(|w| w * unit));
+        }
+        data.point_arrays.push(DataArray::new("values", 2, values).with_component_names(&["major", "minor"]));
+        if widths.len() == data.points.len() && !widths.is_empty() {
+            data.point_arrays.push(DataArray::new("half_width", 1, widths));
+        }
+        data.cell_arrays.push(counts("family", self.lines.iter().map(|l| l.family as i32)));
+        let ends = self.lines.iter().flat_map(|l| l.line.ends.map(end_number));
+        let ends = counts("ends", ends);
+        data.cell_arrays.push(DataArray { components: 2, ..ends }.with_component_names(&["first", "last"]));
+        push_story(&mut data, story);
+        data
+    }
+}
+
+/// What axes are in words.
+#[must_use]
+pub fn axes_words(axes: Axes) -> &'static str {
+    match axes {
+        Axes::HalfAxes => "half-axes",
+        Axes::Eigenvectors => "eigenvectors",
+        Axes::DualEigenvectors => "dual eigenvectors",
+    }
+}
+
+const fn end_number(end: LineEnd) -> i32 {
+    match end {
+        LineEnd::Border => 0,
+        LineEnd::Degenerate => 1,
+        LineEnd::Length => 2,
+        LineEnd::Closed => 3,
+        LineEnd::Stopped => 4,
+    }
+}
+
+/// The parameters of a request, for provenance.
+#[must_use]
+pub fn parameters(request: &LinesRequest) -> serde_json::Value {
+    use tigereye_lines::Method;
+    let seeds = match &request.seeds {
+        Seeds::Even(separation) => serde_json::json!({ "separation": separation }),
+        Seeds::At(points) => serde_json::json!(points),
+    };
+    let o = &request.options;
+    let (method, tolerance) = match o.method {
+        Method::RungeKutta4 => ("rk4", None),
+        Method::DormandPrince { tolerance } => ("rk45", Some(tolerance)),
+    };
+    serde_json::json!({
+        "axes": axes_name(request.axes),
+        "family": request.families.iter().map(|f| family_name(*f)).collect::<Vec<_>>(),
+        "seeds": seeds,
+        "method": method,
+        "tolerance": tolerance,
+        "step": o.step,
+        "length": o.length,
+        "least_anisotropy": o.least_anisotropy,
+        "inertia": o.inertia.map(|i| i.puncture),
+        "ribbon": request.ribbon,
+    })
+}

@@ -1,0 +1,116 @@
+//! The classical pictures of tensor fields, computed by `lines`, as figures and as VTK data.
+
+pub mod lines;
+mod overlays;
+pub mod topology;
+
+pub use overlays::{line_overlay, point_overlays};
+
+use crate::input::PlaneField;
+use tigereye_core::{Field, Tensor2};
+use tigereye_io::{DataArray, FieldEntry, FieldValues, PROVENANCE, PolyData};
+use tigereye_lines::{Axes, Family, Interpolated, ellipse_tensors};
+
+/// Part of its largest component by which a tensor's two shear components differ at most to count as symmetric.
+const SYMMETRIC_BELOW: f64 = 1e-9;
+
+/// The axes that are usual for a field: eigenvectors where all tensors are symmetric, half-axes otherwise.
+#[must_use]
+pub fn usual_axes(field: &Field<Tensor2>) -> Axes {
+    let symmetric =
+        field.values().iter().all(|t| t.asymmetry() <= SYMMETRIC_BELOW * t.max_abs() || !t.is_finite());
+    if symmetric { Axes::Eigenvectors } else { Axes::HalfAxes }
+}
+
+/// The name of axes as the options and files spell it.
+#[must_use]
+pub const fn axes_name(axes: Axes) -> &'static str {
+    match axes {
+        Axes::HalfAxes => "half",
+        Axes::Eigenvectors => "eigen",
+        Axes::DualEigenvectors => "dual",
+    }
+}
+
+/// The name of a family as the options and files spell it.
+#[must_use]
+pub const fn family_name(family: Family) -> &'static str {
+    match family {
+        Family::Major => "major",
+        Family::Minor => "minor",
+    }
+}
+
+/// A field whose axes are followed between its cells. Half-axes are those of the ellipses, because the components of tensors that
+/// are not symmetric may cancel between cells whose ellipses agree.
+#[derive(Clone, Debug)]
+pub struct Followed {
+    tensors: Field<Tensor2>,
+    axes: Axes,
+}
+
+impl Followed {
+    /// The tensors to interpolate for these axes.
+    #[must_use]
+    pub fn new(field: &Field<Tensor2>, axes: Axes) -> Self {
+        let tensors = match axes {
+            Axes::HalfAxes => ellipse_tensors(field),
+            Axes::Eigenvectors | Axes::DualEigenvectors => field.clone(),
+        };
+        Self { tensors, axes }
+    }
+
+    /// The field between its cells.
+    #[must_use]
+    pub const fn interpolated(&self) -> Interpolated<'_> {
+        Interpolated::new(&self.tensors).with_axes(self.axes)
+    }
+}
+
+/// Where the cells of a plane lie: x to the right, y **up**, as `convert` writes the field itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    origin: [f64; 2],
+    spacing: [f64; 2],
+    height: usize,
+}
+
+impl Placement {
+    /// That of a field.
+    #[must_use]
+    pub const fn of(plane: &PlaneField) -> Self {
+        Self { origin: plane.origin, spacing: plane.spacing, height: plane.field.grid().height() }
+    }
+
+    /// The place of a point in cells, y downwards.
+    #[must_use]
+    pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 3] {
+        let up = (self.height - 1) as f64 - y;
+        [self.origin[0] + x * self.spacing[0], self.origin[1] + up * self.spacing[1], 0.0]
+    }
+
+    /// Position of the lower left cell and distance of the cells.
+    #[must_use]
+    pub const fn corner_and_spacing(&self) -> ([f64; 2], [f64; 2]) {
+        (self.origin, self.spacing)
+    }
+}
+
+/// Adds lines to poly data; the points of each follow those of the one before.
+fn push_line(data: &mut PolyData, points: impl Iterator<Item = [f64; 3]>) {
+    let first = data.points.len();
+    data.points.extend(points);
+    data.lines.push(first..data.points.len());
+}
+
+/// Whole numbers as an array.
+fn counts(name: &str, values: impl IntoIterator<Item = i32>) -> DataArray {
+    let values = values.into_iter().map(f64::from).collect();
+    DataArray { scalar: tigereye_io::ScalarType::Int32, ..DataArray::new(name, 1, values) }
+}
+
+/// Where the data come from, as every written file says.
+fn push_story(data: &mut PolyData, story: &str) {
+    let values = FieldValues::Text(vec![story.to_owned()]);
+    data.field_data.push(FieldEntry { name: PROVENANCE.to_owned(), values });
+}

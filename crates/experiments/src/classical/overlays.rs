@@ -1,0 +1,45 @@
+//! Lines and degenerate points as overlays of maps.
+
+use tigereye_lines::{DegeneratePoint, Family, TensorLine};
+use tigereye_render::{Marker, Overlay, Rgba};
+
+/// Colours of the two families; dark enough for every map.
+const MAJOR: Rgba = Rgba::hex(0x262626);
+const MINOR: Rgba = Rgba::hex(0x8a5a00);
+const POINTS: Rgba = Rgba::hex(0xd55e00);
+
+/// Lines of one family; no label where only one is drawn.
+#[must_use]
+pub fn line_overlay<'a>(
+    lines: impl IntoIterator<Item = &'a TensorLine>,
+    family: Family,
+    label: &str,
+) -> Overlay {
+    let mut points = Vec::new();
+    for line in lines {
+        points.extend_from_slice(&line.points);
+        points.push([f64::NAN; 2]);
+    }
+    let colour = if family == Family::Major { MAJOR } else { MINOR };
+    Overlay { label: label.to_owned(), points, colour, width_px: 1.0, ..Overlay::default() }
+}
+
+/// Degenerate points by their kind; kinds that do not occur have no overlay.
+#[must_use]
+pub fn point_overlays(points: &[DegeneratePoint]) -> Vec<Overlay> {
+    let kinds: [(&str, Marker, fn(i32) -> bool); 3] = [
+        ("wedge (index 1/2)", Marker::Circle, |n| n == 1),
+        ("trisector (index −1/2)", Marker::Triangle, |n| n == -1),
+        ("merged (other index)", Marker::Diamond, |n| n.abs() != 1),
+    ];
+    let mut overlays = Vec::new();
+    for (label, marker, is_kind) in kinds {
+        let places = points.iter().filter(|p| is_kind(p.half_turns())).map(|p| p.position);
+        let points: Vec<[f64; 2]> = places.collect();
+        if !points.is_empty() {
+            let (label, marker) = (label.to_owned(), Some(marker));
+            overlays.push(Overlay { label, points, marker, colour: POINTS, ..Overlay::default() });
+        }
+    }
+    overlays
+}

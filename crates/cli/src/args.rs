@@ -1,6 +1,9 @@
 //! The command line.
 
+pub(crate) mod classical;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use classical::{LinesArgs, TopologyArgs};
 use std::path::PathBuf;
 use tigereye_core::{Below, Directions, Normalization};
 use tigereye_experiments::input::{Derivation, Derived, Reading};
@@ -37,6 +40,10 @@ pub(crate) enum Command {
     Info(InfoArgs),
     /// Any readable tensor field to another format.
     Convert(ConvertArgs),
+    /// Tensor lines and hyperstreamlines.
+    Lines(LinesArgs),
+    /// Degenerate points and separatrices.
+    Topology(TopologyArgs),
     /// Difference of two results.
     Compare(CompareArgs),
     /// What a change moved: numbers and figures of two results, or pending snapshots, on one page.

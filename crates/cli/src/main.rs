@@ -47,6 +47,8 @@ fn dispatch(cli: Cli) -> Result<u8, CliError> {
         Command::Merge(a) => commands::merge::merge(&a),
         Command::Info(a) => commands::info::info(&a),
         Command::Convert(a) => commands::convert::convert(&a),
+        Command::Lines(a) => commands::lines::run(&a),
+        Command::Topology(a) => commands::topology::run(&a),
         Command::Compare(a) => commands::compare::compare(&a),
         Command::Review(a) => commands::review::review(&a),
         Command::Bench(a) => commands::bench::bench(&a),

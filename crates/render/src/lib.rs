@@ -19,6 +19,7 @@ mod multiples;
 pub mod number;
 mod orientation;
 mod overlay;
+mod plain_map;
 mod png_export;
 mod polar_overlay;
 mod polar_plot;
@@ -35,6 +36,7 @@ pub use heat_map::{Difference, HeatOptions, HeatScale, difference_map, heat_map}
 pub use multiples::small_multiples;
 pub use orientation::{OrientationOptions, orientation_map};
 pub use overlay::Overlay;
+pub use plain_map::{PlainOptions, plain_map};
 pub use polar_overlay::{IntensityScale, PolarOptions, TransmissionScale, polar_overlay};
 pub use polar_plot::{PolarPlotOptions, PolarSeries, polar_plot};
 pub use scene::{Anchor, Item, Path, PathBuilder, Raster, Scene, Segment, Stroke, Text};

@@ -4,14 +4,17 @@ pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod convert;
+pub(crate) mod drawing;
 pub(crate) mod field;
 pub(crate) mod info;
 pub(crate) mod lattice;
+pub(crate) mod lines;
 pub(crate) mod ltg;
 pub(crate) mod merge;
 pub(crate) mod propagate;
 pub(crate) mod reproduce;
 pub(crate) mod review;
+pub(crate) mod topology;
 pub(crate) mod volume;
 
 use crate::error::CliError;

@@ -1,12 +1,14 @@
 //! Tensor lines and hyperstreamlines.
 
-use super::{Followed, Placement, axes_name, counts, family_name, line_overlay, push_line, push_story};
-use tigereye_core::{Anisotropy, Field, Tensor2};
+use super::{
+    Followed, Placement, axes_name, counts, family_name, line_overlay, plain_options, push_line, push_story,
+};
+use tigereye_core::{Field, Tensor2};
 use tigereye_io::{DataArray, PolyData};
 use tigereye_lines::{
     Axes, Family, LineEnd, LineOptions, TensorLine, evenly_spaced, half_widths, tensor_line,
 };
-use tigereye_render::{HeatOptions, Scene, heat_map};
+use tigereye_render::{Scene, plain_map};
 
 /// Where lines begin.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,7 +82,7 @@ pub fn lines(field: &Field<Tensor2>, request: &LinesRequest) -> FieldLines {
 }
 
 impl FieldLines {
-    /// The lines over the anisotropy of the field.
+    /// The lines on white; cells without a tensor are hatched.
     #[must_use]
     pub fn picture(&self, field: &Field<Tensor2>, title: &str) -> Scene {
         let overlays = [Family::Major, Family::Minor].into_iter().filter_map(|family| {
@@ -89,14 +91,7 @@ impl FieldLines {
             let label = format!("{} lines ({})", family_name(family), axes_words(self.axes()));
             (!lines.is_empty()).then(|| line_overlay(lines, family, &label))
         });
-        let options = HeatOptions {
-            title: title.to_owned(),
-            quantity: "linear anisotropy (s₁ − s₂) / (s₁ + s₂)".to_owned(),
-            range: Some((0.0, 1.0)),
-            overlays: overlays.collect(),
-            ..HeatOptions::default()
-        };
-        heat_map(&field.map(|t| Anisotropy::of(t).linear), &options)
+        plain_map(field.grid(), &plain_options(field, title, "Tensor lines", overlays.collect()))
     }
 
     fn axes(&self) -> Axes {

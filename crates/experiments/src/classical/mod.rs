@@ -6,10 +6,10 @@ pub mod topology;
 
 pub use overlays::{line_overlay, point_overlays};
 
-use crate::input::PlaneField;
-use tigereye_core::{Field, Tensor2};
+use tigereye_core::{Field, Grid, Tensor2};
 use tigereye_io::{DataArray, FieldEntry, FieldValues, PROVENANCE, PolyData};
 use tigereye_lines::{Axes, Family, Interpolated, ellipse_tensors};
+use tigereye_render::{Overlay, PlainOptions};
 
 /// Part of its largest component by which a tensor's two shear components differ at most to count as symmetric.
 const SYMMETRIC_BELOW: f64 = 1e-9;
@@ -76,10 +76,10 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// That of a field.
+    /// From the position of the lower left cell and the distance of the cells.
     #[must_use]
-    pub const fn of(plane: &PlaneField) -> Self {
-        Self { origin: plane.origin, spacing: plane.spacing, height: plane.field.grid().height() }
+    pub const fn new(origin: [f64; 2], spacing: [f64; 2], grid: Grid) -> Self {
+        Self { origin, spacing, height: grid.height() }
     }
 
     /// The place of a point in cells, y downwards.
@@ -113,4 +113,22 @@ fn counts(name: &str, values: impl IntoIterator<Item = i32>) -> DataArray {
 fn push_story(data: &mut PolyData, story: &str) {
     let values = FieldValues::Text(vec![story.to_owned()]);
     data.field_data.push(FieldEntry { name: PROVENANCE.to_owned(), values });
+}
+
+/// Lines and points over a field of which zero tensors and those that are not finite are hatched.
+fn plain_options(
+    field: &Field<Tensor2>,
+    title: &str,
+    description: &str,
+    overlays: Vec<Overlay>,
+) -> PlainOptions {
+    let missing = field.iter().filter(|(_, t)| t.is_zero() || !t.is_finite()).map(|(cell, _)| cell);
+    PlainOptions {
+        title: title.to_owned(),
+        description: description.to_owned(),
+        overlays,
+        missing: missing.collect(),
+        missing_label: "no tensor".to_owned(),
+        ..PlainOptions::default()
+    }
 }

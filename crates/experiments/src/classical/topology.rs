@@ -1,11 +1,17 @@
 //! Degenerate points and separatrices.
 
-use super::{Followed, Placement, counts, family_name, line_overlay, point_overlays, push_line, push_story};
+use super::lines::axes_words;
+use super::{
+    Followed, Placement, counts, family_name, line_overlay, plain_options, point_overlays, push_line,
+    push_story,
+};
 use serde_json::{Value, json};
 use tigereye_core::{Field, Tensor2};
 use tigereye_io::PolyData;
-use tigereye_lines::{Axes, Family, LineEnd, LineOptions, TensorLine, Topology};
-use tigereye_render::{OrientationOptions, Scene, orientation_map};
+use tigereye_lines::{
+    Axes, DegeneratePoint, Family, LineEnd, LineOptions, TensorLine, Topology, evenly_spaced,
+};
+use tigereye_render::{Overlay, Rgba, Scene, plain_map};
 
 /// The skeleton of a field.
 #[must_use]
@@ -14,26 +20,36 @@ pub fn topology(field: &Field<Tensor2>, axes: Axes, families: &[Family], options
     Topology::of(&followed.interpolated(), families, options)
 }
 
-/// Points and separatrices over the directions of the major half-axis.
+/// Points and separatrices over thin lines of the same axes.
 #[must_use]
-pub fn picture(topology: &Topology, field: &Field<Tensor2>, title: &str) -> Scene {
+pub fn picture(topology: &Topology, field: &Field<Tensor2>, axes: Axes, title: &str) -> Scene {
+    let longest = field.grid().width().max(field.grid().height()) as f64;
     let mut overlays = Vec::new();
     for family in [Family::Major, Family::Minor] {
         let lines: Vec<&TensorLine> =
             topology.separatrices.iter().filter(|s| s.family == family).map(|s| &s.line).collect();
+        if lines.is_empty() && family == Family::Minor {
+            continue;
+        }
+        let options = LineOptions { step: 0.2, length: longest, ..LineOptions::default() };
+        let followed = Followed::new(field, axes);
+        let around =
+            evenly_spaced(&followed.interpolated(), family, (longest / LINES_A_SIDE).max(0.5), &options);
+        let label = format!("{} lines ({})", family_name(family), axes_words(axes));
+        overlays.push(Overlay { colour: CONTEXT, width_px: 0.8, ..line_overlay(&around, family, &label) });
         if !lines.is_empty() {
             let label = format!("separatrices of the {} axis", family_name(family));
-            let mut overlay = line_overlay(lines, family, &label);
-            overlay.width_px = 1.6;
-            overlays.push(overlay);
+            overlays.push(Overlay { width_px: 1.8, ..line_overlay(lines, family, &label) });
         }
     }
     overlays.extend(point_overlays(&topology.points));
-    orientation_map(
-        field,
-        &OrientationOptions { title: title.to_owned(), overlays, ..OrientationOptions::default() },
-    )
+    plain_map(field.grid(), &plain_options(field, title, "Degenerate points and separatrices", overlays))
 }
+
+/// Distance of the thin lines in parts of the longer side.
+const LINES_A_SIDE: f64 = 40.0;
+/// Their colour.
+const CONTEXT: Rgba = Rgba::hex(0xb4b4b4);
 
 /// Points as vertices and separatrices as lines. Cell arrays: `half_turns` (twice the index; for a line that of its point), and
 /// `family` (0 major, 1 minor, -1 for points).
@@ -84,6 +100,6 @@ pub fn summary(topology: &Topology) -> Value {
             })
         })
         .collect();
-    let sum: f64 = topology.points.iter().map(|p| 0.5 * f64::from(p.half_turns())).sum();
+    let sum = 0.5 * f64::from(topology.points.iter().map(DegeneratePoint::half_turns).sum::<i32>());
     json!({ "points": points, "separatrices": separatrices, "index_sum": sum })
 }

@@ -1,0 +1,71 @@
+//! What the commands of the classical methods share: outputs by their endings, provenance, and place.
+
+use crate::args::ReadingArgs;
+use crate::commands::command_line;
+use crate::commands::propagate::PNG_SCALE;
+use crate::error::CliError;
+use crate::input::{Input, insert_reading};
+use crate::{files, interrupt};
+use serde_json::Value;
+use std::path::PathBuf;
+use tigereye_experiments::classical::Placement;
+use tigereye_experiments::provenance::provenance;
+use tigereye_io::IoError;
+use tigereye_render::Scene;
+
+/// Refuses endings that are none of `endings`, and places where nothing can be written, before anything is computed.
+pub(super) fn check_outputs(outputs: &[PathBuf], endings: &[&str]) -> Result<(), CliError> {
+    for output in outputs {
+        if !endings.contains(&files::extension(output).as_str()) {
+            let problem = format!("the ending tells the format: expected .{}", endings.join(", ."));
+            return Err(CliError::input(&output.display().to_string(), problem));
+        }
+        files::check_writable(output)?;
+    }
+    Ok(())
+}
+
+/// The input, unless it is among the outputs.
+pub(super) fn open_input(text: &str, reading: &ReadingArgs, outputs: &[PathBuf]) -> Result<Input, CliError> {
+    let input = Input::open(text, reading)?;
+    input.check_apart(outputs)?;
+    Ok(input)
+}
+
+/// The provenance of what is made of an input with these parameters.
+pub(super) fn story(input: &Input, mut parameters: Value, reading: &ReadingArgs) -> String {
+    if let Some(all) = parameters.as_object_mut() {
+        all.insert("input".to_owned(), Value::from(input.name.clone()));
+    }
+    insert_reading(&mut parameters, reading);
+    provenance(&command_line(), &parameters, &input.blake3)
+}
+
+/// Where the cells of an input lie.
+pub(super) const fn placement(input: &Input) -> Placement {
+    Placement::new(input.origin, input.spacing, input.field.grid())
+}
+
+/// Cells of the longer side.
+pub(super) fn longer_side(input: &Input) -> f64 {
+    input.field.grid().width().max(input.field.grid().height()) as f64
+}
+
+/// Writes a picture to every output that is one, and data to the others.
+pub(super) fn write(
+    outputs: &[PathBuf],
+    picture: &dyn Fn() -> Scene,
+    data: &dyn Fn() -> Result<Vec<u8>, IoError>,
+) -> Result<(), CliError> {
+    for output in outputs {
+        interrupt::check()?;
+        let fault = |problem: String| CliError::input(&output.display().to_string(), problem);
+        let bytes = match files::extension(output).as_str() {
+            "png" => picture().to_png(PNG_SCALE).map_err(|e| fault(e.to_string()))?,
+            "svg" => picture().to_svg().map_err(|e| fault(e.to_string()))?.into_bytes(),
+            _ => data().map_err(|e| fault(e.to_string()))?,
+        };
+        files::write(output, &bytes)?;
+    }
+    Ok(())
+}

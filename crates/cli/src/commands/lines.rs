@@ -1,0 +1,71 @@
+//! `tigereye lines`: tensor lines and hyperstreamlines.
+
+use crate::args::classical::{LinesArgs, MethodName};
+use crate::commands::{counted, drawing, print_json, print_text};
+use crate::error::CliError;
+use crate::input::Input;
+use serde_json::json;
+use tigereye_experiments::classical::lines::{LinesRequest, Seeds, axes_words, lines, parameters};
+use tigereye_experiments::classical::{axes_name, usual_axes};
+use tigereye_io::vtp;
+use tigereye_lines::{Axes, Inertia, LineOptions, Method};
+
+/// Distance of lines in parts of the longer side.
+const LINES_A_SIDE: f64 = 40.0;
+/// Longest line in longer sides.
+const SIDES: f64 = 4.0;
+
+pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
+    drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
+    let input = drawing::open_input(&args.input, &args.reading, &args.outputs)?;
+    let request = request(args, &input);
+    let found = lines(&input.field, &request);
+    let story = drawing::story(&input, parameters(&request), &args.reading);
+    drawing::write(&args.outputs, &|| found.picture(&input.field, &args.input), &|| {
+        vtp::write(&found.poly_data(&drawing::placement(&input), &story))
+    })?;
+    let length: f64 = found.lines.iter().map(|l| l.line.length()).sum();
+    if args.json {
+        print_json(&json!({
+            "width": input.field.grid().width(),
+            "height": input.field.grid().height(),
+            "axes": axes_name(request.axes),
+            "lines": found.lines.len(),
+            "points": found.lines.iter().map(|l| l.line.points.len()).sum::<usize>(),
+            "length": length,
+        }))?;
+    } else {
+        let count = counted(found.lines.len(), "line");
+        print_text(&format!(
+            "{count} along {}, {length:.1} cells long together\n",
+            axes_words(request.axes)
+        ))?;
+    }
+    Ok(0)
+}
+
+fn request(args: &LinesArgs, input: &Input) -> LinesRequest {
+    let side = drawing::longer_side(input);
+    let seeds = if args.seeds.is_empty() {
+        Seeds::Even(args.separation.unwrap_or((side / LINES_A_SIDE).max(0.5)))
+    } else {
+        Seeds::At(args.seeds.clone())
+    };
+    let method = match args.method {
+        MethodName::Rk4 => Method::RungeKutta4,
+        MethodName::Rk45 => Method::DormandPrince { tolerance: args.tolerance },
+    };
+    LinesRequest {
+        axes: args.axes.map_or_else(|| usual_axes(&input.field), Axes::from),
+        families: args.family.families().to_vec(),
+        seeds,
+        options: LineOptions {
+            method,
+            step: args.step,
+            length: args.length.unwrap_or(SIDES * side),
+            least_anisotropy: args.least_anisotropy,
+            inertia: args.inertia.map(|puncture| Inertia { puncture }),
+        },
+        ribbon: args.ribbon,
+    }
+}

@@ -1,0 +1,38 @@
+//! `tigereye topology`: degenerate points and separatrices.
+
+use crate::args::classical::TopologyArgs;
+use crate::commands::{counted, drawing, print_json, print_text};
+use crate::error::CliError;
+use serde_json::json;
+use tigereye_experiments::classical::{axes_name, topology, usual_axes};
+use tigereye_io::vtp;
+use tigereye_lines::{Axes, LineOptions};
+
+pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
+    drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
+    let input = drawing::open_input(&args.input, &args.reading, &args.outputs)?;
+    let axes = args.axes.map_or_else(|| usual_axes(&input.field), Axes::from);
+    let length = args.length.unwrap_or(4.0 * drawing::longer_side(&input));
+    let options = LineOptions { step: args.step, length, ..LineOptions::default() };
+    let found = topology::topology(&input.field, axes, args.family.families(), &options);
+    let parameters = json!({ "axes": axes_name(axes), "step": args.step, "length": length });
+    let story = drawing::story(&input, parameters, &args.reading);
+    drawing::write(&args.outputs, &|| topology::picture(&found, &input.field, axes, &args.input), &|| {
+        vtp::write(&topology::poly_data(&found, &drawing::placement(&input), &story))
+    })?;
+    let summary = topology::summary(&found);
+    if args.json {
+        print_json(&summary)?;
+    } else {
+        print_text(&format!(
+            "{} of index sum {}, {}\n",
+            counted(found.points.len(), "degenerate point"),
+            summary["index_sum"],
+            match found.separatrices.len() {
+                1 => "1 separatrix".to_owned(),
+                n => format!("{n} separatrices"),
+            }
+        ))?;
+    }
+    Ok(0)
+}

@@ -1,0 +1,75 @@
+//! Lines and points alone on the axes of a grid.
+
+use crate::legend::Entry;
+use crate::map_frame::{self, MapFrame};
+use crate::overlay::{self, Overlay};
+use crate::scene::{PathBuilder, Scene};
+use crate::{Rgba, legend::Mark};
+use tigereye_core::{Cell, Grid};
+
+/// Options of [`plain_map`].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PlainOptions {
+    /// Title; empty for none.
+    pub title: String,
+    /// What it shows, the beginning of a sentence for people who cannot see it.
+    pub description: String,
+    /// Pixels per cell; by default whole, such that the longer side has about 480.
+    pub cell_px: Option<usize>,
+    /// The lines and points.
+    pub overlays: Vec<Overlay>,
+    /// Cells that have nothing to show, hatched.
+    pub missing: Vec<Cell>,
+    /// What the legend calls them.
+    pub missing_label: String,
+}
+
+/// Overlays on white.
+#[must_use]
+pub fn plain_map(grid: Grid, options: &PlainOptions) -> Scene {
+    let cell = map_frame::cell_px(grid, options.cell_px, 480, 40);
+    let mut page = MapFrame::begin(grid, &options.title, cell, 0.0);
+    let mut legend = Vec::new();
+    let mut squares = PathBuilder::default();
+    for c in &options.missing {
+        let [x, y] = page.centre(*c);
+        squares.rect(x - 0.5 * cell, y - 0.5 * cell, cell, cell);
+    }
+    if !squares.is_empty() {
+        page.scene.fill(squares.finish(), Rgba::NOT_FINITE);
+    }
+    page.hatch(&options.missing);
+    if !options.missing.is_empty() {
+        legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), options.missing_label.clone()));
+    }
+    overlay::draw(&mut page, &options.overlays, &mut legend);
+    let description =
+        format!("{} on {} x {} cells, row 0 on top.", options.description, grid.width(), grid.height());
+    page.finish(&options.title, description, &legend)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_and_points_are_there_with_their_names() {
+        let overlay = |label: &str, points: &[[f64; 2]]| Overlay {
+            label: label.to_owned(),
+            points: points.to_vec(),
+            ..Overlay::default()
+        };
+        let options = PlainOptions {
+            title: "a field".to_owned(),
+            description: "Lines".to_owned(),
+            overlays: vec![overlay("a line", &[[0.0, 0.0], [3.0, 2.0]]), overlay("nothing", &[])],
+            missing: vec![Cell::new(1, 1)],
+            missing_label: "no tensor".to_owned(),
+            ..PlainOptions::default()
+        };
+        let svg = plain_map(Grid::new(4, 3).expect("a size"), &options).to_svg().expect("a picture");
+        for text in ["a field", "a line", "no tensor", "Lines on 4 x 3 cells"] {
+            assert!(svg.contains(text), "{text}");
+        }
+    }
+}

@@ -27,13 +27,14 @@ pub fn line_overlay<'a>(
 /// Degenerate points by their kind; kinds that do not occur have no overlay.
 #[must_use]
 pub fn point_overlays(points: &[DegeneratePoint]) -> Vec<Overlay> {
-    let kinds: [(&str, Marker, fn(i32) -> bool); 3] = [
-        ("wedge (index 1/2)", Marker::Circle, |n| n == 1),
-        ("trisector (index −1/2)", Marker::Triangle, |n| n == -1),
-        ("merged (other index)", Marker::Diamond, |n| n.abs() != 1),
+    let kinds = [
+        ("wedge (index 1/2)", Marker::Circle, Some(1)),
+        ("trisector (index −1/2)", Marker::Triangle, Some(-1)),
+        ("merged (other index)", Marker::Diamond, None),
     ];
     let mut overlays = Vec::new();
-    for (label, marker, is_kind) in kinds {
+    for (label, marker, turns) in kinds {
+        let is_kind = |n: i32| turns.map_or(n.abs() != 1, |t| n == t);
         let places = points.iter().filter(|p| is_kind(p.half_turns())).map(|p| p.position);
         let points: Vec<[f64; 2]> = places.collect();
         if !points.is_empty() {

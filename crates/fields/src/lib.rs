@@ -18,13 +18,16 @@ mod generators;
 mod geometry;
 pub mod images;
 mod nearest;
+mod noise;
 mod parameter;
 mod settings;
+mod splitmix;
 
 pub use arguments::{Arguments, FieldSpec, parse_spec};
 pub use error::FieldError;
 pub use expression::{Expression, ExpressionError, ExpressionErrorKind};
 pub use expression_field::{ExpressionField, Form, variables};
 pub use generator::{Generator, find, generate, generators};
+pub use noise::with_noise;
 pub use parameter::{MAX_SIDE, Parameter, ParameterKind};
 pub use settings::Settings;

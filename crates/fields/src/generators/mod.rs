@@ -3,7 +3,6 @@
 use crate::Generator;
 
 mod curve;
-mod splitmix;
 
 macro_rules! generators {
     ($($name:ident),+ $(,)?) => {

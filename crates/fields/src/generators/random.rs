@@ -5,11 +5,12 @@
 //!   |  .    |     sxx, syy, sxy uniform in [-1, 1), drawn in this order, row by row from the top left;
 //!   T---+---T     bilinear in between
 //! ```
-//! Symmetric, often indefinite. Deterministic for a seed ([`super::splitmix`]); the thesis's own random numbers are
+//! Symmetric, often indefinite. Deterministic for a seed (SplitMix64); the thesis's own random numbers are
 //! not known. Source: the thesis's synthetic test fields.
 
-use super::splitmix::SplitMix64;
+
 use crate::geometry::{Place, index_field};
+use crate::splitmix::SplitMix64;
 use crate::{Generator, Parameter, Settings};
 use tigereye_core::{Field, Tensor2};
 

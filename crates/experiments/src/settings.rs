@@ -11,7 +11,7 @@ use crate::spec::{
 use crate::uses::{self, RunKind};
 use std::collections::BTreeMap;
 use tigereye_core::{Below, Cell, Directions, Field, Grid, Normalization, PolarProfile, Tensor2};
-use tigereye_fields::{Arguments, Expression, ExpressionField, Form};
+use tigereye_fields::{Arguments, Expression, ExpressionField, Form, with_noise};
 use tigereye_io::volume::{Crop, Frame, Plane, PlaneChoice, parse_slice};
 use tigereye_ltg::{omega_step_of_slices, omega_step_of_volumes};
 use tigereye_transport::{Light, SharedWeights, Stopping, StoppingRule, emitter};
@@ -569,6 +569,12 @@ pub fn make_plane(
             let field = ExpressionField { width: *width, height: *height, form }.build();
             field.map(made).map_err(|e| e.to_string())
         }
+        FieldSource::Noisy { of, share, seed } => {
+            let (mut plane, kind) = make_plane(of, host)?;
+            plane.field = with_noise(&plane.field, share.get(), *seed);
+            plane.story.push(format!("noise of {} % of each tensor added", 100.0 * share.get()));
+            Ok((plane, kind))
+        }
         FieldSource::File { path, stride, .. } => {
             let fault = |e: &dyn std::fmt::Display| format!("{path}: {e}");
             let reading = reading_of(source).map_err(|e| fault(&e))?;
@@ -601,7 +607,11 @@ pub fn is_field_file(name: &str) -> bool {
 fn plane_in_file(path: &str, host: &dyn Host) -> Result<(PlaneField, Option<&'static str>), String> {
     let text = String::from_utf8(host.read(path)?).map_err(|_| format!("{path}: expected UTF-8 text"))?;
     let mut file = spec::load_field(path, &text).map_err(|e| e.to_string())?;
-    if let FieldSource::File { path: other, mask, .. } = &mut file.field {
+    let mut source = &mut file.field;
+    while let FieldSource::Noisy { of, .. } = source {
+        source = of;
+    }
+    if let FieldSource::File { path: other, mask, .. } = source {
         // One might lead back to the first.
         if is_field_file(other) {
             return Err(format!(

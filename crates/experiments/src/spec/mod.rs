@@ -167,6 +167,15 @@ pub enum FieldSource {
         #[serde(default = "one")]
         stride: usize,
     },
+    /// Another field with noise added to its tensors.
+    Noisy {
+        /// The field.
+        of: Box<FieldSource>,
+        /// Size of the noise over that of each tensor (Frobenius norm, root of the mean square).
+        share: Fraction,
+        /// Seed of the random numbers.
+        seed: u64,
+    },
 }
 
 /// Tensors made of an image; scales are standard deviations of Gaussians, in cells.

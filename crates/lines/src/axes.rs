@@ -57,7 +57,7 @@ impl Decomposition {
     #[must_use]
     pub fn of(t: &Tensor2) -> Self {
         let Numbers { f, e } = Numbers::of(t);
-        Self { scaling: 0.5 * e[0], rotation: 0.5 * e[1], stretching: 0.5 * size(f) }
+        Self { scaling: 0.5 * e[0], rotation: 0.5 * e[1], stretching: 0.5 * math::hypot(f[0], f[1]) }
     }
 
     /// Where the eigenvalues lie.
@@ -93,9 +93,13 @@ impl Axes {
     /// they differ (or, for the others, by which the tensor stretches, and turns) is not more than `least`.
     #[must_use]
     pub fn of(self, t: &Tensor2, least: f64) -> Option<Frame> {
-        // A power of two keeps squares in range and every direction as it is.
-        let scale = math::scale_by_power_of_two(1.0, -math::binary_exponent(t.max_abs()));
-        if !(t.is_finite() && t.max_abs() > 0.0 && scale.is_finite() && scale > 0.0) {
+        let largest = t.max_abs();
+        // A power of two keeps squares in range and every direction as it is; most tensors need none.
+        let scale = match largest {
+            1e-60..=1e60 => 1.0,
+            _ => math::scale_by_power_of_two(1.0, -math::binary_exponent(largest)),
+        };
+        if !(t.is_finite() && largest > 0.0 && scale.is_finite() && scale > 0.0) {
             return None;
         }
         let numbers = Numbers::of(&t.scaled(scale));
@@ -129,7 +133,7 @@ fn eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
     let (sum, difference) = (stretching + turning, stretching - turning);
     // Rotated from the bisector by 45 degrees less, and more, the angle whose tangent is sqrt(|difference| / sum).
     let (c, s) = (sum.sqrt(), difference.abs().sqrt());
-    let (c, s) = (c / math::hypot(c, s), s / math::hypot(c, s));
+    let (c, s) = (c / size([c, s]), s / size([c, s]));
     let side = if e[1] < 0.0 { -1.0 } else { 1.0 };
     let bisector = half_angle(*f);
     let diagonal = core::f64::consts::FRAC_1_SQRT_2;
@@ -155,8 +159,9 @@ fn dual_eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
     Some(Frame { axes: [major, quarter_turned(major)], values })
 }
 
+/// Components are scaled: their squares neither overflow nor vanish beside each other.
 fn size(z: [f64; 2]) -> f64 {
-    math::hypot(z[0], z[1])
+    (z[0] * z[0] + z[1] * z[1]).sqrt()
 }
 
 /// The unit vector at half the angle of a number, without the angle.

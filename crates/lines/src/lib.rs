@@ -7,6 +7,8 @@
 
 mod axes;
 mod degenerate;
+mod flow_map;
+mod ftle;
 mod hyperstreamline;
 mod interpolated;
 mod seeding;
@@ -15,8 +17,12 @@ mod topology;
 
 pub use axes::{Axes, Decomposition, Domain, Family, Frame};
 pub use degenerate::{DegenerateKind, DegeneratePoint, degenerate_points};
+pub use flow_map::{advected, exponents};
+pub use ftle::{Ftle, FtleOptions, SamplingError, fine_grid, ftle};
 pub use hyperstreamline::half_widths;
 pub use interpolated::{Interpolated, ellipse_tensors};
 pub use seeding::evenly_spaced;
-pub use tensor_line::{Inertia, LineEnd, LineOptions, Method, TensorLine, half_line, tensor_line};
+pub use tensor_line::{
+    Inertia, LineEnd, LineOptions, Method, TensorLine, half_line, half_line_end, tensor_line,
+};
 pub use topology::{Separatrix, Topology};

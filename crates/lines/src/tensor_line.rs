@@ -155,6 +155,27 @@ pub fn half_line(
     }
 }
 
+/// Where [`half_line`] ends, and whether it is as long as it may be. Nothing of the way is kept.
+#[must_use]
+pub fn half_line_end(
+    field: &Interpolated<'_>,
+    start: [f64; 2],
+    direction: [f64; 2],
+    family: Family,
+    options: &LineOptions,
+) -> ([f64; 2], bool) {
+    let walk = Walk { field, family, options };
+    let (mut at, mut towards, mut gone, mut step) = (start, direction, 0.0, options.step);
+    while options.are_possible() && options.length - gone > 1e-9 * options.step {
+        let Ok((made, length)) = walk.fitting(at, towards, step.min(options.length - gone)) else {
+            return (at, false);
+        };
+        gone += length;
+        (at, towards, step) = (made.to, made.direction, walk.longer(length, made.error));
+    }
+    (at, true)
+}
+
 impl LineOptions {
     /// Neither steps that lead nowhere, nor so many that they do not end.
     fn are_possible(&self) -> bool {
@@ -297,7 +318,8 @@ impl Walk<'_> {
 
     fn runge_kutta(&self, at: [f64; 2], towards: [f64; 2], h: f64) -> Result<Step, LineEnd> {
         let ahead = |k: [f64; 2], h: f64| [at[0] + h * k[0], at[1] + h * k[1]];
-        let a = self.slope(at, towards)?;
+        // The step before ended with the slope that this one begins with.
+        let a = towards;
         let b = self.slope(ahead(a, 0.5 * h), a)?;
         let c = self.slope(ahead(b, 0.5 * h), b)?;
         let d = self.slope(ahead(c, h), c)?;
@@ -314,7 +336,7 @@ impl Walk<'_> {
         tolerance: f64,
     ) -> Result<Step, LineEnd> {
         let mut slopes = [[0.0; 2]; 7];
-        slopes[0] = self.slope(at, towards)?;
+        slopes[0] = towards;
         let mut to = at;
         for (i, weights) in STAGES.iter().enumerate() {
             to = [0, 1].map(|k| at[k] + h * weights.iter().zip(&slopes).map(|(w, s)| w * s[k]).sum::<f64>());

@@ -1,0 +1,166 @@
+//! The finite-time Lyapunov exponent on tensor lines.
+
+use crate::flow_map::{exponent_of, gradient_at};
+use crate::{Family, Interpolated, LineOptions, half_line_end};
+use rayon::prelude::*;
+use thiserror::Error;
+use tigereye_core::{Cell, Field, Grid};
+
+/// How the exponent is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FtleOptions {
+    /// Length of the lines to each side, cells.
+    pub length: f64,
+    /// Step of the lines, cells.
+    pub step: f64,
+    /// Samples a cell along each side.
+    pub samples: usize,
+    /// See [`LineOptions::least_anisotropy`].
+    pub least_anisotropy: f64,
+}
+
+impl Default for FtleOptions {
+    fn default() -> Self {
+        Self { length: 10.0, step: 0.25, samples: 2, least_anisotropy: 1e-3 }
+    }
+}
+
+/// What cannot be computed.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum SamplingError {
+    /// More samples than fit.
+    #[error("{width} x {height} samples: expected at most {limit} together")]
+    TooManySamples {
+        /// Samples a row.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Most samples.
+        limit: usize,
+    },
+    /// A number of samples a cell that is 0 or too large.
+    #[error("{samples} samples a cell: expected 1 to {limit}")]
+    Samples {
+        /// What was asked for.
+        samples: usize,
+        /// The largest number.
+        limit: usize,
+    },
+    /// A length that is no length.
+    #[error(
+        "a length of {length} cells in steps of {step}: expected positive numbers, and at most {limit} steps"
+    )]
+    Length {
+        /// The length.
+        length: f64,
+        /// The step.
+        step: f64,
+        /// Most steps.
+        limit: f64,
+    },
+}
+
+/// Exponents in samples finer than the cells: sample (i, j) lies at `(i / samples, j / samples)` in cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ftle {
+    /// Samples a cell along each side.
+    pub samples: usize,
+    /// The larger exponent of the two directions of the line, per cell of length; not a number where there is no line.
+    pub larger: Field<f64>,
+    /// The smaller one.
+    pub smaller: Field<f64>,
+    /// Share of the lines that end before their length, at the border, a degenerate point or a cell without numbers.
+    pub ended: f64,
+}
+
+/// Most samples together, and along a cell's side.
+const MAX_SAMPLES: usize = 1 << 26;
+const MAX_SAMPLES_A_CELL: usize = 64;
+/// Most steps of a line.
+const MAX_STEPS: f64 = 1e5;
+
+/// The grid of samples finer than the cells of a grid: `samples (W - 1) + 1` by `samples (H - 1) + 1`.
+///
+/// # Errors
+/// [`SamplingError::Samples`] and [`SamplingError::TooManySamples`].
+pub fn fine_grid(grid: Grid, samples: usize) -> Result<Grid, SamplingError> {
+    if !(1..=MAX_SAMPLES_A_CELL).contains(&samples) {
+        return Err(SamplingError::Samples { samples, limit: MAX_SAMPLES_A_CELL });
+    }
+    let [width, height] = [grid.width(), grid.height()].map(|n| samples * (n - 1) + 1);
+    let too_many = SamplingError::TooManySamples { width, height, limit: MAX_SAMPLES };
+    if width.saturating_mul(height) > MAX_SAMPLES {
+        return Err(too_many);
+    }
+    Grid::new(width, height).map_err(|_| too_many)
+}
+
+pub(crate) fn check_length(length: f64, step: f64) -> Result<(), SamplingError> {
+    let limit = MAX_STEPS;
+    let possible = length > 0.0 && step > 0.0 && step.is_finite() && length / step <= limit;
+    if possible { Ok(()) } else { Err(SamplingError::Length { length, step, limit }) }
+}
+
+/// The exponent of the map that takes a point along its line by a length, after Hlawatsch, Vollrath, Sadlo and Weiskopf (Coherent
+/// structures of characteristic curves in symmetric second order tensor fields, 2011), with the flow map of both directions of the
+/// line. A line has no first direction, so the neighbours of a sample are taken in the directions nearer to its own, and of the
+/// two exponents that this gives, both are kept. A line that ends early counts with the point where it ends: beside it neighbours part
+/// by less than they would.
+///
+/// # Errors
+/// See [`SamplingError`].
+pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> Result<Ftle, SamplingError> {
+    check_length(options.length, options.step)?;
+    let grid = fine_grid(field.field().grid(), options.samples)?;
+    let samples = options.samples as f64;
+    let follow = LineOptions {
+        step: options.step,
+        length: options.length,
+        least_anisotropy: options.least_anisotropy,
+        ..LineOptions::default()
+    };
+    let start = |cell: Cell| {
+        let at = [cell.x as f64 / samples, cell.y as f64 / samples];
+        let direction = field.direction(at, family, options.least_anisotropy)?;
+        let (forth, all_forth) = half_line_end(field, at, direction, family, &follow);
+        let (back, all_back) = half_line_end(field, at, direction.map(|v| -v), family, &follow);
+        let early = u8::from(!all_forth) + u8::from(!all_back);
+        Some(Start { direction, ends: [forth, back], early })
+    };
+    let starts: Vec<Option<Start>> = (0..grid.cells()).into_par_iter().map(|i| start(grid.cell(i))).collect();
+    let both: Vec<[f64; 2]> = (0..grid.cells())
+        .into_par_iter()
+        .map(|i| both_exponents(grid.cell(i), grid, &starts, options))
+        .collect();
+    let lines = 2 * starts.iter().flatten().count();
+    let early: usize = starts.iter().flatten().map(|s| usize::from(s.early)).sum();
+    let of = |pick: fn(&[f64; 2]) -> f64| Field::from_fn(grid, |c| pick(&both[grid.index(c)]));
+    Ok(Ftle {
+        samples: options.samples,
+        larger: of(|[a, b]| if a >= b || b.is_nan() { *a } else { *b }),
+        smaller: of(|[a, b]| if a <= b { *a } else { *b }),
+        ended: early as f64 / lines.max(1) as f64,
+    })
+}
+
+/// Where the line of a sample leads.
+struct Start {
+    direction: [f64; 2],
+    /// Along that direction, and against it.
+    ends: [[f64; 2]; 2],
+    early: u8,
+}
+
+fn both_exponents(cell: Cell, grid: Grid, starts: &[Option<Start>], options: &FtleOptions) -> [f64; 2] {
+    let Some(own) = &starts[grid.index(cell)] else { return [f64::NAN; 2] };
+    let spacing = [1.0 / options.samples as f64; 2];
+    [0, 1].map(|side| {
+        let end = |c: Cell| {
+            let s = starts[grid.index(c)].as_ref()?;
+            let along = s.direction[0] * own.direction[0] + s.direction[1] * own.direction[1];
+            Some(s.ends[if along < 0.0 { 1 - side } else { side }])
+        };
+        let gradient = gradient_at(cell, grid, spacing, &end);
+        gradient.map_or(f64::NAN, |f| exponent_of(f, options.length))
+    })
+}

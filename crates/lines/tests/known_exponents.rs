@@ -1,0 +1,230 @@
+//! Exponents of lines and flows that are known.
+
+use tigereye_core::{Cell, Field, Grid, Tensor2, math};
+use tigereye_fields::{generate, parse_spec};
+use tigereye_lines::{
+    Axes, Family, Ftle, FtleOptions, Interpolated, SamplingError, advected, ellipse_tensors, exponents, ftle,
+};
+
+fn field(spec: &str) -> Field<Tensor2> {
+    let spec = parse_spec(spec).expect("a generator");
+    generate(&spec.name, &spec.arguments).expect("a field")
+}
+
+fn of(field: &Field<Tensor2>, family: Family, length: f64, samples: usize) -> Ftle {
+    let options = FtleOptions { length, samples, step: 0.1, ..FtleOptions::default() };
+    ftle(&Interpolated::new(field), family, &options).expect("samples")
+}
+
+/// The larger singular value of a shear by s.
+fn of_shear(s: f64) -> f64 {
+    (1.0 + 0.5 * s * s + s * (1.0 + 0.25 * s * s).sqrt()).sqrt()
+}
+
+#[test]
+fn parallel_lines_part_nowhere() {
+    let straight = Field::from_fn(Grid::new(12, 9).expect("a size"), |_| Tensor2::from_axes(0.4, 3.0, 1.0));
+    let found = of(&straight, Family::Major, 2.0, 3);
+    assert_eq!((found.larger.grid().width(), found.larger.grid().height()), (34, 25));
+    // Lines that leave the field end at its border, so look where none does.
+    for (c, v) in found.larger.iter() {
+        let inside = (9..25).contains(&c.x) && (9..16).contains(&c.y);
+        assert!(!inside || v.abs() < 1e-9, "{c:?} {v}");
+    }
+}
+
+/// Rays part as the circles they cross grow: outwards by (r + L) / r. Circles do not part, but those inside go further round: a
+/// shear by L / r.
+#[test]
+fn rays_and_circles_have_their_formulas() {
+    let field = ellipse_tensors(&field("star:size=61"));
+    let length = 5.0;
+    let (rays, circles) = (of(&field, Family::Major, length, 2), of(&field, Family::Minor, length, 2));
+    for cell in rays.larger.grid().iter() {
+        let (x, y) = (0.5 * cell.x as f64 - 30.0, 0.5 * cell.y as f64 - 30.0);
+        let r = math::hypot(x, y);
+        if !(12.0..22.0).contains(&r) {
+            continue;
+        }
+        // Differences over a cell's width of functions that bend over r cells, and axes that are interpolated.
+        let bend = 1.0 / (r * r);
+        let outwards = math::ln(1.0 + length / r) / length;
+        let ray = rays.larger.at(cell);
+        assert!((ray - outwards).abs() < bend, "{cell:?}: {ray} {outwards}");
+        let sheared = math::ln(of_shear(length / r)) / length;
+        for circle in [circles.larger.at(cell), circles.smaller.at(cell)] {
+            assert!((circle - sheared).abs() < bend, "{cell:?}: {circle} {sheared}");
+        }
+    }
+}
+
+/// The axis along (x, -y): hyperbolas. A map along them by arc length has no formula; its gradient is taken of the formula of the
+/// axis, in steps and differences so small that they are exact.
+#[test]
+fn hyperbolas_part_as_their_formula_says() {
+    let size = 61;
+    let place = |p: [f64; 2]| (p[0] - 30.0, 30.0 - p[1]);
+    let axis = |p: [f64; 2]| {
+        let (x, y) = place(p);
+        let r = math::hypot(x, y);
+        // Along (x, -y), y upwards; in cells y points downwards.
+        [x / r, y / r]
+    };
+    let field = Field::from_fn(Grid::new(size, size).expect("a size"), |c| {
+        let [x, y] = axis([c.x as f64, c.y as f64]);
+        Tensor2::from_eigen(math::atan2(-y, x), 3.0, 1.0)
+    });
+    let length = 6.0;
+    let found = of(&field, Family::Major, length, 2);
+    let velocity = |_: f64, p: [f64; 2]| axis(p);
+    for at in [[40.0, 20.0], [44.5, 18.0], [22.0, 41.5], [38.0, 37.0]] {
+        let end = |dx: f64, dy: f64, sign: f64| {
+            advected(&velocity, [at[0] + dx, at[1] + dy], [0.0, sign * length], 400)
+        };
+        let exact = [1.0, -1.0].map(|sign| {
+            let h = 1e-4;
+            let ends = Field::from_fn(Grid::new(3, 3).expect("a size"), |c| {
+                Some(end(h * (c.x as f64 - 1.0), h * (c.y as f64 - 1.0), sign))
+            });
+            *exponents(&ends, [h; 2], length).at(Cell::new(1, 1))
+        });
+        let expected = exact[0].max(exact[1]);
+        let cell = Cell::new((2.0 * at[0]) as usize, (2.0 * at[1]) as usize);
+        let value = found.larger.at(cell);
+        assert!((value - expected).abs() < 0.02 * expected, "{at:?}: {value} {expected}");
+    }
+}
+
+/// The same axes with other signs, the field turned: the same exponents.
+#[test]
+fn exponents_turn_with_the_field() {
+    let field = ellipse_tensors(&field("bow:size=25"));
+    let plain = of(&field, Family::Major, 6.0, 2).larger;
+    let turned = of(&field.quarter_turned(), Family::Major, 6.0, 2).larger;
+    let w = plain.grid().width();
+    let mut compared = 0;
+    for (c, v) in turned.iter() {
+        let other = plain.at(Cell::new(w - 1 - c.y, c.x));
+        if v.is_finite() || other.is_finite() {
+            assert!((v - other).abs() < 1e-9, "{c:?}: {v} {other}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 2000);
+}
+
+/// Velocity of the double gyre (Shadden, Lekien and Marsden 2005) with an added shear, and its gradient.
+struct Gyre {
+    shear: f64,
+}
+
+impl Gyre {
+    fn parts(t: f64, x: f64) -> [f64; 3] {
+        let a = 0.25 * math::sin(0.2 * math::PI * t);
+        [a * x * x + (1.0 - 2.0 * a) * x, 2.0 * a * x + 1.0 - 2.0 * a, 2.0 * a]
+    }
+
+    fn velocity(&self, t: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+        let ([f, fx, _], pi) = (Self::parts(t, x), math::PI);
+        [
+            -0.1 * pi * math::sin(pi * f) * math::cos(pi * y) + self.shear * y,
+            0.1 * pi * math::cos(pi * f) * math::sin(pi * y) * fx,
+        ]
+    }
+
+    /// Derivatives of the velocity, `[[ux, uy], [vx, vy]]`.
+    fn gradient(&self, t: f64, [x, y]: [f64; 2]) -> [[f64; 2]; 2] {
+        let ([f, fx, fxx], pi) = (Self::parts(t, x), math::PI);
+        let (sf, cf, sy, cy) = (math::sin(pi * f), math::cos(pi * f), math::sin(pi * y), math::cos(pi * y));
+        [
+            [-0.1 * pi * pi * cf * fx * cy, 0.1 * pi * pi * sf * sy + self.shear],
+            [0.1 * pi * (-pi * sf * fx * fx + cf * fxx) * sy, 0.1 * pi * pi * cf * cy * fx],
+        ]
+    }
+
+    /// The exponent by the variational equation `F' = grad v F`, followed together with the particle.
+    fn exponent(&self, start: [f64; 2], duration: f64) -> f64 {
+        type State = [f64; 6];
+        let slope = |t: f64, s: State| -> State {
+            let p = [s[0], s[1]];
+            let (v, g) = (self.velocity(t, p), self.gradient(t, p));
+            let row = |i: usize, j: usize| g[i][0] * s[2 + j] + g[i][1] * s[4 + j];
+            [v[0], v[1], row(0, 0), row(0, 1), row(1, 0), row(1, 1)]
+        };
+        let (mut s, steps) = ([start[0], start[1], 1.0, 0.0, 0.0, 1.0], 4000);
+        let h = duration / f64::from(steps);
+        for i in 0..steps {
+            let t = f64::from(i) * h;
+            let ahead = |k: State, h: f64| -> State { core::array::from_fn(|i| s[i] + h * k[i]) };
+            let a = slope(t, s);
+            let b = slope(t + 0.5 * h, ahead(a, 0.5 * h));
+            let c = slope(t + 0.5 * h, ahead(b, 0.5 * h));
+            let d = slope(t + h, ahead(c, h));
+            s = ahead(core::array::from_fn(|i| (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]) / 6.0), h);
+        }
+        let [_, _, a, b, c, d] = s;
+        let (p, q) = (math::hypot(a - d, b + c), math::hypot(a + d, c - b));
+        math::ln(0.5 * (p + q)) / duration
+    }
+}
+
+/// At the published setting (A = 0.1, epsilon = 0.25, omega = 2 pi / 10, T = 15) the exponent of the flow map is that of the
+/// variational equation, and with a shear, which has no symmetry to hide behind.
+#[test]
+fn double_gyre_has_the_exponents_of_its_variational_equation() {
+    let duration = 15.0;
+    for shear in [0.0, 0.03] {
+        let gyre = Gyre { shear };
+        for start in [[0.3, 0.4], [1.0, 0.5], [1.62, 0.27], [0.85, 0.91]] {
+            let h = 1e-5;
+            let ends = Field::from_fn(Grid::new(3, 3).expect("a size"), |c| {
+                let p = [start[0] + h * (c.x as f64 - 1.0), start[1] + h * (c.y as f64 - 1.0)];
+                Some(advected(&|t, p| gyre.velocity(t, p), p, [0.0, duration], 1500))
+            });
+            let found = *exponents(&ends, [h; 2], duration).at(Cell::new(1, 1));
+            let expected = gyre.exponent(start, duration);
+            // Second differences of a map that stretches a hundredfold over 1e-5.
+            assert!((found - expected).abs() < 1e-6, "{shear} {start:?}: {found} {expected}");
+        }
+    }
+}
+
+#[test]
+fn what_has_no_lines_has_no_exponent() {
+    for t in [Tensor2::ZERO, Tensor2::IDENTITY, Tensor2::isotropic(f64::NAN)] {
+        for (width, height) in [(1, 1), (1, 6), (7, 5)] {
+            let field = Field::from_fn(Grid::new(width, height).expect("a size"), |_| t);
+            for axes in [Axes::HalfAxes, Axes::Eigenvectors, Axes::DualEigenvectors] {
+                let between = Interpolated::new(&field).with_axes(axes);
+                let found = ftle(&between, Family::Major, &FtleOptions::default()).expect("samples");
+                assert!(found.larger.values().iter().all(|v| v.is_nan()));
+                assert_eq!(found.ended, 0.0);
+            }
+        }
+    }
+    let thin = Field::from_fn(Grid::new(1, 9).expect("a size"), |_| Tensor2::from_axes(1.0, 2.0, 1.0));
+    assert!(of(&thin, Family::Major, 2.0, 2).larger.values().iter().all(|v| v.is_nan()));
+}
+
+#[test]
+fn impossible_sampling_is_refused() {
+    let field = field("x:size=5");
+    let between = Interpolated::new(&field);
+    let with = |length, step, samples| {
+        let options = FtleOptions { length, step, samples, ..FtleOptions::default() };
+        ftle(&between, Family::Major, &options)
+    };
+    assert!(matches!(with(1.0, 0.1, 0), Err(SamplingError::Samples { .. })));
+    assert!(matches!(with(1.0, 0.1, 65), Err(SamplingError::Samples { .. })));
+    for (length, step) in
+        [(0.0, 0.1), (f64::NAN, 0.1), (1.0, 0.0), (1.0, f64::NAN), (1e300, 1.0), (-1.0, 0.1)]
+    {
+        assert!(matches!(with(length, step, 1), Err(SamplingError::Length { .. })), "{length} {step}");
+    }
+    let large = Field::from_fn(Grid::new(2000, 2000).expect("a size"), |_| Tensor2::IDENTITY);
+    let options = FtleOptions { samples: 64, ..FtleOptions::default() };
+    assert!(matches!(
+        ftle(&Interpolated::new(&large), Family::Major, &options),
+        Err(SamplingError::TooManySamples { .. })
+    ));
+}

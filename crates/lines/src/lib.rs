@@ -6,6 +6,7 @@
 //! symmetric and positive. They have no sign: a line goes on in the direction that is nearer to where it came from.
 
 mod axes;
+mod convolution;
 mod degenerate;
 mod flow_map;
 mod ftle;
@@ -16,6 +17,7 @@ mod tensor_line;
 mod topology;
 
 pub use axes::{Axes, Decomposition, Domain, Family, Frame};
+pub use convolution::{ConvolutionOptions, convolved, hyper_convolved};
 pub use degenerate::{DegenerateKind, DegeneratePoint, degenerate_points};
 pub use flow_map::{advected, exponents};
 pub use ftle::{Ftle, FtleOptions, SamplingError, fine_grid, ftle};

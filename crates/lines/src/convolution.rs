@@ -1,0 +1,317 @@
+//! Noise smeared along axes: line integral convolution.
+
+use crate::ftle::check_length;
+use crate::{Family, Interpolated, SamplingError, fine_grid};
+use core::f64::consts::PI;
+use rayon::prelude::*;
+use tigereye_core::{Field, Grid, math};
+
+/// How noise is smeared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConvolutionOptions {
+    /// Samples a cell along each side.
+    pub samples: usize,
+    /// How far the noise is smeared to each side, cells.
+    pub half_length: f64,
+    /// Seed of the noise.
+    pub seed: u64,
+}
+
+impl Default for ConvolutionOptions {
+    fn default() -> Self {
+        Self { samples: 4, half_length: 5.0, seed: 1 }
+    }
+}
+
+/// Steps a sample's width.
+const STEPS_A_SAMPLE: f64 = 2.0;
+/// Where axes differ by less than this part of the longer one there are none.
+const LEAST: f64 = 1e-3;
+/// Standard deviation of the texture's brightness about 1/2.
+const CONTRAST: f64 = 0.2;
+/// Cosine of the largest turn within a step, 60 degrees.
+const LARGEST_TURN: f64 = 0.5;
+
+/// White noise, uniform in [0, 1), smeared along an axis with Hann's window (Cabral and Leedom, Imaging vector fields using line
+/// integral convolution, 1993), in samples finer than the cells ([`fine_grid`]). Lines end at the border and where there is no
+/// axis; what is left of the window counts whole. Brightness is stretched to a mean of 1/2 and a standard deviation of
+/// 0.2 over the field and clipped to [0, 1]. Round tensors keep their noise; zero tensors, and those that are no numbers, have no
+/// brightness (not a number).
+///
+/// # Errors
+/// See [`SamplingError`].
+pub fn convolved(
+    field: &Interpolated<'_>,
+    family: Family,
+    options: &ConvolutionOptions,
+) -> Result<Field<f64>, SamplingError> {
+    let (grid, step) = sampled(field, options)?;
+    let noise = noise(grid, options.seed);
+    let walk = Walk { field, family, straight: None, step, samples: options.samples as f64 };
+    let length = |_: [f64; 2]| options.half_length;
+    Ok(stretched(smeared(&noise, &walk, &length)))
+}
+
+/// Noise smeared along both axes, along each as far as it is long: `half_length` along the longer half-axis (or eigenvalue, by
+/// size), its share of that along the other. Round tensors blur noise alike in every direction, flat ones draw it into lines
+/// (Zheng and Pang, HyperLIC, 2003, in two passes: along the minor axis, and what that gives along the major one). A tensor without
+/// axes takes x and y for them. Brightness as in [`convolved`].
+///
+/// # Errors
+/// See [`SamplingError`].
+pub fn hyper_convolved(
+    field: &Interpolated<'_>,
+    options: &ConvolutionOptions,
+) -> Result<Field<f64>, SamplingError> {
+    let (grid, step) = sampled(field, options)?;
+    let mut texture = noise(grid, options.seed);
+    for (family, straight) in [(Family::Minor, [0.0, 1.0]), (Family::Major, [1.0, 0.0])] {
+        let walk = Walk { field, family, straight: Some(straight), step, samples: options.samples as f64 };
+        let length = |at: [f64; 2]| {
+            let Some(frame) = field.frame(at, 0.0) else { return options.half_length };
+            let [own, other] = [family as usize, 1 - family as usize].map(|i| frame.values[i].abs());
+            let longer = own.max(other);
+            if longer > 0.0 { options.half_length * own / longer } else { 0.0 }
+        };
+        texture = smeared(&texture, &walk, &length);
+    }
+    Ok(stretched(texture))
+}
+
+fn sampled(field: &Interpolated<'_>, options: &ConvolutionOptions) -> Result<(Grid, f64), SamplingError> {
+    let grid = fine_grid(field.field().grid(), options.samples)?;
+    let step = 1.0 / (STEPS_A_SAMPLE * options.samples as f64);
+    check_length(options.half_length, step)?;
+    Ok((grid, step))
+}
+
+/// The same noise for a seed everywhere: every sample's number is a hash of its place (the finisher of SplitMix64, Steele, Lea and
+/// Flood 2014).
+fn noise(grid: Grid, seed: u64) -> Field<f64> {
+    Field::from_fn(grid, |c| {
+        let place = ((c.y as u64) << 32 | c.x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut z = place.wrapping_add(seed.wrapping_mul(0xd134_2543_de82_ef95));
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    })
+}
+
+struct Walk<'a> {
+    field: &'a Interpolated<'a>,
+    family: Family,
+    /// The direction to take where there is no axis; lines end there without.
+    straight: Option<[f64; 2]>,
+    step: f64,
+    samples: f64,
+}
+
+impl Walk<'_> {
+    fn direction(&self, at: [f64; 2]) -> Option<[f64; 2]> {
+        let found = self.field.direction(at, self.family, LEAST);
+        found.or_else(|| self.straight.filter(|_| self.field.at(at).is_some_and(|t| !t.is_zero())))
+    }
+
+    /// A step of the midpoint rule: where it leads, and the direction there.
+    fn next(&self, at: [f64; 2], towards: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
+        let half = [0, 1].map(|i| at[i] + 0.5 * self.step * towards[i]);
+        let middle = along(self.direction(half)?, towards)?;
+        let to = [0, 1].map(|i| at[i] + self.step * middle[i]);
+        Some((to, along(self.direction(to)?, middle)?))
+    }
+
+    /// The sample nearest to a point.
+    fn sample(&self, texture: &Field<f64>, at: [f64; 2]) -> f64 {
+        let grid = texture.grid();
+        let index = |v: f64, n: usize| ((v * self.samples).round().max(0.0) as usize).min(n - 1);
+        texture.values()[index(at[1], grid.height()) * grid.width() + index(at[0], grid.width())]
+    }
+}
+
+/// A direction with the sign of another; none where they differ by more than 60 degrees.
+fn along(d: [f64; 2], towards: [f64; 2]) -> Option<[f64; 2]> {
+    let cosine = d[0] * towards[0] + d[1] * towards[1];
+    if cosine.abs() < LARGEST_TURN {
+        return None;
+    }
+    Some(if cosine < 0.0 { [-d[0], -d[1]] } else { d })
+}
+
+/// The texture averaged along the lines through its samples, as far as `length` says for each.
+fn smeared(texture: &Field<f64>, walk: &Walk<'_>, length: &(dyn Fn([f64; 2]) -> f64 + Sync)) -> Field<f64> {
+    let grid = texture.grid();
+    let value = |i: usize| {
+        let cell = grid.cell(i);
+        let own = texture.values()[i];
+        let at = [cell.x as f64 / walk.samples, cell.y as f64 / walk.samples];
+        match walk.field.at(at) {
+            Some(t) if !t.is_zero() => {}
+            _ => return f64::NAN,
+        }
+        let Some(start) = walk.direction(at) else { return own };
+        let half = length(at);
+        let steps = (half / walk.step) as usize;
+        let (mut sum, mut weights) = (own, 1.0);
+        for start in [start, start.map(|v| -v)] {
+            let (mut p, mut d) = (at, start);
+            for k in 1..=steps {
+                let Some((to, direction)) = walk.next(p, d) else { break };
+                (p, d) = (to, direction);
+                let sample = walk.sample(texture, p);
+                if sample.is_nan() {
+                    break;
+                }
+                let weight = 0.5 * (1.0 + math::cos(PI * k as f64 * walk.step / half));
+                sum += weight * sample;
+                weights += weight;
+            }
+        }
+        sum / weights
+    };
+    let values: Vec<f64> = (0..grid.cells()).into_par_iter().map(value).collect();
+    Field::from_fn(grid, |c| values[grid.index(c)])
+}
+
+/// Brightness with the usual mean and deviation.
+fn stretched(texture: Field<f64>) -> Field<f64> {
+    let finite = || texture.values().iter().copied().filter(|v| v.is_finite());
+    let count = finite().count().max(1) as f64;
+    let mean = finite().sum::<f64>() / count;
+    let deviation = (finite().map(|v| (v - mean) * (v - mean)).sum::<f64>() / count).sqrt();
+    let factor = if deviation > 1e-9 { CONTRAST / deviation } else { 0.0 };
+    texture.map(|v| if v.is_finite() { (0.5 + factor * (v - mean)).clamp(0.0, 1.0) } else { f64::NAN })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tigereye_core::{Cell, Tensor2};
+
+    fn field(size: [usize; 2], t: impl Fn(f64, f64) -> Tensor2) -> Field<Tensor2> {
+        Field::from_fn(Grid::new(size[0], size[1]).expect("a size"), |c| t(c.x as f64, c.y as f64))
+    }
+
+    fn options(half_length: f64, samples: usize) -> ConvolutionOptions {
+        ConvolutionOptions { samples, half_length, seed: 3 }
+    }
+
+    #[test]
+    fn noise_is_uniform_and_independent() {
+        let grid = Grid::new(200, 200).expect("a size");
+        let noise = noise(grid, 1);
+        let n = grid.cells() as f64;
+        let mean = noise.values().iter().sum::<f64>() / n;
+        let variance = noise.values().iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n;
+        // Three standard errors of 40 000 numbers.
+        assert!((mean - 0.5).abs() < 3.0 * (1.0 / 12.0 / n).sqrt());
+        assert!((variance - 1.0 / 12.0).abs() < 3.0 * (1.0 / 180.0 / n).sqrt());
+        let with = |dx: usize, dy: usize| {
+            let pairs = noise.iter().filter(|(c, _)| c.x + dx < 200 && c.y + dy < 200);
+            pairs.map(|(c, v)| (v - mean) * (noise.at(Cell::new(c.x + dx, c.y + dy)) - mean)).sum::<f64>() / n
+        };
+        for (dx, dy) in [(1, 0), (0, 1), (1, 1), (2, 0)] {
+            assert!(with(dx, dy).abs() < 4.0 / 12.0 / n.sqrt(), "{dx} {dy}");
+        }
+        assert_ne!(super::noise(grid, 2), noise);
+    }
+
+    /// Along x the texture is the noise of its row under Hann's window.
+    #[test]
+    fn straight_lines_give_the_convolution_of_their_row() {
+        let tensors = field([20, 6], |_, _| Tensor2::from_axes(0.0, 2.0, 1.0));
+        let between = Interpolated::new(&tensors);
+        let (half, samples) = (3.0, 2);
+        let walk = Walk { field: &between, family: Family::Major, straight: None, step: 0.25, samples: 2.0 };
+        let noise = noise(fine_grid(tensors.grid(), samples).expect("samples"), 3);
+        let found = smeared(&noise, &walk, &|_| half);
+        let grid = noise.grid();
+        for cell in grid.iter() {
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for k in -11_i32..=11 {
+                let x = cell.x as f64 + 0.5 * f64::from(k);
+                // Half-way between samples the farther one from zero is taken.
+                let nearest = x.round();
+                if (0.0..grid.width() as f64).contains(&nearest) && x >= 0.0 && x <= grid.width() as f64 - 1.0
+                {
+                    let weight = 0.5 * (1.0 + math::cos(PI * f64::from(k) * 0.25 / half));
+                    sum += weight * noise.at(Cell::new(nearest as usize, cell.y));
+                    weights += weight;
+                }
+            }
+            assert!((found.at(cell) - sum / weights).abs() < 1e-12, "{cell:?}");
+        }
+    }
+
+    /// Neighbours along the axis are alike, across it they are not.
+    #[test]
+    fn textures_run_along_the_axis() {
+        for quarter in [0.0, 1.0] {
+            let phi = quarter * 0.5 * PI;
+            let tensors = field([40, 40], |_, _| Tensor2::from_axes(phi, 3.0, 1.0));
+            let between = Interpolated::new(&tensors);
+            for texture in [
+                convolved(&between, Family::Major, &options(4.0, 2)).expect("samples"),
+                hyper_convolved(&between, &options(4.0, 2)).expect("samples"),
+            ] {
+                let difference = |dx: usize, dy: usize| {
+                    let inside = texture.iter().filter(|(c, _)| c.x < 70 && c.y < 70);
+                    inside.map(|(c, v)| (v - texture.at(Cell::new(c.x + dx, c.y + dy))).abs()).sum::<f64>()
+                };
+                let (x, y) = (difference(2, 0), difference(0, 2));
+                let (along, across) = if quarter == 0.0 { (x, y) } else { (y, x) };
+                assert!(2.0 * along < across, "{along} {across}");
+            }
+        }
+    }
+
+    #[test]
+    fn brightness_has_its_mean_and_deviation() {
+        let tensors = field([60, 50], |x, y| Tensor2::from_axes(0.02 * x + 0.01 * y, 3.0, 1.0));
+        let texture =
+            convolved(&Interpolated::new(&tensors), Family::Minor, &options(4.0, 2)).expect("samples");
+        let n = texture.values().len() as f64;
+        let mean = texture.values().iter().sum::<f64>() / n;
+        let deviation = (texture.values().iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n).sqrt();
+        // Clipping takes a little of both.
+        assert!((mean - 0.5).abs() < 0.01 && (deviation - CONTRAST).abs() < 0.01, "{mean} {deviation}");
+    }
+
+    #[test]
+    fn round_tensors_keep_their_noise_and_missing_ones_have_none() {
+        let round = field([100, 100], |_, _| Tensor2::IDENTITY);
+        let between = Interpolated::new(&round);
+        let plain = convolved(&between, Family::Major, &options(3.0, 2)).expect("samples");
+        assert_eq!(plain, stretched(noise(plain.grid(), 3)));
+        // Blurred alike in both directions.
+        let blurred = hyper_convolved(&between, &options(3.0, 2)).expect("samples");
+        let difference = |dx: usize, dy: usize| {
+            let inside = blurred.iter().filter(|(c, _)| c.x < 190 && c.y < 190);
+            inside.map(|(c, v)| (v - blurred.at(Cell::new(c.x + dx, c.y + dy))).abs()).sum::<f64>()
+        };
+        let ratio = difference(1, 0) / difference(0, 1);
+        // Some thousand patches of blurred noise.
+        assert!((0.9..1.1).contains(&ratio), "{ratio}");
+        for t in [Tensor2::ZERO, Tensor2::isotropic(f64::NAN)] {
+            let none = field([5, 1], |_, _| t);
+            let between = Interpolated::new(&none);
+            for texture in [
+                convolved(&between, Family::Major, &options(3.0, 2)).expect("samples"),
+                hyper_convolved(&between, &options(3.0, 2)).expect("samples"),
+            ] {
+                assert!(texture.values().iter().all(|v| v.is_nan()));
+            }
+        }
+    }
+
+    #[test]
+    fn impossible_textures_are_refused() {
+        let tensors = field([5, 5], |_, _| Tensor2::from_axes(0.0, 2.0, 1.0));
+        let between = Interpolated::new(&tensors);
+        for bad in
+            [options(0.0, 2), options(f64::NAN, 2), options(1e9, 2), options(1.0, 0), options(1.0, 1000)]
+        {
+            assert!(convolved(&between, Family::Major, &bad).is_err(), "{bad:?}");
+            assert!(hyper_convolved(&between, &bad).is_err(), "{bad:?}");
+        }
+    }
+}

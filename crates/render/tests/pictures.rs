@@ -8,13 +8,18 @@ use tigereye_core::{
     Cell, Directions, Field, Grid, LightDistribution, Normalization, Tensor2, TransmissionField, math,
 };
 use tigereye_render::{
-    GlyphOptions, HeatOptions, Item, PolarOptions, Scene, glyphs, heat_map, orientation_map, polar_overlay,
+    GlyphColour, GlyphOptions, GlyphScale, HeatOptions, Item, PolarOptions, Scene, glyphs, heat_map,
+    orientation_map, polar_overlay,
 };
 
 /// Largest difference of a colour channel (of 255) that counts as the same: edges are blended in floating point.
 const CHANNEL_TOLERANCE: u8 = 2;
 /// Largest recorded picture, bytes.
 const MAX_BYTES: usize = 20 * 1024;
+
+fn only_paths(items: Vec<Item>) -> Vec<Item> {
+    without_text(items).into_iter().filter(|item| !matches!(item, Item::Raster(_))).collect()
+}
 
 fn without_text(items: Vec<Item>) -> Vec<Item> {
     items
@@ -66,6 +71,31 @@ fn field() -> Field<Tensor2> {
 fn glyphs_look_as_recorded() {
     let options = GlyphOptions { cell_px: Some(24), ..GlyphOptions::default() };
     looks_as_recorded("glyphs", glyphs(&field(), &options));
+}
+
+/// The pictures of existing experiments are compared by their bytes: new kinds of glyphs must not move old ones.
+#[test]
+fn ellipses_keep_their_bytes() {
+    let mut field = field();
+    field.values_mut()[1] = Tensor2::new(f64::NAN, 0.0, 0.0, 1.0);
+    field.values_mut()[2] = Tensor2::new(0.5, -0.7, 0.2, -0.1);
+    let mut page = String::new();
+    for (scale, colour) in
+        [(GlyphScale::Field, GlyphColour::AxisSign), (GlyphScale::SquareRoot, GlyphColour::Anisotropy)]
+    {
+        let options = GlyphOptions { cell_px: Some(24), scale, colour, ..GlyphOptions::default() };
+        let mut scene = glyphs(&field, &options);
+        scene.items = only_paths(scene.items);
+        page += &scene.to_svg().expect("a drawing");
+    }
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/pictures/ellipses.svg");
+    if std::env::var_os("TIGEREYE_UPDATE_PICTURES").is_some() {
+        std::fs::write(&path, &page).expect("a writable folder");
+    }
+    assert!(
+        page == std::fs::read_to_string(&path).expect("a recorded drawing"),
+        "the bytes of ellipses moved"
+    );
 }
 
 #[test]

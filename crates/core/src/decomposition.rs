@@ -73,7 +73,7 @@ impl Svd {
 }
 
 /// Unit vector at half the angle of `(x, y)`, taken in (-pi/2, pi/2].
-fn half_angle(x: f64, y: f64) -> Vector2<f64> {
+pub(crate) fn half_angle(x: f64, y: f64) -> Vector2<f64> {
     let r = math::hypot(x, y);
     if r == 0.0 {
         return Vector2::new(1.0, 0.0);

@@ -2,7 +2,7 @@
 
 use crate::colour::Rgba;
 use crate::font;
-use crate::scene::{Anchor, PathBuilder, Scene};
+use crate::scene::{Anchor, Item, PathBuilder, Scene};
 use crate::shapes::{self, Marker};
 
 /// Font size of legends and axis numbers in pixels.
@@ -27,6 +27,8 @@ pub(crate) enum Mark {
     Point(Marker, Rgba),
     /// A small hollow circle.
     Ring(Rgba),
+    /// Items about (0, 0), within a rectangle of 22 x 11 pixels.
+    Drawing(Vec<Item>),
     /// Nothing: the text is a remark.
     None,
 }
@@ -103,6 +105,10 @@ fn draw_mark(scene: &mut Scene, mark: &Mark, [x, y]: [f64; 2]) {
             outline = PathBuilder::default();
             outline.circle(centre, 3.0);
             scene.stroke(outline.finish(), *colour, 1.0);
+        }
+        Mark::Drawing(items) => {
+            let [dx_px, dy_px] = centre;
+            scene.items.push(Item::Group { dx_px, dy_px, scale: 1.0, items: items.clone() });
         }
         Mark::None => {}
     }

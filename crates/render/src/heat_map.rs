@@ -8,6 +8,7 @@ use crate::legend::{Entry, Mark};
 use crate::map_frame::{self, MapFrame};
 use crate::number;
 use crate::overlay::{self, Overlay};
+use crate::ribbon::{self, Ribbon};
 use crate::scene::{Item, Raster, Scene};
 use tigereye_core::{Cell, Field, Grid, math};
 
@@ -42,7 +43,9 @@ pub struct HeatOptions {
     pub range: Option<(f64, f64)>,
     /// Light sources, marked with stars.
     pub sources: Vec<Cell>,
-    /// Points and lines over the map.
+    /// Bands over the map.
+    pub ribbons: Vec<Ribbon>,
+    /// Points and lines over the map and its bands.
     pub overlays: Vec<Overlay>,
     /// Pixels per cell; by default whole, such that the longer side has about 480.
     pub cell_px: Option<usize>,
@@ -78,6 +81,7 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     let broken: Vec<Cell> = field.iter().filter(|(_, v)| !v.is_finite()).map(|(c, _)| c).collect();
     page.hatch(&broken);
     let mut legend = value_legend(field.values(), &summary, &axis, block, options.missing.as_deref());
+    ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
     overlay::draw_sources(&mut page, &options.sources, &mut legend);
     let (edge, top, height) = (page.left + page.width(), page.top, page.side_height());

@@ -5,6 +5,7 @@ use crate::font;
 use crate::legend::{Entry, Mark, SMALL_PX};
 use crate::map_frame::{self, MapFrame};
 use crate::overlay::{self, Overlay};
+use crate::ribbon::{self, Ribbon};
 use crate::scene::{Anchor, Item, PathBuilder, Raster, Scene};
 use tigereye_core::{Anisotropy, Cell, Field, Svd, Tensor2, math};
 
@@ -15,7 +16,9 @@ pub struct OrientationOptions {
     pub title: String,
     /// Pixels per cell; by default whole, such that the longer side has about 480.
     pub cell_px: Option<usize>,
-    /// Points and lines over the map.
+    /// Bands, such as hyperstreamlines.
+    pub ribbons: Vec<Ribbon>,
+    /// Points and lines over the map and bands.
     pub overlays: Vec<Overlay>,
 }
 
@@ -45,6 +48,7 @@ pub fn orientation_map(field: &Field<Tensor2>, options: &OrientationOptions) -> 
     if !broken.is_empty() {
         legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), "tensor not finite"));
     }
+    ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
     if block > 1 {
         legend.push(Entry::of(Mark::None, format!("one pixel = one of {block} × {block} cells")));

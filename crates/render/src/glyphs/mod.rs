@@ -15,6 +15,7 @@ use crate::colour_bar::ColourBar;
 use crate::legend::{Entry, Mark};
 use crate::map_frame::{self, MapFrame};
 use crate::overlay::{self, Overlay};
+use crate::ribbon::{self, Ribbon};
 use crate::scene::Scene;
 use layers::Layers;
 use tigereye_core::{Field, PrincipalAxes, Svd, Tensor2};
@@ -52,7 +53,7 @@ pub enum GlyphKind {
     /// For `det A >= 0` that is a rotation ([`tigereye_core::OrthogonalFactor`]): two opposite sectors open from the line
     /// `v1`, which becomes the major axis, to the major axis `u1`; their angle is that of the rotation, true whatever the
     /// ellipse, their radius 0.6 of the larger half-axis. They are filled where it is counter-clockwise, hollow where it
-    /// is clockwise. Where both half-axes are equal, +x takes the place of `u1`. Symmetric tensors that are nowhere negative
+    /// is clockwise; half a turn counts as counter-clockwise. Where both half-axes are equal, +x takes the place of `u1`. Symmetric tensors that are nowhere negative
     /// have no sectors. For `det A < 0`, a reflection, a dashed line shows the direction that it keeps.
     Asymmetric,
 }
@@ -148,7 +149,9 @@ pub struct GlyphOptions {
     pub every: Option<usize>,
     /// Pixels per cell; by default whole, such that the longer side has about 640.
     pub cell_px: Option<usize>,
-    /// Points and lines over the glyphs, such as tensor lines.
+    /// Bands, such as hyperstreamlines.
+    pub ribbons: Vec<Ribbon>,
+    /// Points and lines over the glyphs and bands, such as tensor lines.
     pub overlays: Vec<Overlay>,
 }
 
@@ -176,6 +179,7 @@ pub fn glyphs(field: &Field<Tensor2>, options: &GlyphOptions) -> Scene {
         layers.add(page.centre(cell), field.at(cell), &scaling);
     }
     let mut legend = layers.draw(&mut page.scene);
+    ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
     legend.extend(remarks(options, every, largest));
     if let Some(bar) = bar {

@@ -7,10 +7,11 @@ use tigereye_core::{
     TransmissionField, math,
 };
 use tigereye_render::{
-    Chart, ChartAxis, Difference, GlyphColour, GlyphOptions, GlyphScale, HeatOptions, HeatScale,
-    IntensityScale, Marker, OrientationOptions, Overlay, PolarOptions, PolarPlotOptions, PolarSeries,
-    Reference, Rgba, Scene, Series, TransmissionScale, difference_map, glyphs, heat_map, line_chart,
-    orientation_map, polar_overlay, polar_plot, small_multiples,
+    Chart, ChartAxis, ColourMap, Difference, GlyphColour, GlyphKind, GlyphOptions, GlyphScale, HeatOptions,
+    HeatScale, IntensityScale, Marker, OrientationOptions, Overlay, PolarOptions, PolarPlotOptions,
+    PolarSeries, Reference, Rgba, Ribbon, Scene, Series, TextureOptions, Tint, TransmissionScale,
+    difference_map, glyphs, heat_map, line_chart, orientation_map, polar_overlay, polar_plot,
+    small_multiples, texture_map,
 };
 
 type Outcome = Result<(), Box<dyn Error>>;
@@ -20,6 +21,8 @@ fn main() -> Outcome {
     std::fs::create_dir_all(&folder)?;
     maps(&folder)?;
     tensors(&folder)?;
+    kinds(&folder)?;
+    fine(&folder)?;
     overlays(&folder)?;
     curves(&folder)?;
     charts(&folder)?;
@@ -154,6 +157,81 @@ fn tensors(folder: &Path) -> Outcome {
         ..OrientationOptions::default()
     };
     save(folder, "orientation", &orientation_map(&field, &options))
+}
+
+/// Every kind of glyph on a field with both signs and rotations.
+fn kinds(folder: &Path) -> Outcome {
+    let grid = Grid::new(13, 13)?;
+    let mut field = Field::from_fn(grid, |c| {
+        let (x, y) = from_centre(grid, c);
+        Tensor2::new(0.1 * x, 0.05 * y - 0.03 * x, 0.05 * y + 0.06 * x, 0.1 * x + 0.05 * y)
+    });
+    field.values_mut()[0] = Tensor2::ZERO;
+    field.values_mut()[1] = Tensor2::new(f64::NAN, 0.0, 0.0, 1.0);
+    field.values_mut()[2] = Tensor2::from_eigen(0.7, 1.0, 0.0);
+    for (name, kind) in [
+        ("box", GlyphKind::Box),
+        ("superquadric", GlyphKind::Superquadric { gamma: GlyphKind::GAMMA }),
+        ("signed", GlyphKind::Signed),
+        ("arrows", GlyphKind::Arrows),
+        ("asymmetric", GlyphKind::Asymmetric),
+    ] {
+        let options = GlyphOptions { title: format!("Glyphs: {name}"), kind, ..GlyphOptions::default() };
+        save(folder, &format!("glyphs_{name}"), &glyphs(&field, &options))?;
+    }
+    Ok(())
+}
+
+/// A texture along circles and fields sampled finer than cells, with bands over them.
+fn fine(folder: &Path) -> Outcome {
+    const N: usize = 6;
+    let cells = Grid::new(21, 15)?;
+    let grid = Grid::new(N * (cells.width() - 1) + 1, N * (cells.height() - 1) + 1)?;
+    let radius = Field::from_fn(grid, |c| {
+        let (x, y) = from_centre(grid, c);
+        math::hypot(x, y) / N as f64
+    });
+    let missing = |c: Cell, value: f64| if c.x < 20 && c.y < 14 { f64::NAN } else { value };
+    let texture = Field::from_fn(grid, |c| missing(c, 0.5 + 0.5 * math::sin(9.0 * radius.at(c))));
+    let band = |label: &str, radius: f64, width: f64, colour| Ribbon {
+        label: label.to_owned(),
+        points: (0..=60)
+            .map(|i| f64::from(i) / 60.0 * math::TAU)
+            .map(|w| [10.0 + radius * math::cos(w), 7.0 - radius * math::sin(w)])
+            .collect(),
+        half_widths: (0..=60).map(|i| width * (1.2 + math::sin(f64::from(i) * 0.3))).collect(),
+        colour,
+    };
+    let ribbons = vec![
+        band("compressive hyperstreamline", 4.0, 0.5, Rgba::hex(0x0072b2)),
+        band("tensile hyperstreamline", 7.3, 0.4, Rgba::hex(0xd55e00)),
+    ];
+    let plain = TextureOptions {
+        title: "Texture along circles".to_owned(),
+        samples_a_cell: N,
+        ribbons: ribbons.clone(),
+        ..TextureOptions::default()
+    };
+    save(folder, "texture", &texture_map(&texture, &plain)?)?;
+    let quantity = "distance (cells)".to_owned();
+    let tint = Tint { values: radius.clone(), quantity, map: ColourMap::Batlow, range: Some((0.0, 9.0)) };
+    let options = TextureOptions { tint: Some(tint), ribbons: Vec::new(), ..plain };
+    save(folder, "texture_tinted", &texture_map(&texture, &options)?)?;
+    let options = HeatOptions {
+        title: "Six samples a cell".to_owned(),
+        quantity: "distance (cells)".to_owned(),
+        samples_a_cell: N,
+        sources: vec![Cell::new(10, 7)],
+        ribbons: ribbons.clone(),
+        ..HeatOptions::default()
+    };
+    let holed = Field::from_fn(grid, |c| missing(c, *radius.at(c)));
+    save(folder, "heat_fine", &heat_map(&holed, &options))?;
+    let field = rings(cells);
+    let options = GlyphOptions { ribbons: ribbons.clone(), ..GlyphOptions::default() };
+    save(folder, "glyphs_bands", &glyphs(&field, &options))?;
+    let options = OrientationOptions { ribbons, ..OrientationOptions::default() };
+    save(folder, "orientation_bands", &orientation_map(&field, &options))
 }
 
 /// Light that falls as 1/r from `source`, thrown outwards.

@@ -5,12 +5,13 @@ use crate::colour::{ColourMap, Rgba};
 use crate::colour_bar::ColourBar;
 use crate::error::RenderError;
 use crate::legend::{Entry, Mark};
-use crate::map_frame::{self, MapFrame};
+use crate::map_frame::MapFrame;
 use crate::number;
 use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
-use crate::scene::{Item, Raster, Scene};
-use tigereye_core::{Cell, Field, Grid, math};
+use crate::sampling::{Sampling, block_mean};
+use crate::scene::Scene;
+use tigereye_core::{Cell, Field, math};
 
 /// How values become colours.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -28,7 +29,7 @@ pub enum HeatScale {
 }
 
 /// Options of [`heat_map`].
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct HeatOptions {
     /// Title above the map; empty for none.
     pub title: String,
@@ -41,6 +42,10 @@ pub struct HeatOptions {
     /// Fixed lower and upper end, to compare pictures; by default that of the values. A diverging scale uses the larger
     /// magnitude. A logarithmic one uses both ends where they are positive and ignores its decades then.
     pub range: Option<(f64, f64)>,
+    /// Samples along the side of a cell, usually 1: a value per cell. With n, a map of W x H cells needs a field of
+    /// n (W - 1) + 1 by n (H - 1) + 1 values, of which (i, j) lies at (i/n, j/n) cells; axes, sources and overlays stay in
+    /// cells. 0 counts as 1, more than there are as all of them.
+    pub samples_a_cell: usize,
     /// Light sources, marked with stars.
     pub sources: Vec<Cell>,
     /// Bands over the map.
@@ -53,11 +58,30 @@ pub struct HeatOptions {
     pub missing: Option<String>,
 }
 
+impl Default for HeatOptions {
+    fn default() -> Self {
+        Self {
+            title: String::new(),
+            quantity: String::new(),
+            map: None,
+            scale: HeatScale::default(),
+            range: None,
+            samples_a_cell: 1,
+            sources: Vec::new(),
+            ribbons: Vec::new(),
+            overlays: Vec::new(),
+            cell_px: None,
+            missing: None,
+        }
+    }
+}
+
 /// The field as a heat map. Values that are not finite are grey and hatched and named in the legend; a field without any
 /// finite value is drawn and described as such.
 #[must_use]
 pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
-    let grid = field.grid();
+    let sampling = Sampling::of(field.grid(), options.samples_a_cell);
+    let grid = sampling.cells;
     let summary = Summary::of(field.values());
     let axis = chosen_axis(&summary, options);
     let map = options.map.unwrap_or(match options.scale {
@@ -72,21 +96,24 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
         below: summary.finite > 0 && !axis.logarithmic && axis.position(summary.low) < -1e-9,
         above: summary.finite > 0 && axis.position(summary.high) > 1.0 + 1e-9,
     };
-    let cell = map_frame::cell_px(grid, options.cell_px, 480, 40);
+    let cell = sampling.cell_px(options.cell_px);
     let side = bar.width((cell * grid.height() as f64).max(150.0));
     let mut page = MapFrame::begin(grid, &options.title, cell, side);
-    let colour = |value: f64| cell_colour(value, &axis, map);
-    let block = (1.0 / cell).round().max(1.0) as usize;
-    page.scene.items.push(raster(field, &page, block, colour));
-    let broken: Vec<Cell> = field.iter().filter(|(_, v)| !v.is_finite()).map(|(c, _)| c).collect();
-    page.hatch(&broken);
-    let mut legend = value_legend(field.values(), &summary, &axis, block, options.missing.as_deref());
+    let block = sampling.block(&page);
+    let colour = |first| cell_colour(block_mean(field, first, block), &axis, map);
+    page.scene.items.push(sampling.raster(&page, colour));
+    page.hatch(&sampling.cells_where(|sample| !field.at(sample).is_finite()));
+    let mut legend = value_legend(field.values(), &summary, &axis, options.missing.as_deref(), &sampling);
+    if block > 1 {
+        let text = format!("one pixel = mean of {block} × {block} {}", sampling.places());
+        legend.push(Entry::of(Mark::None, text));
+    }
     ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
     overlay::draw_sources(&mut page, &options.sources, &mut legend);
     let (edge, top, height) = (page.left + page.width(), page.top, page.side_height());
     bar.draw(&mut page.scene, edge, top, height);
-    page.finish(&options.title, description(grid, &summary, options), &legend)
+    page.finish(&options.title, description(&sampling, &summary, options), &legend)
 }
 
 /// What is to be compared by [`difference_map`].
@@ -126,16 +153,16 @@ pub fn difference_map(
 }
 
 /// What the values of a field are like.
-struct Summary {
-    finite: usize,
-    low: f64,
-    high: f64,
+pub(crate) struct Summary {
+    pub(crate) finite: usize,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
     /// Smallest positive value, infinite where there is none.
     low_positive: f64,
 }
 
 impl Summary {
-    fn of(values: &[f64]) -> Self {
+    pub(crate) fn of(values: &[f64]) -> Self {
         let mut s =
             Self { finite: 0, low: f64::INFINITY, high: f64::NEG_INFINITY, low_positive: f64::INFINITY };
         for &v in values.iter().filter(|v| v.is_finite()) {
@@ -183,44 +210,12 @@ fn cell_colour(value: f64, axis: &Axis, map: ColourMap) -> Rgba {
     map.sample(axis.position(value))
 }
 
-/// The cells in colour; where cells are smaller than a pixel, the mean of `block` x `block` of them.
-fn raster(field: &Field<f64>, page: &MapFrame, block: usize, colour: impl Fn(f64) -> Rgba) -> Item {
-    let grid = field.grid();
-    let (columns, rows) = (grid.width().div_ceil(block), grid.height().div_ceil(block));
-    let mut cells = Vec::with_capacity(columns * rows);
-    for row in 0..rows {
-        for column in 0..columns {
-            cells.push(colour(block_mean(field, column * block, row * block, block)));
-        }
-    }
-    let cell_px = page.cell * block as f64;
-    Item::Raster(Raster { x_px: page.left, y_px: page.top, cell_px, columns, cells })
-}
-
-fn block_mean(field: &Field<f64>, x0: usize, y0: usize, block: usize) -> f64 {
-    let grid = field.grid();
-    if block == 1 {
-        return *field.at(Cell::new(x0, y0));
-    }
-    let (mut sum, mut count) = (0.0, 0.0);
-    for y in y0..(y0 + block).min(grid.height()) {
-        for x in x0..(x0 + block).min(grid.width()) {
-            let value = *field.at(Cell::new(x, y));
-            if value.is_finite() {
-                sum += value;
-                count += 1.0;
-            }
-        }
-    }
-    sum / count
-}
-
 fn value_legend(
     values: &[f64],
     summary: &Summary,
     axis: &Axis,
-    block: usize,
     missing: Option<&str>,
+    sampling: &Sampling,
 ) -> Vec<Entry> {
     let mut legend = Vec::new();
     if axis.logarithmic && values.iter().any(|v| v.is_finite() && *v < axis.low) {
@@ -235,7 +230,7 @@ fn value_legend(
     let broken = values.len() - summary.finite;
     if broken > 0 {
         let text = missing.map_or_else(
-            || format!("not a finite number ({broken} of {} cells)", values.len()),
+            || format!("not a finite number ({broken} of {} {})", values.len(), sampling.places()),
             ToOwned::to_owned,
         );
         legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), text));
@@ -245,13 +240,10 @@ fn value_legend(
     } else if summary.low == summary.high {
         legend.push(Entry::of(Mark::None, format!("constant value {}", number::significant(summary.low, 4))));
     }
-    if block > 1 {
-        legend.push(Entry::of(Mark::None, format!("one pixel = mean of {block} × {block} cells")));
-    }
     legend
 }
 
-fn description(grid: Grid, summary: &Summary, options: &HeatOptions) -> String {
+fn description(sampling: &Sampling, summary: &Summary, options: &HeatOptions) -> String {
     let scale = match options.scale {
         HeatScale::Linear => "linear",
         HeatScale::Logarithmic { .. } => "logarithmic",
@@ -263,9 +255,5 @@ fn description(grid: Grid, summary: &Summary, options: &HeatOptions) -> String {
     } else {
         format!("from {} to {}", number::significant(summary.low, 4), number::significant(summary.high, 4))
     };
-    format!(
-        "Heat map of {quantity} on {} x {} cells, row 0 on top, {scale} colour scale; {range}.",
-        grid.width(),
-        grid.height()
-    )
+    format!("Heat map of {quantity} on {}, row 0 on top, {scale} colour scale; {range}.", sampling.in_words())
 }

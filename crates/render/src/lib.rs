@@ -24,9 +24,11 @@ mod png_export;
 mod polar_overlay;
 mod polar_plot;
 mod ribbon;
+mod sampling;
 mod scene;
 mod shapes;
 mod svg;
+mod texture;
 
 pub use chart::{Chart, ChartAxis, Reference, Series, line_chart};
 pub use colour::{ColourMap, Rgba, SERIES_PALETTE};
@@ -43,3 +45,4 @@ pub use polar_plot::{PolarPlotOptions, PolarSeries, polar_plot};
 pub use ribbon::Ribbon;
 pub use scene::{Anchor, Item, Path, PathBuilder, Raster, Scene, Segment, Stroke, Text};
 pub use shapes::Marker;
+pub use texture::{TextureOptions, Tint, texture_map};

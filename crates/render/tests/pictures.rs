@@ -113,6 +113,38 @@ fn heat_map_looks_as_recorded() {
     looks_as_recorded("heat_map", heat_map(&values, &options));
 }
 
+/// Frame, ticks and overlays of a map do not know how finely its field is sampled.
+#[test]
+fn fine_maps_have_the_frame_of_their_cells() {
+    let map = |n: usize| {
+        let grid = Grid::new(5 * n + 1, 4 * n + 1).expect("a grid");
+        let values = Field::from_fn(grid, |c| (c.x + c.y) as f64 / n as f64);
+        let options = HeatOptions {
+            cell_px: Some(16),
+            samples_a_cell: n,
+            sources: vec![Cell::new(1, 1)],
+            ..HeatOptions::default()
+        };
+        heat_map(&values, &options)
+    };
+    let (coarse, fine) = (map(1), map(4));
+    let others = |scene: &Scene| {
+        let all = scene.items.iter().skip(1);
+        all.filter(|item| !matches!(item, Item::Text(_))).cloned().collect::<Vec<_>>()
+    };
+    assert_eq!((coarse.width_px, coarse.height_px), (fine.width_px, fine.height_px));
+    assert_eq!(others(&coarse), others(&fine));
+    let rasters = [&coarse, &fine].map(|scene| match &scene.items[0] {
+        Item::Raster(raster) => raster.clone(),
+        other => panic!("a raster, not {other:?}"),
+    });
+    assert_eq!(rasters[1].cell_px, 4.0);
+    // The outer edge of the first sample lies half a cell less half a sample further in.
+    assert_eq!(rasters[1].x_px - rasters[0].x_px, 6.0);
+    assert_eq!(rasters[0].cells[0], rasters[1].cells[0]);
+    assert_eq!(rasters[0].cells.last(), rasters[1].cells.last());
+}
+
 #[test]
 fn overlay_looks_as_recorded() {
     let directions = Directions::new(16).expect("directions");

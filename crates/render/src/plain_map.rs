@@ -3,6 +3,7 @@
 use crate::legend::Entry;
 use crate::map_frame::{self, MapFrame};
 use crate::overlay::{self, Overlay};
+use crate::ribbon::{self, Ribbon};
 use crate::scene::{PathBuilder, Scene};
 use crate::{Rgba, legend::Mark};
 use tigereye_core::{Cell, Grid};
@@ -16,7 +17,9 @@ pub struct PlainOptions {
     pub description: String,
     /// Pixels per cell; by default whole, such that the longer side has about 480.
     pub cell_px: Option<usize>,
-    /// The lines and points.
+    /// Bands, such as hyperstreamlines.
+    pub ribbons: Vec<Ribbon>,
+    /// The lines and points, over the bands.
     pub overlays: Vec<Overlay>,
     /// Cells that have nothing to show, hatched.
     pub missing: Vec<Cell>,
@@ -42,6 +45,7 @@ pub fn plain_map(grid: Grid, options: &PlainOptions) -> Scene {
     if !options.missing.is_empty() {
         legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), options.missing_label.clone()));
     }
+    ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
     let description =
         format!("{} on {} x {} cells, row 0 on top.", options.description, grid.width(), grid.height());

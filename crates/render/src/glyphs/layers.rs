@@ -86,12 +86,18 @@ impl Layers {
             self.notes.insert(Note::Broken);
             return;
         }
-        if self.kind.is_symmetric() && t.asymmetry() > 0.0 {
+        if self.kind.is_symmetric() && t.asymmetry() > signed::NEGLIGIBLE * t.max_abs() {
             self.notes.insert(Note::SymmetricPart);
         }
         if size == 0.0 {
             self.zeros.circle(centre, (0.16 * scaling.radius).clamp(1.2, 2.5));
-            self.notes.insert(if t.is_zero() { Note::Zero } else { Note::NoSymmetricPart });
+            // Both are drawn alike, so one entry must name both.
+            if !t.is_zero() {
+                self.notes.remove(&Note::Zero);
+                self.notes.insert(Note::NoSymmetricPart);
+            } else if !self.notes.contains(&Note::NoSymmetricPart) {
+                self.notes.insert(Note::Zero);
+            }
             return;
         }
         match self.kind {

@@ -57,8 +57,8 @@ impl Note {
                 let line = Mark::Line { colour: Rgba::INK, width_px: 1.2, dash_px, marker: None };
                 Entry::of(line, "mirrored (determinant < 0) at this line")
             }
-            Self::SymmetricPart => Entry::of(Mark::None, "symmetric part of asymmetric tensors"),
-            Self::NoSymmetricPart => Entry::of(Mark::Ring(Rgba::MUTED), "symmetric part zero"),
+            Self::SymmetricPart => Entry::of(Mark::None, "asymmetric tensors: symmetric part only"),
+            Self::NoSymmetricPart => Entry::of(Mark::Ring(Rgba::MUTED), "zero, or no symmetric part"),
             Self::Zero => Entry::of(Mark::Ring(Rgba::MUTED), "zero tensor"),
             Self::Broken => Entry::of(Mark::Point(Marker::Cross, Rgba::NOT_FINITE), "tensor not finite"),
         }

@@ -34,16 +34,17 @@ pub enum GlyphKind {
     /// `c_l = (s1 - s2) / (s1 + s2)`: a circle where isotropic, boxier the more anisotropic, a segment in the end.
     ///
     /// Kindlmann ("Superquadric tensor glyphs", VisSym 2004) has two exponents, `(1 - c_p)^gamma` and `(1 - c_l)^gamma`. A
-    /// tensor of the plane has no planar part: with `c_p = 0` this is the section of his glyph through its longest axis.
+    /// tensor of the plane has no planar part: with `c_p = 0` this is the section of his glyph through its longest axis, with
+    /// the `c_l` of two axes instead of three.
     Superquadric {
         /// Sharpness of edges, 0 (always an ellipse) to 100; [`GlyphKind::GAMMA`] is usual, and taken for a value that is
         /// not a number.
         gamma: f64,
     },
     /// The normal component in every direction, `r(n) = |n . T n|`, the section of Reynolds's glyph (Hashash, Yao and
-    /// Wotring 2003, "Glyph and hyperstreamline representation of stress and strain tensors"): filled lobes where it is
-    /// positive (tension), hollow ones where it is negative (compression). It shows the symmetric part alone; along its
-    /// axes the lobes reach its eigenvalues.
+    /// Wotring 2003, "Glyph and hyperstreamline representation of stress and strain tensors and material constitutive
+    /// response"): filled lobes where it is positive (tension), hollow ones where it is negative (compression). It shows the
+    /// symmetric part alone; along its axes the lobes reach its eigenvalues.
     Signed,
     /// The axes of the symmetric part as a cross of arrows, as long as its eigenvalues: heads outwards for tension, inwards
     /// for compression.
@@ -53,8 +54,9 @@ pub enum GlyphKind {
     /// For `det A >= 0` that is a rotation ([`tigereye_core::OrthogonalFactor`]): two opposite sectors open from the line
     /// `v1`, which becomes the major axis, to the major axis `u1`; their angle is that of the rotation, true whatever the
     /// ellipse, their radius 0.6 of the larger half-axis. They are filled where it is counter-clockwise, hollow where it
-    /// is clockwise; half a turn counts as counter-clockwise. Where both half-axes are equal, +x takes the place of `u1`. Symmetric tensors that are nowhere negative
-    /// have no sectors. For `det A < 0`, a reflection, a dashed line shows the direction that it keeps.
+    /// is clockwise; half a turn counts as counter-clockwise. Where both half-axes are equal, +x takes the place of `u1`.
+    /// Symmetric tensors that are nowhere negative have no sectors. For `det A < 0`, a reflection, a dashed line shows the
+    /// direction that it keeps.
     Asymmetric,
 }
 

@@ -5,7 +5,7 @@ use super::legend::Note;
 use super::{Scaling, towards};
 use tigereye_core::{PrincipalAxes, Tensor2, math};
 
-/// Smaller parts of the larger principal value are rounding.
+/// Smaller parts of the larger principal value, or of the largest component, are rounding.
 pub(super) const NEGLIGIBLE: f64 = 1e-9;
 
 pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &Scaling) {

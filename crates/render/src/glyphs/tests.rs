@@ -276,12 +276,19 @@ fn legends_name_only_what_occurs() {
     assert_eq!(notes(GlyphKind::Signed, pressed), [Note::NegativeLobe]);
     assert_eq!(notes(GlyphKind::Arrows, pulled), [Note::ArrowsOutwards]);
     // One axis is rounding.
-    let line = Tensor2::symmetric(1.0, 0.0, -1e-17);
+    let line = Tensor2::new(1.0, 0.0, 1e-17, -1e-17);
     assert_eq!(notes(GlyphKind::Arrows, line), [Note::ArrowsOutwards]);
     assert_eq!(notes(GlyphKind::Signed, line), [Note::PositiveLobe]);
     let turning = Tensor2::new(0.0, -1.0, 1.0, 0.0);
     assert_eq!(notes(GlyphKind::Arrows, turning), [Note::SymmetricPart, Note::NoSymmetricPart]);
     assert_eq!(notes(GlyphKind::Asymmetric, turning), [Note::TurnedLeft]);
+    let scaling = Scaling { kind: GlyphScale::Glyph, largest: 1.0, radius: REACH };
+    for both in [[Tensor2::ZERO, turning], [turning, Tensor2::ZERO]] {
+        let mut layers = Layers::of(GlyphKind::Arrows, GlyphColour::AxisSign);
+        both.iter().for_each(|t| layers.add([0.0; 2], t, &scaling));
+        let notes: Vec<Note> = layers.notes.into_iter().collect();
+        assert_eq!(notes, [Note::SymmetricPart, Note::NoSymmetricPart]);
+    }
     for kind in KINDS {
         assert_eq!(notes(kind, Tensor2::ZERO), [Note::Zero]);
         assert_eq!(notes(kind, Tensor2::new(1.0, f64::NAN, 0.0, 1.0)), [Note::Broken]);

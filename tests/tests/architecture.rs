@@ -3,6 +3,8 @@
 use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use tigereye_experiments::library::is_experiment;
+use tigereye_fields::generators;
 
 /// Which crates of the project each crate may use. A new arrow is a decision: change this table in the same commit and
 /// say why in ARCHITECTURE.md.
@@ -58,6 +60,9 @@ const STALE_WORDS: &[&str] = &["old", "alt", "final", "copy", "new", "tmp", "bak
 
 /// Generators are called as the literature calls them, stale words included.
 const NAMED_BY_THE_THESIS: &[&str] = &["drain_old.rs", "drain_alt.rs"];
+
+/// Where the snapshots of experiments lie.
+const SNAPSHOTS: &str = "crates/experiments/tests/snapshots";
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace").to_path_buf()
@@ -157,4 +162,88 @@ fn only_the_edge_touches_the_world() {
             assert!(!code.contains(word), "crates/{}: `{word}` belongs to the cli crate", relative.display());
         }
     }
+}
+
+/// The `.ron` files of experiments, (path from the workspace, text).
+fn experiments() -> Vec<(String, String)> {
+    let folder = root().join("experiments");
+    let files =
+        tracked_files().into_iter().filter(|p| p.starts_with(&folder) && is_experiment(&p.to_string_lossy()));
+    let path = |p: &Path| p.strip_prefix(root()).expect("inside").to_string_lossy().replace('\\', "/");
+    files.map(|p| (path(&p), std::fs::read_to_string(&p).expect("a UTF-8 experiment"))).collect()
+}
+
+/// The generators that no experiment shows, a sentence each.
+fn unshown_generators(names: &[&str], experiments: &[(String, String)]) -> Vec<String> {
+    let shown = |name: &&&str| {
+        let named = format!("name: \"{name}\"");
+        let calls =
+            |text: &str| text.split("Generator(").skip(1).any(|rest| rest.trim_start().starts_with(&named));
+        experiments.iter().any(|(_, text)| calls(text))
+    };
+    let unshown = names.iter().filter(|name| !shown(name));
+    unshown
+        .map(|name| {
+            format!(
+                "no experiment shows the generator `{name}`: `cargo run -- field new {name} --experiment --folder \
+                 experiments/fields` begins one, or add `\"{name}\": Generator(name: \"{name}\"),` and a figure of it to \
+                 experiments/fields/known-answers.ron"
+            )
+        })
+        .collect()
+}
+
+/// The experiments without a snapshot and the snapshots without an experiment, a sentence each. Snapshots are named
+/// `digest@SLUG.snap`.
+fn snapshot_faults(experiments: &[(String, String)], snapshots: &[String]) -> Vec<String> {
+    let slug = |path: &str| path.rsplit('/').next().unwrap_or(path).trim_end_matches(".ron").to_owned();
+    let slugs: BTreeSet<String> = experiments.iter().map(|(path, _)| slug(path)).collect();
+    let lacking =
+        experiments.iter().filter(|(path, _)| !snapshots.contains(&format!("digest@{}.snap", slug(path))));
+    let lacking = lacking.map(|(path, _)| {
+        format!(
+            "{path} has no snapshot: run `INSTA_UPDATE=always cargo test -p tigereye-experiments --test snapshots`, read \
+             {SNAPSHOTS}/digest@{}.snap, and commit it",
+            slug(path)
+        )
+    });
+    let left = snapshots.iter().filter_map(|file| {
+        let slug = file.strip_prefix("digest@")?.strip_suffix(".snap")?;
+        let path = format!("{SNAPSHOTS}/{file}");
+        (!slugs.contains(slug))
+            .then(|| format!("{path} belongs to no experiment: `git rm {path}`, or rename it with its file"))
+    });
+    lacking.chain(left).collect()
+}
+
+#[test]
+fn every_generator_is_shown_in_an_experiment() {
+    let names: Vec<&str> = generators().iter().map(|g| g.name).collect();
+    let faults = unshown_generators(&names, &experiments());
+    assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
+}
+
+#[test]
+fn every_experiment_has_its_snapshot() {
+    let entries = std::fs::read_dir(root().join(SNAPSHOTS)).expect("the snapshots").flatten();
+    let mut snapshots: Vec<String> = entries.map(|e| e.file_name().to_string_lossy().into_owned()).collect();
+    snapshots.sort();
+    let faults = snapshot_faults(&experiments(), &snapshots);
+    assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
+}
+
+#[test]
+fn missing_experiments_and_snapshots_are_told_with_what_to_do() {
+    let text = "fields: {\n \"f\": Generator(name: \"gyre\"),\n}, figures: [(name: \"fan\")]";
+    let files = [("experiments/fields/gyre.ron".to_owned(), text.to_owned())];
+    assert_eq!(unshown_generators(&["gyre"], &files), [""; 0]);
+    let told = unshown_generators(&["fan", "gyre"], &files);
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(told[0].contains("generator `fan`") && told[0].contains("Generator(name: \"fan\")"), "{told:?}");
+
+    assert_eq!(snapshot_faults(&files, &["digest@gyre.snap".to_owned()]), [""; 0]);
+    let told = snapshot_faults(&files, &["digest@bow.snap".to_owned(), "digest@bow.snap.new".to_owned()]);
+    assert_eq!(told.len(), 2, "{told:?}");
+    assert!(told[0].contains("gyre.ron has no snapshot") && told[0].contains("digest@gyre.snap"), "{told:?}");
+    assert!(told[1].contains("git rm crates/experiments/tests/snapshots/digest@bow.snap`"), "{told:?}");
 }

@@ -66,7 +66,7 @@ pub(crate) enum FieldCommand {
 
 #[derive(Debug, Args)]
 pub(crate) struct FieldNewArgs {
-    /// Name of the field: lower-case letters, digits, - and _.
+    /// Name of the field: lower-case letters, digits, - and _; with --experiment also a generator, to show it in one.
     pub(crate) name: String,
     /// Folder for the files.
     #[arg(long, value_name = "DIR", default_value = ".")]

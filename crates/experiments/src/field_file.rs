@@ -1,5 +1,7 @@
 //! Beginnings of field files and of experiments made from them.
 
+use tigereye_fields::Generator;
+
 /// Ending of files that hold a field; other `.ron` files below `experiments/` are experiments.
 pub const ENDING: &str = ".field.ron";
 
@@ -57,19 +59,57 @@ pub fn template(name: &str) -> String {
 /// An experiment with the field of `NAME.field.ron` in the same folder.
 #[must_use]
 pub fn experiment_template(name: &str) -> String {
-    format!(
+    let head = format!(
         r#"// An experiment with the field of {name}{ENDING}. Run it with
 //     tigereye run {name}.ron --out {name}-results
 // In a folder below experiments/ of the project both files are found by `tigereye reproduce`, the tests and the gallery.
-(
+"#
+    );
+    head + &experiment(name, "", &format!(r#"File(path: "{name}{ENDING}")"#), UNIT_DETERMINANT)
+}
+
+/// An experiment that shows a generator with its default parameters.
+#[must_use]
+pub fn generator_template(generator: &Generator) -> String {
+    let name = generator.name;
+    let head = format!(
+        r#"// An experiment with the generator `{name}`. Run it with
+//     tigereye run {name}.ron --out {name}-results
+// In a folder below experiments/ of the project it is found by `tigereye reproduce`, the tests and the gallery.
+"#
+    );
+    let check = if generator.determinant_one { UNIT_DETERMINANT } else { LIGHT_MADE };
+    head + &experiment(name, generator.source, &format!(r#"Generator(name: "{name}")"#), check)
+}
+
+/// A check of a field whose half-axes are each other's inverse; `NAME` stands for the field's name.
+const UNIT_DETERMINANT: &str = r#"(
+            name: "no cell transmits more than another",
+            quantity: DeterminantError(field: "NAME"),
+            expect: AtMost(1e-12),
+            basis: "both half-axes are each other's inverse",
+        )"#;
+
+/// A check that holds for any field.
+const LIGHT_MADE: &str = r#"(
+            name: "steps of light",
+            quantity: Steps(run: "light"),
+            expect: Near(60, 0),
+            basis: "as many as the run asks for",
+        )"#;
+
+fn experiment(name: &str, source: &str, field: &str, check: &str) -> String {
+    let check = check.replace("NAME", name);
+    format!(
+        r#"(
     format: 1,
     title: "{name}",
-    source: "",
+    source: {source:?},
     section: "More fields",
     claim: "What the figures are to support.",
     look_for: "What to look at, for someone who does not know the field.",
     fields: {{
-        "{name}": File(path: "{name}{ENDING}"),
+        "{name}": {field},
     }},
     runs: {{
         "light": Light(
@@ -91,12 +131,7 @@ pub fn experiment_template(name: &str) -> String {
         ),
     ],
     checks: [
-        (
-            name: "no cell transmits more than another",
-            quantity: DeterminantError(field: "{name}"),
-            expect: AtMost(1e-12),
-            basis: "both half-axes are each other's inverse",
-        ),
+        {check},
     ],
 )
 "#

@@ -33,15 +33,21 @@ pub(crate) fn new(args: &FieldNewArgs) -> Result<u8, CliError> {
             "is no name: expected up to 60 lower-case letters, digits, - and _, not beginning with -";
         return Err(CliError::input(name, problem));
     }
-    if tigereye_fields::find(name).is_some() {
-        return Err(CliError::input(name, "is a generator: expected another name"));
+    let generator = tigereye_fields::find(name);
+    if generator.is_some() && !args.experiment {
+        let problem =
+            "is a generator: expected another name, or --experiment for an experiment that shows it";
+        return Err(CliError::input(name, problem));
     }
     let field = args.folder.join(format!("{name}{}", field_file::ENDING));
     let experiment = args.folder.join(format!("{name}.ron"));
-    let mut texts = vec![(&field, field_file::template(name))];
-    if args.experiment {
-        texts.push((&experiment, field_file::experiment_template(name)));
-    }
+    let texts = match generator {
+        Some(generator) => vec![(&experiment, field_file::generator_template(generator))],
+        None if args.experiment => {
+            vec![(&field, field_file::template(name)), (&experiment, field_file::experiment_template(name))]
+        }
+        None => vec![(&field, field_file::template(name))],
+    };
     for (path, _) in &texts {
         files::check_writable(path)?;
         if path.exists() {
@@ -51,10 +57,13 @@ pub(crate) fn new(args: &FieldNewArgs) -> Result<u8, CliError> {
     }
     texts.iter().try_for_each(|(path, text)| files::write(path, text.as_bytes()))?;
     let quoted_path = |path: &Path| quoted(&path.to_string_lossy());
-    let mut words = format!(
-        "{field} holds the field. Next:\n  tigereye field show {field} -o {name}.png\n  tigereye field lint {field}\n",
-        field = quoted_path(&field)
-    );
+    let mut words = match generator {
+        Some(_) => format!("{} shows the generator {name}. Next:\n", quoted_path(&experiment)),
+        None => format!(
+            "{field} holds the field. Next:\n  tigereye field show {field} -o {name}.png\n  tigereye field lint {field}\n",
+            field = quoted_path(&field)
+        ),
+    };
     if args.experiment {
         // Writing to a string cannot fail.
         let _ = writeln!(words, "  tigereye run {} --out {name}-results", quoted_path(&experiment));

@@ -32,6 +32,20 @@ fn a_field_begins_with_one_command() {
     place.refuses(&["field", "new", "other", "--folder", "none"], &["none", "there is no folder"]);
 }
 
+/// A generator has its file already; what is begun is an experiment that shows it.
+#[test]
+fn an_experiment_of_a_generator_begins_with_one_command() {
+    let place = Place::new();
+    // Of determinant 1 and not.
+    for name in ["inverse", "kirsch"] {
+        let words = place.succeeds(&["field", "new", name, "--experiment"]).stdout;
+        assert!(words.contains(&format!("tigereye run ./{name}.ron")), "{words}");
+        assert!(!place.path(&format!("{name}.field.ron")).exists());
+        assert_eq!(place.tigereye(&["run", &format!("{name}.ron"), "--out", "results"]).code, 0, "{name}");
+        assert_eq!(place.json("results/summary.json")["passed"], json!(true), "{name}");
+    }
+}
+
 /// Commands and experiments take the file where they take a generator, and say the same of it.
 #[test]
 fn field_files_stand_where_generators_do() {

@@ -4,25 +4,33 @@ use crate::field;
 use proptest::prelude::*;
 use tigereye_fields::{Arguments, FieldError, ParameterKind, find, generate, generators, parse_spec};
 
+/// Names that commands, experiments and readers rely on. A new generator need not stand here.
+const LASTING: &str = "absorb bow cantilever cone corner cross_x diag_drain double_gyre drain drain_alt drain_old flamant \
+    gyre helix inverse isotropic kirsch point_load random rings sink spiral star step trisector v wedge x y";
+
 #[test]
-fn all_named_fields_exist_sorted() {
-    let names: Vec<&str> = generators().iter().map(|g| g.name).collect();
-    assert!(names.is_sorted_by(|a, b| a < b), "{names:?}");
-    let expected = "absorb bow cantilever cone corner cross_x diag_drain double_gyre drain drain_alt drain_old flamant \
-        gyre helix inverse isotropic kirsch point_load random rings sink spiral star step trisector v wedge x y";
-    assert_eq!(names.join(" "), expected);
+fn names_are_kept() {
+    for name in LASTING.split(' ') {
+        assert!(find(name).is_some(), "{name}");
+    }
 }
 
 #[test]
 fn every_generator_is_described() {
     for g in generators() {
-        assert!(!g.summary.is_empty() && !g.source.is_empty(), "{}", g.name);
+        for (key, text) in [("summary", g.summary), ("source", g.source)] {
+            assert!(
+                !text.is_empty(),
+                "generator `{0}`: say its `{key}` in the `GENERATOR` of {0}.rs",
+                g.name
+            );
+        }
         let mut names: Vec<&str> = g.parameters().map(|p| p.name).collect();
         assert_eq!(names[..3], ["size", "width", "height"]);
         names.sort_unstable();
         assert!(names.windows(2).all(|w| w[0] != w[1]), "{}: a parameter twice", g.name);
         for p in g.parameters() {
-            assert!(!p.help.is_empty(), "{}.{}", g.name, p.name);
+            assert!(!p.help.is_empty(), "{0}.rs: parameter `{1}` needs its `help`", g.name, p.name);
             assert_eq!(p.kind.parse(&p.default_text()), Some(p.default), "{}.{}: default", g.name, p.name);
         }
     }
@@ -140,7 +148,7 @@ proptest! {
     }
 
     #[test]
-    fn no_value_panics(k in 0..29_usize, key in 0..14_usize, value in "-?[0-9]{1,3}(\\.[0-9]{1,3})?(e-?[0-9]{1,3})?") {
+    fn no_value_panics(k in 0..generators().len(), key in 0..14_usize, value in "-?[0-9]{1,3}(\\.[0-9]{1,3})?(e-?[0-9]{1,3})?") {
         let generator = generators()[k];
         let mut arguments = Arguments::new().with("size", 3);
         if let Some(p) = generator.own_parameters.get(key).filter(|p| !["steps", "points"].contains(&p.name)) {

@@ -4,6 +4,7 @@ mod arguments;
 mod expression;
 mod flow;
 mod images;
+mod registry;
 mod stress;
 mod thesis;
 mod topology;

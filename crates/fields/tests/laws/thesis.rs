@@ -50,15 +50,51 @@ fn fields_have_their_symmetries() {
     }
 }
 
+/// What a generator must say of its fields instead of what it says, if that is wrong.
+fn undeclared(name: &str, key: &str, declared: bool, odd: Option<(Cell, f64)>) -> Option<String> {
+    let place = format!("in the `GENERATOR` of crates/fields/src/generators/{name}.rs");
+    match odd {
+        Some((c, x)) if declared => Some(format!(
+            "the tensor of `{name}:size=31` at cell ({}, {}) has {x:.3e} for the fact `{key}`: write `{key}: false` {place}, or \
+             mend its formula",
+            c.x, c.y
+        )),
+        None if !declared => Some(format!(
+            "all tensors of `{name}:size=31` have the fact `{key}`: write `{key}: true` {place}"
+        )),
+        _ => None,
+    }
+}
+
 #[test]
 fn declared_facts_hold() {
-    for generator in generators() {
-        let f = field(&format!("{}:size=31", generator.name));
-        let one = f.values().iter().all(|t| (t.determinant() - 1.0).abs() < 1e-12);
-        assert_eq!(one, generator.determinant_one, "{}: determinant 1", generator.name);
-        let symmetric = f.values().iter().all(|t| t.asymmetry() < 1e-14 * t.max_abs().max(1e-300));
-        assert_eq!(symmetric, generator.symmetric, "{}: symmetry", generator.name);
+    let mut faults = Vec::new();
+    for g in generators() {
+        let f = field(&format!("{}:size=31", g.name));
+        let odd = |x: fn(&Tensor2) -> f64, fits: fn(&Tensor2) -> bool| {
+            f.iter().find(|(_, t)| !fits(t)).map(|(c, t)| (c, x(t)))
+        };
+        let one = odd(Tensor2::determinant, |t| (t.determinant() - 1.0).abs() < 1e-12);
+        faults.extend(undeclared(g.name, "determinant_one", g.determinant_one, one));
+        let symmetric = odd(Tensor2::asymmetry, |t| t.asymmetry() < 1e-14 * t.max_abs().max(1e-300));
+        faults.extend(undeclared(g.name, "symmetric", g.symmetric, symmetric));
     }
+    assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
+}
+
+#[test]
+fn a_wrong_fact_is_told_with_the_right_one() {
+    let at = Some((Cell::new(3, 4), 1.5));
+    assert_eq!(undeclared("made_up", "symmetric", true, None), None);
+    assert_eq!(undeclared("made_up", "symmetric", false, at), None);
+    let told = undeclared("made_up", "determinant_one", true, at).expect("a fault");
+    for words in
+        ["`made_up:size=31` at cell (3, 4) has 1.500e0", "`determinant_one: false`", "generators/made_up.rs"]
+    {
+        assert!(told.contains(words), "{told}");
+    }
+    let told = undeclared("made_up", "symmetric", false, None).expect("a fault");
+    assert!(told.contains("`symmetric: true`") && told.contains("generators/made_up.rs"), "{told}");
 }
 
 #[test]

@@ -96,6 +96,14 @@ impl Review {
         Self { base: base.to_owned(), head: head.to_owned(), tolerance, subject, experiments }
     }
 
+    /// Checks that passed before and fail now, with the place of their experiment and itself.
+    fn failing(&self) -> impl Iterator<Item = (usize, &ExperimentReview, &NumberReview)> {
+        let all = self.experiments.iter().enumerate();
+        let numbers = all.flat_map(|(i, e)| e.numbers.iter().map(move |n| (i, e, n)));
+        let passed = |e: &Option<Entry>| e.as_ref().and_then(|e| e.passed);
+        numbers.filter(move |(_, _, n)| (passed(&n.base), passed(&n.head)) == (Some(true), Some(false)))
+    }
+
     /// Number of experiments in a state.
     fn count(&self, state: State) -> usize {
         self.experiments.iter().filter(|e| e.state == state).count()

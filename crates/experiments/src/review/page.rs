@@ -10,6 +10,9 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 
+/// Checks that fail now and are named at the top.
+const FAILING: usize = 8;
+
 /// Digits of a change after the first one.
 const CHANGE_DIGITS: usize = 1;
 
@@ -108,6 +111,33 @@ fn result(review: &Review) -> Markup {
             h2 #result { "Result" }
             p.headline { (headline[..1].to_uppercase()) (headline[1..]) "." }
             p { (states) ". " (numbers) "." }
+            (failing(review))
+        }
+    }
+}
+
+/// The checks that passed before and fail now: what was broken.
+fn failing(review: &Review) -> Markup {
+    let failing: Vec<_> = review.failing().collect();
+    let more = failing.len().saturating_sub(FAILING);
+    let value = |entry: &Option<Entry>| match entry.as_ref().map(|e| &e.value) {
+        Some(Value::Number(x)) => number(*x),
+        Some(Value::Words(words)) => markup! { (words) },
+        None => markup! { "none" },
+    };
+    markup! {
+        @if !failing.is_empty() {
+            p { b { "Checks that passed and fail now:" } }
+            ul.failures {
+                @for (i, e, n) in failing.iter().take(FAILING) {
+                    li {
+                        a href={ "#moved-" (i + 1) } { (e.title) } ": " (n.name) ", "
+                        (value(&n.base)) " → " (value(&n.head))
+                        @if let Some(expected) = n.head.as_ref().and_then(|e| e.expected.as_ref()) { ", expected " (expected) }
+                    }
+                }
+                @if more > 0 { li { "and " (more) " more" } }
+            }
         }
     }
 }
@@ -227,13 +257,13 @@ fn figure(review: &Review, e: &ExperimentReview, f: &FigureReview) -> Markup {
                         div.slider {
                             div.stack.beside { (shown(base, Side::Base)) (shown(head, Side::Head)) }
                             div.bar {
+                                input #(input_id(e, f)) type="range" min="0" max="100" step="1" value="50";
+                                span aria-hidden="true" { (side(review, Side::Base)) }
                                 label for=(input_id(e, f)) {
                                     "Divider: left of it " (side(review, Side::Base).to_lowercase())
                                     ", right of it " (side(review, Side::Head).to_lowercase())
-                                    " (figure " (f.name) ")"
+                                    " (figure " (f.name) span.unseen { " of " (e.slug) } ")"
                                 }
-                                span aria-hidden="true" { (side(review, Side::Base)) }
-                                input #(input_id(e, f)) type="range" min="0" max="100" step="1" value="50";
                                 span aria-hidden="true" { (side(review, Side::Head)) }
                             }
                         }

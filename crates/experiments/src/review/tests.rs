@@ -142,6 +142,30 @@ fn values_that_are_no_numbers_move_and_stay() {
 }
 
 #[test]
+fn what_fails_now_is_named_at_once() {
+    let checks =
+        |passed| (0..11).map(|k| check(&format!("law {k}"), &value!(f64::from(k)), passed)).collect();
+    let review = reviewed(
+        &[experiment("broken", checks(true), &[]), one("mended", 1.0)],
+        &[experiment("broken", checks(false), &[]), one("mended", 2.0)],
+    );
+    let words = text(&review);
+    assert!(
+        words.contains("fails now: broken: law 0, expected") && words.contains("and 7 more checks"),
+        "{words}"
+    );
+    let page = html(&review);
+    let list =
+        page.split("class=\"failures\"").nth(1).and_then(|rest| rest.split("</ul>").next()).expect("a list");
+    assert!(list.contains("law 7") && !list.contains("law 8") && list.contains("and 3 more"), "{list}");
+    assert!(list.contains("<a href=\"#moved-1\">Title of broken</a>"), "{list}");
+    // What fails as before, and what passes again, is no news.
+    let again =
+        reviewed(&[experiment("broken", checks(false), &[])], &[experiment("broken", checks(true), &[])]);
+    assert!(!text(&again).contains("fails now") && !html(&again).contains("failures\""), "{}", text(&again));
+}
+
+#[test]
 fn a_verdict_or_an_expectation_is_movement_too() {
     let [good, bad] = [true, false].map(|p| [experiment("a", vec![check("n", &value!(1.0), p)], &[])]);
     let review = reviewed(&good, &bad);
@@ -261,7 +285,7 @@ fn names_are_escaped() {
 fn the_text_fits_a_screen() {
     let list = |x: f64| (0..40).map(|i| one(&format!("e{i:02}{}", "x".repeat(300)), x)).collect::<Vec<_>>();
     let words = text(&reviewed(&list(1.0), &list(2.0)));
-    assert!(words.lines().count() <= 20 && words.contains("and 25 more"), "{words}");
+    assert!(words.lines().count() <= 20 && words.contains("and 28 more"), "{words}");
     assert!(words.lines().all(|l| l.chars().count() < 200));
     let words = text(&mixed());
     assert!(words.contains("  far  2.0e-1  check flux\n"), "{words}");

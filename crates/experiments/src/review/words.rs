@@ -5,16 +5,28 @@ use crate::report::numbers::counted;
 use serde::Serialize;
 
 /// Experiments that the text names.
-const NAMED: usize = 15;
+const NAMED: usize = 12;
+
+/// Checks that fail now and that the text names.
+const FAILING: usize = 4;
 
 /// Longest name in the text, characters.
 const NAME: usize = 72;
 
-/// What moved, in at most twenty lines: counts, then the experiments that moved most.
+/// What moved, in at most twenty-one lines: counts, checks that fail now, the experiments that moved most.
 #[must_use]
 pub fn text(review: &Review) -> String {
     let mut lines = vec![format!("{} -> {}, tolerance {:e}", review.base, review.head, review.tolerance)];
     lines.extend(counts(review));
+    let failing: Vec<_> = review.failing().collect();
+    lines.extend(failing.iter().take(FAILING).map(|(_, e, n)| {
+        let expected = n.head.as_ref().and_then(|e| e.expected.as_ref());
+        let expected = expected.map_or_else(String::new, |words| format!(", expected {}", clipped(words)));
+        format!("  fails now: {}: {}{expected}", clipped(&e.slug), clipped(&n.name))
+    }));
+    if failing.len() > FAILING {
+        lines.push(format!("  and {} more checks fail now", failing.len() - FAILING));
+    }
     let moved: Vec<_> = review.experiments.iter().filter(|e| e.state != State::Unchanged).collect();
     for e in moved.iter().take(NAMED) {
         let verdicts = match e.verdicts_changed() {

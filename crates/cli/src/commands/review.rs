@@ -24,7 +24,7 @@ const ACCEPTED: &str = ".snap";
 pub(crate) fn review(args: &ReviewArgs) -> Result<u8, CliError> {
     let review = match (&args.snapshots, &args.base, &args.head) {
         (Some(folder), ..) => of_snapshots(folder, args.tolerance)?,
-        (None, Some(base), Some(head)) => of_results([base, head], args.tolerance)?,
+        (None, Some(base), Some(head)) => of_results([base, head], &args.only, args.tolerance)?,
         _ => return Err(CliError::Input("expected BASE and HEAD, or --snapshots".to_owned())),
     };
     interrupt::check()?;
@@ -40,7 +40,7 @@ pub(crate) fn review(args: &ReviewArgs) -> Result<u8, CliError> {
 /// Where one side's results are.
 enum Place {
     Folder(PathBuf),
-    /// A revision by its name and commit.
+    /// A revision by its commit.
     Revision(String),
 }
 
@@ -59,29 +59,43 @@ impl Place {
             }
         }
     }
-}
 
-fn of_results(names: [&String; 2], tolerance: f64) -> Result<Review, CliError> {
-    // Both are looked for, and folders read, before anything is built.
-    let places = [Place::find(names[0])?, Place::find(names[1])?];
-    for place in &places {
-        if let Place::Folder(folder) = place {
-            results(folder)?;
+    /// The names of its experiments, found without building anything. A folder that cannot be read is a fault.
+    fn slugs(&self) -> Result<Vec<String>, CliError> {
+        match self {
+            Self::Folder(folder) => Ok(results(folder)?.slugs().map(str::to_owned).collect()),
+            Self::Revision(commit) => revision::slugs(commit),
         }
     }
+}
+
+fn of_results(names: [&String; 2], only: &[String], tolerance: f64) -> Result<Review, CliError> {
+    // Both are looked for, and folders read, before anything is built.
+    let places = [Place::find(names[0])?, Place::find(names[1])?];
+    let slugs = [places[0].slugs()?, places[1].slugs()?];
+    if let Some(unknown) = only.iter().find(|only| !slugs.concat().contains(only)) {
+        let [base, head] = names;
+        return Err(CliError::Input(format!("--only {unknown}: no such experiment in {base} or {head}")));
+    }
     let mut workshop = Workshop::default();
-    let [a, b] = places;
-    let folders = [(names[0], a), (names[1], b)].map(|(name, place)| match place {
-        Place::Folder(folder) => Ok(folder),
-        Place::Revision(commit) => workshop.results(name, &commit),
-    });
-    let [base, head] = folders;
-    let folders = [base?, head?];
-    let (base, head) = (results(&folders[0])?, results(&folders[1])?);
+    let mut sides = Vec::new();
+    for ((name, place), slugs) in names.iter().zip(places).zip(&slugs) {
+        let wanted: Vec<String> = only.iter().filter(|only| slugs.contains(only)).cloned().collect();
+        // Where none of them is there, there is nothing to run.
+        let empty = !only.is_empty() && wanted.is_empty();
+        sides.push(match place {
+            _ if empty => None,
+            Place::Folder(folder) => Some(folder),
+            Place::Revision(commit) => Some(workshop.results(name, &commit, &wanted)?),
+        });
+    }
+    let read_side =
+        |side: &Option<PathBuf>| side.as_ref().map_or_else(|| Ok(Results::default()), |f| results(f));
+    let (base, head) = (read_side(&sides[0])?.only(only), read_side(&sides[1])?.only(only));
     let mut figure = |side, path: &str| {
         interrupt::check()?;
-        let folder = if side == Side::Base { &folders[0] } else { &folders[1] };
-        read(&folder.join(path))
+        let folder = &sides[usize::from(side == Side::Head)];
+        read(&folder.as_deref().unwrap_or(Path::new("")).join(path))
     };
     review::results(names.map(String::as_str), &base, &head, tolerance, &mut figure)
 }

@@ -49,6 +49,8 @@ fn equal_results_end_with_0() {
     assert!(run.stdout.contains("page: review/review.html"), "{}", run.stdout);
     let review = place.json("review/review.json");
     assert_eq!((&review["moved"], &review["base"]), (&json!(false), &json!("before")));
+    let run = place.succeeds(&["review", "before", "after", "--only", "turning"]);
+    assert!(run.stdout.contains("1 experiment: 0 moved, 0 added, 0 gone, 1 unchanged"), "{}", run.stdout);
     assert!(page(&place, "review/review.html").contains("Nothing moved."));
 }
 
@@ -150,6 +152,9 @@ fn what_is_no_result_is_refused() {
     place.refuses(&["review", "good", "good", "--snapshots"], &["--snapshots", "cannot be used"]);
     place.write("file", "a file");
     place.refuses(&["review", "good", "good", "--out", "file"], &["file: "]);
+    place
+        .refuses(&["review", "good", "good", "--only", "nothing"], &["--only nothing", "no such experiment"]);
+    place.refuses(&["review", "--snapshots", "--only", "turning"], &["--only", "cannot be used"]);
     // A figure that is no picture.
     let mut files = place.files().into_keys();
     let figure = files.find(|p| p.ends_with("good/turning/moving.png")).unwrap();
@@ -202,7 +207,7 @@ mod revisions {
     use super::page;
     use crate::support::{Place, Run};
     use std::os::unix::fs::PermissionsExt;
-    use std::process::Command;
+    use std::process::{Child, Command, Stdio};
     use std::time::{Duration, Instant};
 
     /// The program of a revision copies the summary that the revision holds.
@@ -210,11 +215,14 @@ mod revisions {
 test "$*" = "build --release --quiet -p tigereye-cli" || exit 9
 test -f build-fails && exit 7
 if test -f build-lasts; then echo $$ > "$MARK"; sleep 60; fi
+if test -f build-stubborn; then trap '' TERM; echo $$ > "$MARK"; for i in 1 2 3 4 5 6 7 8 9; do sleep 7; done; fi
 mkdir -p "$CARGO_TARGET_DIR/release"
 cat > "$CARGO_TARGET_DIR/release/tigereye" <<END
 #!/bin/sh
 mkdir -p "\$3"
 cp "$PWD/summary" "\$3/summary.json"
+shift 3
+echo "\$@" >> "$MARK"
 exit 1
 END
 chmod +x "$CARGO_TARGET_DIR/release/tigereye"
@@ -311,19 +319,58 @@ chmod +x "$CARGO_TARGET_DIR/release/tigereye"
     }
 
     #[test]
-    fn an_interrupt_ends_the_build_and_removes_the_worktree() {
+    fn of_revisions_only_the_named_experiments_run() {
         let place = repository();
         std::fs::remove_file(place.path("build-fails")).unwrap();
-        place.write("build-lasts", "");
-        commit(&place, "long");
-        let mut child = command(&place, &["review", "long", "one"]).spawn().unwrap();
+        for file in ["a.ron", "b.ron", "b.field.ron"] {
+            place.write(&format!("experiments/x/{file}"), "");
+        }
+        commit(&place, "later");
+        let arguments = || String::from_utf8(place.read("mark")).unwrap();
+        let both = run(&place, &["review", "later", "later", "--only", "a", "--only", "b"]);
+        assert_eq!(both.code, 0, "{}", both.stderr);
+        assert_eq!(arguments(), "--only a --only b\n".repeat(2));
+        std::fs::remove_file(place.path("mark")).unwrap();
+        // Before, there was none: that side is not built.
+        let added = run(&place, &["review", "one", "later", "--only", "a"]);
+        assert!(
+            added.code == 1 && added.stdout.contains("0 moved, 1 added"),
+            "{}{}",
+            added.stdout,
+            added.stderr
+        );
+        assert!(!added.stderr.contains("one: building"), "{}", added.stderr);
+        assert_eq!(arguments(), "--only a\n");
+        for unknown in ["c", "b.field"] {
+            let refused = run(&place, &["review", "one", "later", "--only", unknown]);
+            assert_eq!((refused.code, refused.stderr.lines().count()), (2, 1), "{}", refused.stderr);
+            assert!(refused.stderr.contains("no such experiment in one or later"), "{}", refused.stderr);
+        }
+        leaves_nothing(&place);
+    }
+
+    /// Starts a review of a revision whose build lasts; ends once it is building.
+    fn begun(place: &Place, lasts: &str) -> (Child, Instant) {
+        std::fs::remove_file(place.path("build-fails")).unwrap();
+        place.write(lasts, "");
+        commit(place, "long");
+        let mut command = command(place, &["review", "long", "one"]);
+        let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let start = Instant::now();
         while !place.path("mark").exists() {
             assert!(start.elapsed() < Duration::from_secs(20), "the build never began");
             std::thread::sleep(Duration::from_millis(10));
         }
-        assert_eq!(git(&place, &["worktree", "list"]).lines().count(), 2);
+        assert_eq!(git(place, &["worktree", "list"]).lines().count(), 2);
+        (child, start)
+    }
+
+    fn interrupt(child: &Child) {
         assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    }
+
+    #[track_caller]
+    fn ends_interrupted(place: &Place, mut child: Child, start: Instant) {
         while child.try_wait().unwrap().is_none() {
             assert!(start.elapsed() < Duration::from_secs(40), "the program goes on after an interrupt");
             std::thread::sleep(Duration::from_millis(10));
@@ -331,6 +378,26 @@ chmod +x "$CARGO_TARGET_DIR/release/tigereye"
         let ended = Run::of(child.wait_with_output().unwrap());
         assert_eq!(ended.code, 130, "{}", ended.stderr);
         assert!(!place.path("review").exists());
-        leaves_nothing(&place);
+        leaves_nothing(place);
+    }
+
+    #[test]
+    fn an_interrupt_ends_the_build_and_removes_the_worktree() {
+        let place = repository();
+        let (child, start) = begun(&place, "build-lasts");
+        interrupt(&child);
+        ends_interrupted(&place, child, start);
+    }
+
+    /// The first interrupt waits for a build that does not listen; the second waits for nothing.
+    #[test]
+    fn a_second_interrupt_leaves_no_worktree_either() {
+        let place = repository();
+        let (mut child, start) = begun(&place, "build-stubborn");
+        interrupt(&child);
+        std::thread::sleep(Duration::from_millis(300));
+        assert!(child.try_wait().unwrap().is_none(), "the build listens");
+        interrupt(&child);
+        ends_interrupted(&place, child, start);
     }
 }

@@ -14,10 +14,24 @@ const MAX_ITEMS: usize = 100_000;
 /// Longest name in a summary, bytes.
 const MAX_NAME: usize = 10_000;
 
-/// What a `summary.json` holds.
-#[derive(Clone, Debug)]
+/// What a `summary.json` holds; nothing by default.
+#[derive(Clone, Debug, Default)]
 pub struct Results {
     experiments: Vec<Experiment>,
+}
+
+impl Results {
+    /// Names of the experiments.
+    pub fn slugs(&self) -> impl Iterator<Item = &str> {
+        self.experiments.iter().map(|e| e.slug.as_str())
+    }
+
+    /// Keeps the experiments of these names; all where there is no name.
+    #[must_use]
+    pub fn only(mut self, slugs: &[String]) -> Self {
+        self.experiments.retain(|e| slugs.is_empty() || slugs.contains(&e.slug));
+        self
+    }
 }
 
 #[derive(Clone, Debug)]

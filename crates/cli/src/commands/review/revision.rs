@@ -3,14 +3,21 @@
 use crate::error::CliError;
 use crate::{commands::quoted, interrupt};
 use std::ffi::{OsStr, OsString};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use tempfile::TempDir;
+use tigereye_experiments::library::is_experiment;
+use tigereye_experiments::settings::slug_of;
 
 /// How often a running program is looked at.
 const PAUSE: Duration = Duration::from_millis(50);
+
+/// How often a folder is tried to be removed by a process that ends at once.
+const ATTEMPTS: usize = 40;
 
 /// The process group that is running, 0 for none.
 static RUNNING: AtomicU32 = AtomicU32::new(0);
@@ -28,6 +35,22 @@ pub(super) fn commit(name: &str) -> Result<Option<String>, CliError> {
     Ok((output.status.success() && is_commit).then_some(commit))
 }
 
+/// The names of a commit's experiments.
+pub(super) fn slugs(commit: &str) -> Result<Vec<String>, CliError> {
+    let mut git = Command::new("git");
+    git.args(["ls-tree", "-r", "-z", "--full-tree", "--name-only", commit, "experiments/"]);
+    let output = git.stdin(Stdio::null()).output().map_err(|e| not_started("git", &e))?;
+    let paths = String::from_utf8_lossy(&output.stdout).into_owned();
+    Ok(paths.split('\0').filter(|path| is_experiment(path)).map(slug_of).collect())
+}
+
+/// The folder of a [`Workshop`], for a process that ends at once; see [`abandon`].
+static FOLDER: Mutex<Option<PathBuf>> = Mutex::new(None);
+
+fn folder_made() -> MutexGuard<'static, Option<PathBuf>> {
+    FOLDER.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// A temporary folder for everything that revisions need, made for the first of them. Their common parts are built once.
 #[derive(Default)]
 pub(super) struct Workshop {
@@ -37,8 +60,8 @@ pub(super) struct Workshop {
 }
 
 impl Workshop {
-    /// The results of a commit, in a folder that lasts as long as this.
-    pub(super) fn results(&mut self, name: &str, commit: &str) -> Result<PathBuf, CliError> {
+    /// The results of a commit, of the experiments `only` or of all, in a folder that lasts as long as this.
+    pub(super) fn results(&mut self, name: &str, commit: &str, only: &[String]) -> Result<PathBuf, CliError> {
         let folder = self.folder()?;
         self.made += 1;
         let worktree = Worktree { path: folder.join(format!("worktree-{}", self.made)) };
@@ -59,6 +82,7 @@ impl Workshop {
         let mut reproduce = Command::new(program);
         // Its exit code is 1 where a check failed: that is a result, too.
         reproduce.args([OsStr::new("reproduce"), OsStr::new("--out"), results.as_os_str()]);
+        reproduce.args(only.iter().flat_map(|slug| ["--only", slug]));
         succeeds(name, reproduce, &[0, 1])?;
         Ok(results)
     }
@@ -75,8 +99,18 @@ impl Workshop {
         let folder = tempfile::Builder::new().prefix("tigereye-review-").tempdir().map_err(fault)?;
         // As git writes it: without links.
         let path = folder.path().canonicalize().map_err(fault)?;
+        *folder_made() = Some(path.clone());
         self.folder = Some(folder);
         Ok(path)
+    }
+}
+
+impl Drop for Workshop {
+    fn drop(&mut self) {
+        // Who abandons it waits until it is gone.
+        let mut made = folder_made();
+        drop(self.folder.take());
+        *made = None;
     }
 }
 
@@ -87,21 +121,26 @@ struct Worktree {
 
 impl Drop for Worktree {
     fn drop(&mut self) {
-        let git = |args: &[&OsStr]| {
-            let mut git = Command::new("git");
-            git.args(args).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-            // A second interrupt must not reach it halfway.
-            in_own_group(&mut git);
-            git.status().is_ok_and(|s| s.success())
-        };
-        let words = |words: [&'static str; 3]| words.map(OsStr::new);
-        let [a, b, c] = words(["worktree", "remove", "--force"]);
-        if !git(&[a, b, c, self.path.as_os_str()]) {
+        let remove = ["worktree", "remove", "--force"].map(OsStr::new);
+        if !git_succeeds(&[&remove[..], &[self.path.as_os_str()]].concat()) {
             // Never added, or half: the folder goes with its parent, git forgets it here.
             let _ = std::fs::remove_dir_all(&self.path);
-            git(&words(["worktree", "prune", "--expire=now"]));
+            forget_worktrees();
         }
     }
+}
+
+/// Lets git forget the worktrees whose folders are gone.
+fn forget_worktrees() {
+    git_succeeds(&["worktree", "prune", "--expire=now"].map(OsStr::new));
+}
+
+/// Runs git silently; a second interrupt must not reach it halfway.
+fn git_succeeds(args: &[&OsStr]) -> bool {
+    let mut git = Command::new("git");
+    git.args(args).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    in_own_group(&mut git);
+    git.status().is_ok_and(|s| s.success())
 }
 
 /// Runs a program to its end; an interrupt ends it, too.
@@ -136,15 +175,27 @@ fn wait(child: &mut Child) -> Result<ExitStatus, CliError> {
         }
         if interrupt::asked() && !asked {
             asked = true;
-            end_group(child.id());
+            end_group(child.id(), "-TERM");
         }
         std::thread::sleep(PAUSE);
     }
 }
 
-/// Ends what is running, for a process that ends right now. Worktrees stay; git forgets them once their folder is gone.
+/// Ends what is running and clears away, for a process that ends right now.
 pub(crate) fn abandon() {
-    end_group(RUNNING.load(Ordering::SeqCst));
+    // Held to the end: who clears away after the first interrupt waits, and the process ends here.
+    let made = folder_made();
+    let Some(folder) = made.as_deref() else { return };
+    end_group(RUNNING.load(Ordering::SeqCst), "-KILL");
+    for _ in 0..ATTEMPTS {
+        // What was killed may still be ending, and the first interrupt may be clearing away, too.
+        match std::fs::remove_dir_all(folder) {
+            Err(e) if e.kind() != ErrorKind::NotFound || folder.exists() => std::thread::sleep(PAUSE),
+            _ => break,
+        }
+    }
+    forget_worktrees();
+    std::mem::forget(made);
 }
 
 /// Compilers are children of children: all of them end together, and not by a Ctrl-C that only we should answer.
@@ -157,10 +208,10 @@ fn in_own_group(command: &mut Command) {
 #[cfg(not(unix))]
 fn in_own_group(_command: &mut Command) {}
 
-fn end_group(id: u32) {
+fn end_group(id: u32, signal: &str) {
     if id != 0 && cfg!(unix) {
         // Where there is no `kill`, the programs end by themselves.
-        let _ = Command::new("kill").args(["-TERM", "--", &format!("-{id}")]).stderr(Stdio::null()).status();
+        let _ = Command::new("kill").args([signal, "--", &format!("-{id}")]).stderr(Stdio::null()).status();
     }
 }
 

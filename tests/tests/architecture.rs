@@ -68,6 +68,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace").to_path_buf()
 }
 
+/// Everything but what programs wrote: `.gitignore` names the same.
 fn tracked_files() -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![root()];
@@ -77,6 +78,7 @@ fn tracked_files() -> Vec<PathBuf> {
             let name = entry.file_name().to_string_lossy().into_owned();
             let ignored = name.starts_with("target")
                 || name == "results"
+                || folder == root() && (name == "review" || name.ends_with("-results"))
                 || name == "book"
                 || name == ".git"
                 || name == ".venv";

@@ -1,30 +1,47 @@
-//! Lines along the axes of tensors, and the points where tensors have none.
+//! Lines along the axes of tensors, the points where tensors have none, how far lines part; textures; ridges and contours of scalars.
 //!
 //! Points are `[x, y]` in cells: (0, 0) is the centre of the upper left cell, x to the right, y **downwards**. Between the
-//! centres of four cells tensors are interpolated component by component. The axes are the half-axes of the ellipse that
-//! a tensor makes of the unit circle (its left singular vectors), which are those of the eigenvectors where the tensor is
-//! symmetric and positive. They have no sign: a line goes on in the direction that is nearer to where it came from.
+//! centres of four cells tensors are interpolated component by component. Axes ([`Axes`]) have no sign: a line goes on in the
+//! direction that is nearer to where it came from.
+//!
+//! Scalars are interpolated by quintic splines for ridges and linearly for contours. A volume has a third axis, the
+//! direction of a light transport gradient, that may be periodic ([`Volume`]).
 
 mod axes;
+mod chains;
 mod convolution;
 mod degenerate;
+mod extraction_error;
 mod flow_map;
 mod ftle;
 mod hyperstreamline;
 mod interpolated;
+mod nearest;
+mod ridges;
 mod seeding;
+mod shapes;
+mod spline;
 mod tensor_line;
+mod tetrahedra;
 mod topology;
+mod volume;
 
 pub use axes::{Axes, Decomposition, Domain, Family, Frame};
 pub use convolution::{ConvolutionOptions, convolved, hyper_convolved};
 pub use degenerate::{DegenerateKind, DegeneratePoint, degenerate_points};
+pub use extraction_error::ExtractionError;
 pub use flow_map::{advected, exponents};
 pub use ftle::{Ftle, FtleOptions, SamplingError, fine_grid, ftle};
 pub use hyperstreamline::half_widths;
 pub use interpolated::{Interpolated, ellipse_tensors};
+pub use nearest::NearestSegment;
+pub use ridges::{
+    RidgeBounds, RidgeLines, RidgeOptions, RidgeSurface, Threshold, ridge_lines, ridge_surface,
+};
 pub use seeding::evenly_spaced;
+pub use shapes::{Polyline, Polylines, Surface};
 pub use tensor_line::{
     Inertia, LineEnd, LineOptions, Method, TensorLine, half_line, half_line_end, tensor_line,
 };
 pub use topology::{Separatrix, Topology};
+pub use volume::Volume;

@@ -1,0 +1,52 @@
+//! What can be wrong with a volume or with the options of an extraction.
+
+use thiserror::Error;
+
+/// A volume or an option outside its range.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ExtractionError {
+    /// A volume needs at least one sample and at most [`crate::Volume::MAX_SAMPLES`].
+    #[error("a volume of {} x {} x {} samples is not possible: expected 1 to {max}", size[0], size[1], size[2], max = crate::Volume::MAX_SAMPLES)]
+    VolumeSize {
+        /// Samples along each axis.
+        size: [usize; 3],
+    },
+    /// The number of values is not the number of samples.
+    #[error("{values} values for a volume of {samples} samples: expected one each")]
+    ValueCount {
+        /// Values given.
+        values: usize,
+        /// Samples of the volume.
+        samples: usize,
+    },
+    /// The slices of a gradient are not equally far from each other.
+    #[error(
+        "the slices of the gradient are not equally far from each other: slice {slice} where {expected} is expected"
+    )]
+    UnevenSlices {
+        /// The first slice out of step.
+        slice: usize,
+        /// The slice expected there.
+        expected: usize,
+    },
+    /// An option outside its range.
+    #[error("{option} is {value}: expected {expected}")]
+    Option {
+        /// Name of the option.
+        option: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it may be.
+        expected: &'static str,
+    },
+    /// The refined mesh would have too many nodes.
+    #[error("{samples_per_cell} samples a cell give a mesh of {nodes} nodes: expected at most {most}")]
+    MeshSize {
+        /// Samples a cell asked for.
+        samples_per_cell: usize,
+        /// Nodes of the mesh they give.
+        nodes: u128,
+        /// Most nodes allowed.
+        most: usize,
+    },
+}

@@ -1,0 +1,156 @@
+//! Ridges of fields: lines.
+
+use super::RidgeBounds;
+use super::mesh::{Node, RidgeMesh};
+use crate::chains::{chained, without_repetitions};
+use crate::tetrahedra::{Crossing, Edges};
+use crate::{ExtractionError, Polyline, Polylines, RidgeOptions, Volume};
+use rayon::prelude::*;
+use tigereye_core::Field;
+
+/// Ridge lines of a field, the longest first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RidgeLines {
+    /// The lines. They do not branch: where crests meet, lines end beside each other.
+    pub shape: Polylines,
+    /// Value at each point.
+    pub value: Vec<f64>,
+    /// Strength at each point, in values over squared (scaled) cells.
+    pub strength: Vec<f64>,
+    /// Length of each line, in (scaled) cells.
+    pub length: Vec<f64>,
+    /// The bounds that applied.
+    pub bounds: RidgeBounds,
+}
+
+/// Places this near to each other, in cells, are one.
+const SAME: f64 = 1e-6;
+
+/// The height ridges of a field: points where the slope along the eigenvector of the smallest eigenvalue of the
+/// Hessian is zero and that eigenvalue is negative (Eberly, Ridges in Image and Data Analysis, 1996). The field is
+/// interpolated by a quintic spline; ridges are searched on a mesh of `samples_per_cell` steps a cell and their
+/// points refined along its edges until the slope vanishes.
+///
+/// Cells that are not finite are missing: rows and columns at the border without any value are cut off, and where one
+/// of the six by six cells around a point is missing there are no ridges. Nor are there any in the margin
+/// ([`RidgeOptions::margin`]). Fields of constant values, of one row or column or of none have none. What is narrower
+/// than a cell makes the spline swing beside it, by a fifth or so: such crests have weak companions, which
+/// [`RidgeOptions::least_value`] and `least_strength` take away.
+///
+/// # Errors
+/// [`ExtractionError::Option`] for an option out of range, [`ExtractionError::MeshSize`] where the mesh has too many
+/// nodes.
+pub fn ridge_lines(field: &Field<f64>, options: &RidgeOptions) -> Result<RidgeLines, ExtractionError> {
+    let options = RidgeOptions { cell: [options.cell[0], options.cell[1], 1.0], ..*options };
+    let Some(mesh) = RidgeMesh::new(&Volume::of_field(field), &options)? else {
+        return Ok(RidgeLines::default());
+    };
+    let [nx, ny, _] = mesh.nodes();
+    let nodes = mesh.layer(0);
+    let row = |j: usize| row_of_edges(&mesh, &nodes, j);
+    let rows: Vec<Vec<[Mark; 3]>> = (0..ny).into_par_iter().map(row).collect();
+    let mut found = RidgeLines::default();
+    let mut on_edges = vec![[NONE; 3]; nodes.len()];
+    for (i, marks) in rows.into_iter().flatten().enumerate() {
+        for (d, mark) in marks.into_iter().enumerate() {
+            if let Mark::Point { position, value, strength } = mark {
+                on_edges[i][d] = found.value.len() as u32;
+                found.shape.points.push(position);
+                found.value.push(value);
+                found.strength.push(strength);
+            } else if matches!(mark, Mark::Rejected) {
+                on_edges[i][d] = REJECTED;
+            }
+        }
+    }
+    found.bounds = mesh.bounds();
+    let segments = segments(&on_edges, [nx, ny]);
+    let mut lines = chained(found.value.len(), &segments);
+    without_repetitions(&mut lines, &found.shape.points, SAME);
+    Ok(found.with(lines, &options))
+}
+
+/// In place of a point: there is none.
+const NONE: u32 = u32::MAX;
+/// In place of a point: rejected.
+const REJECTED: u32 = u32::MAX - 1;
+
+/// What is on an edge.
+enum Mark {
+    None,
+    Rejected,
+    Point { position: [f64; 2], value: f64, strength: f64 },
+}
+
+/// Where the edges from each node to the right, downwards and along the diagonal end.
+const ENDS: [(usize, usize); 3] = [(1, 0), (0, 1), (1, 1)];
+
+fn row_of_edges(mesh: &RidgeMesh, nodes: &[Node], j: usize) -> Vec<[Mark; 3]> {
+    let [nx, ny, _] = mesh.nodes();
+    let at = |i: usize, j: usize| (&nodes[j * nx + i], [i as f64, j as f64, 0.0]);
+    let mark = |i: usize, (dx, dy): (usize, usize)| {
+        if i + dx >= nx || j + dy >= ny {
+            return Mark::None;
+        }
+        match mesh.crossing(at(i, j), at(i + dx, j + dy)) {
+            Crossing::None => Mark::None,
+            Crossing::Rejected => Mark::Rejected,
+            Crossing::At { at, known: [value, strength] } => {
+                let place = [i as f64 + at * dx as f64, j as f64 + at * dy as f64, 0.0];
+                let [x, y, _] = mesh.in_volume(place);
+                let [value, strength] = [value, strength].map(|v| mesh.unscaled(v));
+                Mark::Point { position: [x, y], value, strength }
+            }
+        }
+    };
+    (0..nx).map(|i| ENDS.map(|end| mark(i, end))).collect()
+}
+
+/// One segment in each triangle of which exactly two edges are crossed. Squares are cut along
+/// their diagonal.
+fn segments(on_edges: &[[u32; 3]], [nx, ny]: [usize; 2]) -> Vec<[u32; 2]> {
+    let mut segments = Vec::new();
+    for j in 0..ny.saturating_sub(1) {
+        for i in 0..nx.saturating_sub(1) {
+            let node = j * nx + i;
+            let [right, down, diagonal] = on_edges[node];
+            for triangle in
+                [[right, on_edges[node + 1][1], diagonal], [down, on_edges[node + nx][0], diagonal]]
+            {
+                let mut crossed = triangle.into_iter().filter(|&p| p != NONE);
+                if let (Some(a), Some(b), None) = (crossed.next(), crossed.next(), crossed.next())
+                    && a != REJECTED
+                    && b != REJECTED
+                {
+                    segments.push([a, b]);
+                }
+            }
+        }
+    }
+    segments
+}
+
+impl RidgeLines {
+    /// With those of `lines` that are long enough, longest first, and the points they need.
+    fn with(self, lines: Vec<Polyline>, options: &RidgeOptions) -> Self {
+        let cell = [options.cell[0], options.cell[1]];
+        let mut measured: Vec<(f64, Polyline)> =
+            lines.into_iter().map(|l| (self.shape.length(&l, cell), l)).collect();
+        measured.retain(|(length, _)| *length >= options.least_extent);
+        measured.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut found = Self { bounds: self.bounds, ..Self::default() };
+        for (length, line) in measured {
+            let first = found.value.len() as u32;
+            for &p in &line.points {
+                let p = p as usize;
+                found.shape.points.push(self.shape.points[p]);
+                found.value.push(self.value[p]);
+                found.strength.push(self.strength[p]);
+            }
+            let points = (first..found.value.len() as u32).collect();
+            found.shape.lines.push(Polyline { points, closed: line.closed });
+            found.length.push(length);
+        }
+        found
+    }
+}

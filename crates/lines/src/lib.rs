@@ -9,6 +9,7 @@
 
 mod axes;
 mod chains;
+mod contours;
 mod convolution;
 mod degenerate;
 mod extraction_error;
@@ -27,6 +28,7 @@ mod topology;
 mod volume;
 
 pub use axes::{Axes, Decomposition, Domain, Family, Frame};
+pub use contours::{isolines, isosurface};
 pub use convolution::{ConvolutionOptions, convolved, hyper_convolved};
 pub use degenerate::{DegenerateKind, DegeneratePoint, degenerate_points};
 pub use extraction_error::ExtractionError;

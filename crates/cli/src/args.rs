@@ -3,7 +3,7 @@
 pub(crate) mod classical;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use classical::{LinesArgs, TopologyArgs};
+use classical::{FtleArgs, GlyphsArgs, LicArgs, LinesArgs, RidgesArgs, TopologyArgs};
 use std::path::PathBuf;
 use tigereye_core::{Below, Directions, Normalization};
 use tigereye_experiments::input::{Derivation, Derived, Reading};
@@ -44,6 +44,14 @@ pub(crate) enum Command {
     Lines(LinesArgs),
     /// Degenerate points and separatrices.
     Topology(TopologyArgs),
+    /// Noise smeared along the axes (line integral convolution).
+    Lic(LicArgs),
+    /// Finite-time Lyapunov exponent of the tensor lines.
+    Ftle(FtleArgs),
+    /// A glyph for every tensor.
+    Glyphs(GlyphsArgs),
+    /// Height ridges or contours of a gradient, of exponents, or of any other image of numbers.
+    Ridges(RidgesArgs),
     /// Difference of two results.
     Compare(CompareArgs),
     /// What a change moved: numbers and figures of two results, or pending snapshots, on one page.

@@ -8,6 +8,7 @@ use crate::settings::Settings;
 use crate::spec::PulseNumber;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use tigereye_lines::Ftle;
 use tigereye_ltg::LtgOutcome;
 
 /// Shapes, extrema, quantiles, counters and checks of an experiment. Numbers are rounded to nine digits; what is smaller
@@ -20,6 +21,8 @@ pub struct Digest {
     gradients: BTreeMap<String, GradientDigest>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pulses: BTreeMap<String, PulsesDigest>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    ftle: BTreeMap<String, FtleDigest>,
     figures: Vec<String>,
     /// Headings of tables, with their numbers of rows.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -74,6 +77,15 @@ struct PulsesDigest {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+struct FtleDigest {
+    samples: usize,
+    lines: usize,
+    left: String,
+    /// Smallest, quartiles and largest of the larger exponents.
+    quantiles: [String; 5],
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
 struct CheckDigest {
     name: String,
     value: String,
@@ -100,6 +112,7 @@ pub(crate) fn digest(settings: &Settings, results: &Results, outcome: &Experimen
         lights: results.lights.iter().map(|(n, r)| (n.clone(), light(r))).collect(),
         gradients: results.gradients.iter().map(|(n, g)| (n.clone(), gradient(g))).collect(),
         pulses: results.pulses.iter().map(|(n, p)| (n.clone(), pulses(p))).collect(),
+        ftle: results.ftle.iter().map(|(n, f)| (n.clone(), exponents(f))).collect(),
         figures: outcome
             .figures
             .iter()
@@ -145,6 +158,16 @@ fn gradient(outcome: &LtgOutcome) -> GradientDigest {
         limited: outcome.limited,
         mean: rounded(volume.values().iter().sum::<f64>() / volume.values().len().max(1) as f64),
         quantiles: quantiles(values.collect()),
+    }
+}
+
+fn exponents(found: &Ftle) -> FtleDigest {
+    let finite: Vec<f64> = found.larger.values().iter().copied().filter(|v| v.is_finite()).collect();
+    FtleDigest {
+        samples: found.samples,
+        lines: 2 * finite.len(),
+        left: rounded(found.left),
+        quantiles: quantiles(finite),
     }
 }
 

@@ -1,18 +1,25 @@
 //! Figures from results.
 
+use crate::classical::fine::{self, TextureRequest};
+use crate::classical::lines::{LinesRequest, Seeds, lines};
+use crate::classical::point_overlays;
+use crate::classical::ridges::line_overlay;
+use crate::classical::topology::topology;
+use crate::comparison;
 use crate::measure::{self, at_step, inner_cells, lobe_ratio, net_flux_ratio, ridge_columns};
 use crate::outcome::{DataFile, Figure};
 use crate::runs::{LightResult, Results, RunError};
-use crate::settings::{Settings, sample_of};
-use crate::spec::{self, FlatView, Panel, ProfileSource, SeriesSource};
+use crate::settings::{PulsesSettings, RunSettings, Settings, axes_of, family_of, sample_of};
+use crate::spec::{self, FlatView, Panel, ProfileSource, RidgeSource, SeriesSource};
 use std::fmt::Write as _;
 use tigereye_core::{Cell, Field, Grid, LightDistribution, PolarProfile, transmission_ellipse};
 use tigereye_fields::Expression;
+use tigereye_lines::{ConvolutionOptions, Family, LineOptions};
 use tigereye_render::{
     Chart, ChartAxis, GlyphColour, GlyphOptions, GlyphScale, HeatOptions, HeatScale, IntensityScale,
-    OrientationOptions, Overlay, PolarOptions, PolarPlotOptions, PolarSeries, Rgba, SERIES_PALETTE, Scene,
-    Series, TransmissionScale, glyphs, heat_map, line_chart, orientation_map, polar_overlay, polar_plot,
-    small_multiples,
+    OrientationOptions, Overlay, PlainOptions, PolarOptions, PolarPlotOptions, PolarSeries, Rgba,
+    SERIES_PALETTE, Scene, Series, TransmissionScale, glyphs, heat_map, line_chart, orientation_map,
+    plain_map, polar_overlay, polar_plot, small_multiples,
 };
 use tigereye_transport::{Scheme, SharedWeights, emitter};
 
@@ -22,6 +29,9 @@ const FORMULA_POINTS: usize = 121;
 const PANEL_PX: usize = 330;
 /// Resolution of the PNG files, pixels per unit.
 const PNG_SCALE: f64 = 1.5;
+
+/// Distance of lines in parts of the longer side.
+const LINES_A_SIDE: f64 = 32.0;
 
 /// Columns between neighbouring rows beyond which a ridge line is broken.
 const LARGEST_JUMP: f64 = 2.0;
@@ -98,6 +108,24 @@ impl Draw<'_> {
                 let scene = self.settings.fields.get(field).map(|f| self.orientation(f, own_title(title)));
                 shown(scene, title, figure)
             }
+            Panel::Lines { field, axes, family, title } => {
+                let scene =
+                    self.settings.fields.get(field).map(|f| self.lines(f, *axes, *family, own_title(title)));
+                shown(scene, title, figure)
+            }
+            Panel::Texture { field, axes, family, hyper, title } => {
+                let field = self.settings.fields.get(field);
+                let scene = field.and_then(|f| self.texture(f, (*axes, *family, *hyper), &own_title(title)));
+                shown(scene, title, figure)
+            }
+            Panel::Map { map, ridges, title } => {
+                shown(self.map(map, *ridges, own_title(title)), title, figure)
+            }
+            Panel::Ridges { field, sources, title } => {
+                let field = self.settings.fields.get(field);
+                let scene = field.and_then(|f| self.ridges(f, sources, own_title(title)));
+                shown(scene, title, figure)
+            }
             Panel::Overlay { run, step, scale, transmission, title } => {
                 let scene = self.light(run).and_then(|r| {
                     self.overlay(r, at_step(r, *step)?, *scale, *transmission, own_title(title))
@@ -161,6 +189,81 @@ impl Draw<'_> {
     fn orientation(&self, field: &Field<tigereye_core::Tensor2>, title: String) -> Scene {
         let cell_px = self.cell_px(field.grid());
         orientation_map(field, &OrientationOptions { title, cell_px, ..OrientationOptions::default() })
+    }
+
+    fn lines(
+        &self,
+        field: &Field<tigereye_core::Tensor2>,
+        axes: spec::AxesChoice,
+        family: Option<spec::FamilyChoice>,
+        title: String,
+    ) -> Scene {
+        let axes = axes_of(axes, field);
+        let families = family.map_or(vec![Family::Major, Family::Minor], |f| vec![family_of(f)]);
+        let longest = field.grid().width().max(field.grid().height()) as f64;
+        let request = LinesRequest {
+            axes,
+            families,
+            seeds: Seeds::Even((longest / LINES_A_SIDE).max(0.5)),
+            options: LineOptions { step: 0.2, length: 2.0 * longest, ..LineOptions::default() },
+            ribbon: None,
+        };
+        let points = topology(field, axes, &[], &LineOptions::default()).points;
+        lines(field, &request).picture(field, &title, point_overlays(&points), self.cell_px(field.grid()))
+    }
+
+    fn texture(
+        &self,
+        field: &Field<tigereye_core::Tensor2>,
+        (axes, family, hyper): (spec::AxesChoice, spec::FamilyChoice, bool),
+        title: &str,
+    ) -> Option<Scene> {
+        let axes = axes_of(axes, field);
+        let longest = field.grid().width().max(field.grid().height());
+        // About a sample a pixel.
+        let samples = (PANEL_PX / longest).clamp(1, 8);
+        let options = ConvolutionOptions { samples, ..ConvolutionOptions::default() };
+        let request = TextureRequest { axes, family: family_of(family), hyper, options };
+        let found = fine::texture(field, &request).ok()?;
+        fine::texture_picture(&found, field, samples, hyper, title, Vec::new()).ok()
+    }
+
+    fn map(&self, source: &spec::MapSource, ridges: bool, title: String) -> Option<Scene> {
+        let overlays = if ridges {
+            let found = comparison::ridges(&RidgeSource::Of(source.clone()), self.results)?;
+            vec![line_overlay(&found, "height ridges", Rgba::hex(0xd62728))]
+        } else {
+            Vec::new()
+        };
+        if let spec::MapSource::Ftle { run } = source {
+            return Some(fine::exponents_picture(self.results.ftle.get(run)?, &title, overlays));
+        }
+        let field = comparison::map(source, self.results)?;
+        let quantity = match source {
+            spec::MapSource::Mean { .. } => "mean LTG / (W/rad)",
+            spec::MapSource::Maximum { .. } => "largest LTG / (W/rad)",
+            _ => "LTG / (W/rad)",
+        };
+        Some(self.gradient_map(&field, quantity, overlays, title))
+    }
+
+    fn ridges(
+        &self,
+        field: &Field<tigereye_core::Tensor2>,
+        sources: &[(String, RidgeSource)],
+        title: String,
+    ) -> Option<Scene> {
+        let overlays = sources.iter().zip(SERIES_PALETTE).map(|((label, source), colour)| {
+            Some(line_overlay(&comparison::ridges(source, self.results)?, label, colour))
+        });
+        let options = PlainOptions {
+            title,
+            description: "Height ridges".to_owned(),
+            cell_px: self.cell_px(field.grid()),
+            overlays: overlays.collect::<Option<_>>()?,
+            ..PlainOptions::default()
+        };
+        Some(plain_map(field.grid(), &options))
     }
 
     fn overlay(
@@ -371,7 +474,8 @@ impl Draw<'_> {
 
     fn pulses_over_column(&self, run: &str, number: spec::PulseNumber, deg: f64) -> Option<Vec<(f64, f64)>> {
         let (_, settings) = self.settings.runs.iter().find(|(name, _)| name == run)?;
-        let sample = sample_of(deg, settings.scene().directions).ok()?;
+        let RunSettings::Pulses(PulsesSettings { scene, .. }) = settings else { return None };
+        let sample = sample_of(deg, scene.directions).ok()?;
         let pulses = self.results.pulses.get(run)?.iter().filter(|p| p.sample == sample);
         Some(pulses.map(|p| (p.cell.x as f64, p.number(number))).collect())
     }

@@ -1,5 +1,6 @@
 //! One experiment from settings to outcome.
 
+use crate::classical::{Placement, axes_name, family_name, fine};
 use crate::digest::{Digest, digest};
 use crate::draw::{Drawn, draw_figure};
 use crate::host::Host;
@@ -116,6 +117,10 @@ fn work_of(settings: &Settings, results: &Results) -> Vec<(String, u64)> {
             work.push((format!("{name}: most steps of a source"), g.work.iterations_max));
             work.push((format!("{name}: cell updates"), g.work.cell_updates));
         }
+        if let Some(f) = results.ftle.get(name) {
+            let lines = f.larger.values().iter().filter(|v| v.is_finite()).count();
+            work.push((format!("{name}: lines"), 2 * lines as u64));
+        }
         if let Some(pulses) = results.pulses.get(name) {
             let settled = |number| pulses.iter().map(move |p| p.number(number)).filter(|n| n.is_finite());
             let sum = |number| settled(number).sum::<f64>() as u64;
@@ -150,6 +155,10 @@ fn data_files(
             tigereye_io::image_from_light(&r.last, &story)
         } else if let Some(g) = results.gradients.get(name) {
             tigereye_io::image_from_ltg(&g.volume, &story)
+        } else if let (Some(f), Some(field)) = (results.ftle.get(name), settings.fields.get(run.field())) {
+            let placement = Placement::new([0.0; 2], [1.0; 2], field.grid());
+            let arrays = [("FTLE", &f.larger), ("FTLE_smaller", &f.smaller)];
+            fine::image(&arrays, f.samples, &placement, &story)
         } else {
             continue;
         };
@@ -169,7 +178,18 @@ pub(crate) fn file_name(run: &str) -> String {
 }
 
 fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
+    let hash = settings.fields.get(run.field()).map(hash_of_field).unwrap_or_default();
     let (scene, own) = match run {
+        RunSettings::Ftle(f) => {
+            let parameters = json!({
+                "field": f.field,
+                "axes": axes_name(f.axes),
+                "family": family_name(f.family),
+                "length": f.length,
+                "samples": f.samples,
+            });
+            return provenance(command, &parameters, &hash);
+        }
         RunSettings::Light(l) => {
             let lights: Vec<_> = l.lights.iter().map(|l| (l.cell.x, l.cell.y)).collect();
             (&l.scene, json!({ "lights": lights, "engine": format!("{:?}", l.engine) }))
@@ -195,7 +215,6 @@ fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
     if let (Some(all), Value::Object(own)) = (parameters.as_object_mut(), own) {
         all.extend(own);
     }
-    let hash = settings.fields.get(&scene.field).map(hash_of_field).unwrap_or_default();
     provenance(command, &parameters, &hash)
 }
 

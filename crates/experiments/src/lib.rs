@@ -6,6 +6,7 @@
 //! both through [`Host`].
 
 pub mod classical;
+mod comparison;
 mod digest;
 mod draw;
 mod evaluate;

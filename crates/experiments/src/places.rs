@@ -1,7 +1,7 @@
 //! Whether the steps, slices and cells that figures and checks mention exist, asked before anything is computed.
 
 use crate::settings::{GradientSettings, LightSettings, RunSettings, sample_of};
-use crate::spec::{Panel, ProfileSource, Quantity, SeriesSource};
+use crate::spec::{MapSource, Panel, ProfileSource, Quantity, RidgeSource, SeriesSource};
 use tigereye_core::{Cell, Field, Grid, Tensor2};
 use tigereye_fields::{Expression, ExpressionField};
 use tigereye_transport::StoppingRule;
@@ -44,7 +44,27 @@ impl Known<'_> {
             Panel::Slice { run, deg, .. } => self.slice(run, deg.get()),
             Panel::Polar { curves, .. } => curves.iter().find_map(|c| self.fault_of_curve(&c.source)),
             Panel::Chart { series, .. } => series.iter().find_map(|s| self.fault_of_series(s)),
-            Panel::Glyphs { .. } | Panel::Orientation { .. } | Panel::Flat { .. } => None,
+            Panel::Map { map, .. } => self.fault_of_map(map),
+            Panel::Ridges { sources, .. } => sources.iter().find_map(|(_, s)| self.fault_of_ridges(s)),
+            Panel::Glyphs { .. }
+            | Panel::Orientation { .. }
+            | Panel::Lines { .. }
+            | Panel::Texture { .. }
+            | Panel::Flat { .. } => None,
+        }
+    }
+
+    fn fault_of_map(&self, map: &MapSource) -> Option<Misplaced> {
+        match map {
+            MapSource::Slice { run, deg } => self.slice(run, deg.get()),
+            MapSource::Ftle { .. } | MapSource::Mean { .. } | MapSource::Maximum { .. } => None,
+        }
+    }
+
+    fn fault_of_ridges(&self, source: &RidgeSource) -> Option<Misplaced> {
+        match source {
+            RidgeSource::Of(map) => self.fault_of_map(map),
+            RidgeSource::EverySlice { .. } => None,
         }
     }
 
@@ -101,6 +121,13 @@ impl Known<'_> {
             Q::GradientAt { run, cell, sample } => {
                 self.cell_of(run, *cell).or_else(|| self.sample(run, *sample, || format!("sample {sample}")))
             }
+            Q::MapCorrelation { map, with } => self
+                .fault_of_map(map)
+                .or_else(|| self.fault_of_map(with))
+                .or_else(|| self.same_size(map, with)),
+            Q::RidgeDistance { of, from, .. } => {
+                self.fault_of_ridges(of).or_else(|| self.fault_of_ridges(from))
+            }
             Q::GradientDifference { run, from } => self.comparable(run, from),
             Q::RidgeColumnError { run, deg, rows, .. } => {
                 let place = || self.slice(run, deg.get()).or_else(|| self.cell_of(run, (0, rows.1)));
@@ -122,7 +149,7 @@ impl Known<'_> {
     }
 
     fn cell_of(&self, run: &str, cell: (usize, usize)) -> Option<Misplaced> {
-        self.cell((self.field)(&(self.run)(run)?.scene().field)?.grid(), cell)
+        self.cell((self.field)((self.run)(run)?.field())?.grid(), cell)
     }
 
     fn step(&self, run: &str, step: Option<usize>) -> Option<Misplaced> {
@@ -155,6 +182,13 @@ impl Known<'_> {
         };
         let problem = || format!("no pulse of \"{run}\" starts at {deg} degrees");
         missing.then(|| Misplaced { word: format!("deg: {deg}"), problem: problem() })
+    }
+
+    fn same_size(&self, map: &MapSource, with: &MapSource) -> Option<Misplaced> {
+        let grid = |run: &str| Some((self.field)((self.run)(run)?.field())?.grid());
+        let problem = || format!("\"{}\" and \"{}\" differ in cells", map.run(), with.run());
+        let same = grid(map.run())? == grid(with.run())?;
+        (!same).then(|| Misplaced { word: format!("\"{}\"", with.run()), problem: problem() })
     }
 
     fn comparable(&self, run: &str, from: &str) -> Option<Misplaced> {

@@ -1,5 +1,6 @@
 //! Runs settings and keeps what figures and checks ask for.
 
+use crate::classical::fine::exponents;
 use crate::host::Host;
 use crate::pulses::{PulseRecord, run_pulses};
 use crate::settings::{GradientSettings, LightSettings, RunSettings, Settings};
@@ -10,6 +11,7 @@ use thiserror::Error;
 use tigereye_core::{
     Cell, CoreError, Field, LightDistribution, StopReason, Tensor2, TransmissionField, Work, math,
 };
+use tigereye_lines::{Ftle, FtleOptions, SamplingError};
 use tigereye_ltg::{LtgError, LtgOutcome, LtgSettings, Precision, SweepObserver, check_fit, sweep};
 use tigereye_render::RenderError;
 use tigereye_transport::{
@@ -42,6 +44,14 @@ pub enum RunError {
         run: String,
         /// What is wrong with it.
         source: LtgError,
+    },
+    /// Exponents that cannot be computed.
+    #[error("run \"{run}\": {source}")]
+    Ftle {
+        /// Name of the run.
+        run: String,
+        /// What is wrong with it.
+        source: SamplingError,
     },
     /// The host asked to end.
     #[error("interrupted")]
@@ -78,6 +88,7 @@ pub(crate) struct Results {
     pub(crate) lights: BTreeMap<String, LightResult>,
     pub(crate) gradients: BTreeMap<String, LtgOutcome>,
     pub(crate) pulses: BTreeMap<String, Vec<PulseRecord>>,
+    pub(crate) ftle: BTreeMap<String, Ftle>,
     /// Seconds each run took.
     pub(crate) seconds: BTreeMap<String, f64>,
 }
@@ -101,7 +112,7 @@ pub(crate) struct LightResult {
 pub(crate) fn run_all(settings: &Settings, memory_bytes: u64, host: &dyn Host) -> Result<Results, RunError> {
     let mut results = Results::default();
     for (name, run) in &settings.runs {
-        let Some(field) = settings.fields.get(&run.scene().field) else { continue };
+        let Some(field) = settings.fields.get(run.field()) else { continue };
         let start = host.seconds();
         match run {
             RunSettings::Light(light) => {
@@ -115,6 +126,16 @@ pub(crate) fn run_all(settings: &Settings, memory_bytes: u64, host: &dyn Host) -
             RunSettings::Pulses(pulses) => {
                 let result = run_pulses(name, pulses, field, host)?;
                 results.pulses.insert(name.clone(), result);
+            }
+            RunSettings::Ftle(ftle) => {
+                if host.progress(name, 0, 0).is_break() {
+                    return Err(RunError::Interrupted);
+                }
+                let options =
+                    FtleOptions { length: ftle.length, samples: ftle.samples, ..FtleOptions::default() };
+                let result = exponents(field, ftle.axes, ftle.family, &options)
+                    .map_err(|source| RunError::Ftle { run: name.clone(), source })?;
+                results.ftle.insert(name.clone(), result);
             }
         }
         results.seconds.insert(name.clone(), host.seconds() - start);

@@ -1,5 +1,6 @@
 //! Experiment files to settings: names looked up, fields made, nothing optional left. All problems are reported at once.
 
+use crate::classical::usual_axes;
 use crate::evaluate::file_name;
 use crate::host::Host;
 use crate::input::{self, Derivation, Derived, PlaneField, Reading};
@@ -13,6 +14,7 @@ use std::collections::BTreeMap;
 use tigereye_core::{Below, Cell, Directions, Field, Grid, Normalization, PolarProfile, Tensor2};
 use tigereye_fields::{Arguments, Expression, ExpressionField, Form, with_noise};
 use tigereye_io::volume::{Crop, Frame, Plane, PlaneChoice, parse_slice};
+use tigereye_lines::{Axes, Family};
 use tigereye_ltg::{omega_step_of_slices, omega_step_of_volumes};
 use tigereye_transport::{Light, SharedWeights, Stopping, StoppingRule, emitter};
 
@@ -38,18 +40,36 @@ pub enum RunSettings {
     Gradient(GradientSettings),
     /// Pulses and their stationary states.
     Pulses(PulsesSettings),
+    /// FTLE on tensor lines.
+    Ftle(FtleSettings),
 }
 
 impl RunSettings {
-    /// Field and scheme.
+    /// Name of the field.
     #[must_use]
-    pub const fn scene(&self) -> &Scene {
+    pub fn field(&self) -> &str {
         match self {
-            Self::Light(l) => &l.scene,
-            Self::Gradient(g) => &g.scene,
-            Self::Pulses(p) => &p.scene,
+            Self::Light(l) => &l.scene.field,
+            Self::Gradient(g) => &g.scene.field,
+            Self::Pulses(p) => &p.scene.field,
+            Self::Ftle(f) => &f.field,
         }
     }
+}
+
+/// FTLE on tensor lines, ready to start.
+#[derive(Clone, Debug)]
+pub struct FtleSettings {
+    /// Name of the field.
+    pub field: String,
+    /// The axes that lines follow.
+    pub axes: Axes,
+    /// Which of the two.
+    pub family: Family,
+    /// Length of the lines to each side, cells.
+    pub length: f64,
+    /// Samples a cell along each side.
+    pub samples: usize,
 }
 
 /// What runs of all kinds share.
@@ -167,7 +187,10 @@ struct User<'a> {
 
 const fn scope_of(run: &Run) -> Scope {
     match run {
-        Run::Light { scope, .. } | Run::Gradient { scope, .. } | Run::Pulses { scope, .. } => *scope,
+        Run::Light { scope, .. }
+        | Run::Gradient { scope, .. }
+        | Run::Pulses { scope, .. }
+        | Run::Ftle { scope, .. } => *scope,
     }
 }
 
@@ -197,12 +220,11 @@ impl Resolver<'_> {
         run: &Run,
         fields: &BTreeMap<String, Field<Tensor2>>,
     ) -> Option<RunSettings> {
-        let (field_name, directions, normalization, weights, stop) = match run {
-            Run::Light { field, directions, normalization, weights, stop, .. }
-            | Run::Gradient { field, directions, normalization, weights, stop, .. }
-            | Run::Pulses { field, directions, normalization, weights, stop, .. } => {
-                (field, directions.0, *normalization, *weights, *stop)
-            }
+        let field_name = match run {
+            Run::Light { field, .. }
+            | Run::Gradient { field, .. }
+            | Run::Pulses { field, .. }
+            | Run::Ftle { field, .. } => field,
         };
         if experiment.fields.get(field_name).is_none() {
             let known = experiment.fields.names();
@@ -213,9 +235,9 @@ impl Resolver<'_> {
             return None;
         }
         let field = fields.get(field_name)?;
-        let scene = Scene {
+        let scene = |directions: spec::DirectionCount, normalization, weights, stop| Scene {
             field: field_name.clone(),
-            directions,
+            directions: directions.0,
             normalization: normalization_of(normalization),
             weights: match weights {
                 spec::Weights::Thesis => SharedWeights::Thesis,
@@ -224,16 +246,42 @@ impl Resolver<'_> {
             stopping: stopping_of(stop),
         };
         match run {
-            Run::Light { lights, engine, frames, .. } => {
+            Run::Light { directions, normalization, weights, stop, lights, engine, frames, .. } => {
+                let scene = scene(*directions, *normalization, *weights, *stop);
                 self.light(name, scene, field.grid(), lights, *engine, frames, experiment)
             }
-            Run::Gradient { omega_step, slices_deg, .. } => {
+            Run::Gradient { directions, normalization, weights, stop, omega_step, slices_deg, .. } => {
+                let scene = scene(*directions, *normalization, *weights, *stop);
                 self.gradient(name, scene, *omega_step, slices_deg.as_deref())
             }
-            Run::Pulses { cells, angles_deg, .. } => {
+            Run::Pulses { directions, normalization, weights, stop, cells, angles_deg, .. } => {
+                let scene = scene(*directions, *normalization, *weights, *stop);
                 self.pulses(name, scene, field.grid(), cells, angles_deg)
             }
+            Run::Ftle { axes, family, length, samples, .. } => {
+                self.ftle(name, (field_name, field), *axes, *family, length.get(), *samples)
+            }
         }
+    }
+
+    fn ftle(
+        &mut self,
+        name: &str,
+        (field_name, field): (&str, &Field<Tensor2>),
+        axes: spec::AxesChoice,
+        family: spec::FamilyChoice,
+        length: f64,
+        samples: usize,
+    ) -> Option<RunSettings> {
+        if !(1..=MAX_SAMPLES_A_CELL).contains(&samples) {
+            self.fault(
+                name,
+                format!("run \"{name}\": {samples} samples a cell: expected 1 to {MAX_SAMPLES_A_CELL}"),
+            );
+            return None;
+        }
+        let (axes, family) = (axes_of(axes, field), family_of(family));
+        Some(RunSettings::Ftle(FtleSettings { field: field_name.to_owned(), axes, family, length, samples }))
     }
 
     #[expect(clippy::too_many_arguments, reason = "the parts of one variant of the file's Run")]
@@ -458,6 +506,27 @@ impl Resolver<'_> {
                 );
             }
         }
+    }
+}
+
+/// Most samples a cell along each side: more show nothing.
+const MAX_SAMPLES_A_CELL: usize = 16;
+
+/// The axes of a choice.
+pub(crate) fn axes_of(choice: spec::AxesChoice, field: &Field<Tensor2>) -> Axes {
+    match choice {
+        spec::AxesChoice::Usual => usual_axes(field),
+        spec::AxesChoice::Half => Axes::HalfAxes,
+        spec::AxesChoice::Eigen => Axes::Eigenvectors,
+        spec::AxesChoice::Dual => Axes::DualEigenvectors,
+    }
+}
+
+/// The family of a choice.
+pub(crate) const fn family_of(choice: spec::FamilyChoice) -> Family {
+    match choice {
+        spec::FamilyChoice::Major => Family::Major,
+        spec::FamilyChoice::Minor => Family::Minor,
     }
 }
 

@@ -1,10 +1,14 @@
 //! Tables from results.
 
+use crate::comparison::{distances, map_correlation};
 use crate::measure::{gradient_difference, summary};
 use crate::outcome::{Column, Table};
 use crate::pulses::PulseRecord;
 use crate::runs::Results;
-use crate::spec::{self, GradientRow, PulseNumber, RuntimeRow, Summary, TableRows};
+use crate::spec::{
+    self, ComparisonRow, GradientRow, MapSource, NoiseRow, PulseNumber, RidgeSource, RuntimeRow, Summary,
+    TableRows,
+};
 use tigereye_ltg::LtgOutcome;
 
 /// What stands where there is nothing to say.
@@ -18,6 +22,10 @@ pub(crate) fn table(table: &spec::Table, results: &Results) -> Table {
         TableRows::Gradients { first, second, rows: pairs } => {
             (gradient_columns(first, second), rows(pairs, |pair| gradient_row(pair, results)))
         }
+        TableRows::Comparison { rows: pairs } => {
+            (comparison_columns(), rows(pairs, |pair| comparison_row(pair, results)))
+        }
+        TableRows::Noise { rows: pairs } => (noise_columns(), rows(pairs, |pair| noise_row(pair, results))),
         TableRows::Runtimes { rows: times } => {
             (runtime_columns(), rows(times, |t| Some(runtime_row(t, results))))
         }
@@ -115,6 +123,80 @@ fn gradient_row(row: &GradientRow, results: &Results) -> Option<Row> {
     Some((row.label.clone(), entries))
 }
 
+/// Ridges this near to each other, cells, meet.
+const MEETING: f64 = 1.0;
+
+fn comparison_columns() -> Vec<Column> {
+    columns(&[
+        "Field",
+        "Correlation of FTLE with mean LTG",
+        "with largest LTG",
+        "FTLE ridges / cells long",
+        "met by LTG ridges of some direction /\u{a0}%",
+        "their distance, mean / cells",
+        "95\u{a0}% / cells",
+        "LTG ridges of all directions / cells long",
+        "met by FTLE ridges /\u{a0}%",
+        "their distance, mean / cells",
+        "95\u{a0}% / cells",
+        "Ridges of largest LTG met by FTLE ridges /\u{a0}%",
+    ])
+}
+
+fn comparison_row(row: &ComparisonRow, results: &Results) -> Option<Row> {
+    let ftle = MapSource::Ftle { run: row.ftle.clone() };
+    let run = || row.gradient.clone();
+    let correlation =
+        |with| map_correlation(&ftle, &with, results).map_or_else(|| NOTHING.to_owned(), hundredths);
+    let of_ftle = RidgeSource::Of(ftle.clone());
+    let every = RidgeSource::EverySlice { run: run() };
+    let forth = distances(&of_ftle, &every, results)?;
+    let back = distances(&every, &of_ftle, results)?;
+    let largest = distances(&RidgeSource::Of(MapSource::Maximum { run: run() }), &of_ftle, results)?;
+    let mut entries =
+        vec![correlation(MapSource::Mean { run: run() }), correlation(MapSource::Maximum { run: run() })];
+    for found in [&forth, &back] {
+        entries.extend([
+            whole(found.length()),
+            percent(found.share_within(MEETING)),
+            tenths(found.mean()),
+            tenths(found.quantile(0.95)),
+        ]);
+    }
+    entries.push(percent(largest.share_within(MEETING)));
+    Some((row.label.clone(), entries))
+}
+
+fn noise_columns() -> Vec<Column> {
+    columns(&[
+        "Field and noise",
+        "FTLE: correlation with that without noise",
+        "its ridges without noise still met /\u{a0}%",
+        "its ridges with noise that were there before /\u{a0}%",
+        "Largest LTG: correlation",
+        "ridges still met /\u{a0}%",
+        "ridges there before /\u{a0}%",
+    ])
+}
+
+fn noise_row(row: &NoiseRow, results: &Results) -> Option<Row> {
+    let ftle = |run: &String| MapSource::Ftle { run: run.clone() };
+    let largest = |run: &String| MapSource::Maximum { run: run.clone() };
+    let mut entries = Vec::new();
+    for [clean, noisy] in
+        [[ftle(&row.ftle.0), ftle(&row.ftle.1)], [largest(&row.gradient.0), largest(&row.gradient.1)]]
+    {
+        let correlation = map_correlation(&clean, &noisy, results);
+        let (clean, noisy) = (RidgeSource::Of(clean), RidgeSource::Of(noisy));
+        entries.extend([
+            correlation.map_or_else(|| NOTHING.to_owned(), hundredths),
+            percent(distances(&clean, &noisy, results)?.share_within(MEETING)),
+            percent(distances(&noisy, &clean, results)?.share_within(MEETING)),
+        ]);
+    }
+    Some((row.label.clone(), entries))
+}
+
 fn runtime_columns() -> Vec<Column> {
     let mut columns = columns(&[
         "Sweep",
@@ -154,6 +236,10 @@ fn whole(x: f64) -> String {
 
 fn tenths(x: f64) -> String {
     shown(x, format!("{x:.1}"))
+}
+
+fn hundredths(x: f64) -> String {
+    shown(x, format!("{x:.2}"))
 }
 
 fn percent(share: f64) -> String {

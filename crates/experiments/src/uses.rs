@@ -1,6 +1,8 @@
 //! Which runs and fields the figures, tables and checks of an experiment mention.
 
-use crate::spec::{Experiment, Panel, ProfileSource, Quantity, Run, SeriesSource, Table, TableRows};
+use crate::spec::{
+    Experiment, MapSource, Panel, ProfileSource, Quantity, RidgeSource, Run, SeriesSource, Table, TableRows,
+};
 
 /// The kinds of runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -8,6 +10,7 @@ pub(crate) enum RunKind {
     Light,
     Gradient,
     Pulses,
+    Ftle,
 }
 
 impl RunKind {
@@ -16,6 +19,7 @@ impl RunKind {
             Run::Light { .. } => Self::Light,
             Run::Gradient { .. } => Self::Gradient,
             Run::Pulses { .. } => Self::Pulses,
+            Run::Ftle { .. } => Self::Ftle,
         }
     }
 }
@@ -23,7 +27,11 @@ impl RunKind {
 /// Runs a panel shows.
 pub(crate) fn of_panel(panel: &Panel) -> Vec<(&str, RunKind)> {
     match panel {
-        Panel::Glyphs { .. } | Panel::Orientation { .. } => Vec::new(),
+        Panel::Glyphs { .. } | Panel::Orientation { .. } | Panel::Lines { .. } | Panel::Texture { .. } => {
+            Vec::new()
+        }
+        Panel::Map { map, .. } => vec![of_map(map)],
+        Panel::Ridges { sources, .. } => sources.iter().map(|(_, source)| of_ridges(source)).collect(),
         Panel::Overlay { run, .. } | Panel::Energy { run, .. } => vec![(run, RunKind::Light)],
         Panel::Slice { run, .. } | Panel::Flat { run, .. } => vec![(run, RunKind::Gradient)],
         Panel::Polar { curves, .. } => curves
@@ -36,6 +44,18 @@ pub(crate) fn of_panel(panel: &Panel) -> Vec<(&str, RunKind)> {
             })
             .collect(),
         Panel::Chart { series, .. } => series.iter().filter_map(of_series).collect(),
+    }
+}
+
+fn of_map(map: &MapSource) -> (&str, RunKind) {
+    let kind = if matches!(map, MapSource::Ftle { .. }) { RunKind::Ftle } else { RunKind::Gradient };
+    (map.run(), kind)
+}
+
+fn of_ridges(source: &RidgeSource) -> (&str, RunKind) {
+    match source {
+        RidgeSource::Of(map) => of_map(map),
+        RidgeSource::EverySlice { run } => (run, RunKind::Gradient),
     }
 }
 
@@ -62,6 +82,18 @@ pub(crate) fn of_table(table: &Table) -> Vec<(&str, RunKind)> {
         TableRows::Gradients { rows, .. } => {
             rows.iter().flat_map(|r| [&r.first, &r.second]).map(|r| (r.as_str(), RunKind::Gradient)).collect()
         }
+        TableRows::Comparison { rows } => rows
+            .iter()
+            .flat_map(|r| [(r.ftle.as_str(), RunKind::Ftle), (r.gradient.as_str(), RunKind::Gradient)])
+            .collect(),
+        TableRows::Noise { rows } => rows
+            .iter()
+            .flat_map(|r| {
+                let ftle = [&r.ftle.0, &r.ftle.1].map(|run| (run.as_str(), RunKind::Ftle));
+                let gradient = [&r.gradient.0, &r.gradient.1].map(|run| (run.as_str(), RunKind::Gradient));
+                ftle.into_iter().chain(gradient)
+            })
+            .collect(),
         TableRows::Runtimes { .. } => Vec::new(),
     }
 }
@@ -73,6 +105,15 @@ pub(crate) fn keep_rows(table: &mut Table, runs: &[&str]) {
         TableRows::Gradients { rows, .. } => {
             rows.retain(|r| runs.contains(&r.first.as_str()) && runs.contains(&r.second.as_str()));
         }
+        TableRows::Comparison { rows } => {
+            rows.retain(|r| [&r.ftle, &r.gradient].iter().all(|run| runs.contains(&run.as_str())));
+        }
+        TableRows::Noise { rows } => {
+            rows.retain(|r| {
+                let all = [&r.ftle.0, &r.ftle.1, &r.gradient.0, &r.gradient.1];
+                all.iter().all(|run| runs.contains(&run.as_str()))
+            });
+        }
         TableRows::Runtimes { .. } => {}
     }
 }
@@ -82,6 +123,8 @@ pub(crate) const fn is_empty(table: &Table) -> bool {
     match &table.rows {
         TableRows::Pulses { runs } => runs.is_empty(),
         TableRows::Gradients { rows, .. } => rows.is_empty(),
+        TableRows::Comparison { rows } => rows.is_empty(),
+        TableRows::Noise { rows } => rows.is_empty(),
         TableRows::Runtimes { rows } => rows.is_empty(),
     }
 }
@@ -89,7 +132,11 @@ pub(crate) const fn is_empty(table: &Table) -> bool {
 /// Fields a panel shows.
 pub(crate) fn fields_of_panel(panel: &Panel) -> Vec<&str> {
     match panel {
-        Panel::Glyphs { field, .. } | Panel::Orientation { field, .. } => vec![field],
+        Panel::Glyphs { field, .. }
+        | Panel::Orientation { field, .. }
+        | Panel::Lines { field, .. }
+        | Panel::Texture { field, .. }
+        | Panel::Ridges { field, .. } => vec![field],
         Panel::Polar { curves, .. } => curves
             .iter()
             .filter_map(|c| match &c.source {
@@ -138,6 +185,8 @@ pub(crate) fn of_quantity(quantity: &Quantity) -> Vec<(&str, RunKind)> {
         Q::GradientCorrelation { run, with: other } | Q::GradientDifference { run, from: other } => {
             vec![(run, RunKind::Gradient), (other, RunKind::Gradient)]
         }
+        Q::MapCorrelation { map, with } => vec![of_map(map), of_map(with)],
+        Q::RidgeDistance { of, from, .. } => vec![of_ridges(of), of_ridges(from)],
         Q::OfPulses { runs, .. } => runs.iter().map(|r| (r.as_str(), RunKind::Pulses)).collect(),
     }
 }

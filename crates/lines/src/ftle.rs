@@ -1,7 +1,7 @@
 //! The finite-time Lyapunov exponent on tensor lines.
 
 use crate::flow_map::{exponent_of, gradient_at};
-use crate::{Family, Interpolated, LineOptions, half_line_end};
+use crate::{Family, Interpolated, LineEnd, LineOptions, half_line_end};
 use rayon::prelude::*;
 use thiserror::Error;
 use tigereye_core::{Cell, Field, Grid};
@@ -65,12 +65,13 @@ pub enum SamplingError {
 pub struct Ftle {
     /// Samples a cell along each side.
     pub samples: usize,
-    /// The larger exponent of the two directions of the line, per cell of length; not a number where there is no line.
+    /// The larger exponent of the two directions of the line, per cell of length; not a number where there is no line, or where it
+    /// leaves to both sides.
     pub larger: Field<f64>,
-    /// The smaller one.
+    /// The smaller one; the only one where the line leaves to one side.
     pub smaller: Field<f64>,
-    /// Share of the lines that end before their length, at the border, a degenerate point or a cell without numbers.
-    pub ended: f64,
+    /// Share of the lines that leave the field, or meet a cell without numbers, before their length.
+    pub left: f64,
 }
 
 /// Most samples together, and along a cell's side.
@@ -104,8 +105,10 @@ pub(crate) fn check_length(length: f64, step: f64) -> Result<(), SamplingError> 
 /// The exponent of the map that takes a point along its line by a length, after Hlawatsch, Vollrath, Sadlo and Weiskopf (Coherent
 /// structures of characteristic curves in symmetric second order tensor fields, 2011), with the flow map of both directions of the
 /// line. A line has no first direction, so the neighbours of a sample are taken in the directions nearer to its own, and of the
-/// two exponents that this gives, both are kept. A line that ends early counts with the point where it ends: beside it neighbours part
-/// by less than they would.
+/// two exponents that this gives, both are kept. A line that ends at a degenerate point stays there, while its neighbours go on to
+/// either side: they part. One that leaves the field, or meets cells without numbers, says nothing of how far neighbours part: it
+/// counts as missing, so that differences are one-sided beside it, and a sample whose own line leaves to one side has the
+/// exponent of the other.
 ///
 /// # Errors
 /// See [`SamplingError`].
@@ -122,10 +125,11 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
     let start = |cell: Cell| {
         let at = [cell.x as f64 / samples, cell.y as f64 / samples];
         let direction = field.direction(at, family, options.least_anisotropy)?;
-        let (forth, all_forth) = half_line_end(field, at, direction, family, &follow);
-        let (back, all_back) = half_line_end(field, at, direction.map(|v| -v), family, &follow);
-        let early = u8::from(!all_forth) + u8::from(!all_back);
-        Some(Start { direction, ends: [forth, back], early })
+        let ends = [direction, direction.map(|v| -v)].map(|towards| {
+            let (end, why) = half_line_end(field, at, towards, family, &follow);
+            (why != LineEnd::Border).then_some(end)
+        });
+        Some(Start { direction, ends })
     };
     let starts: Vec<Option<Start>> = (0..grid.cells()).into_par_iter().map(|i| start(grid.cell(i))).collect();
     let both: Vec<[f64; 2]> = (0..grid.cells())
@@ -133,22 +137,22 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
         .map(|i| both_exponents(grid.cell(i), grid, &starts, options))
         .collect();
     let lines = 2 * starts.iter().flatten().count();
-    let early: usize = starts.iter().flatten().map(|s| usize::from(s.early)).sum();
+    let early = starts.iter().flatten().flat_map(|s| s.ends).filter(Option::is_none).count();
     let of = |pick: fn(&[f64; 2]) -> f64| Field::from_fn(grid, |c| pick(&both[grid.index(c)]));
     Ok(Ftle {
         samples: options.samples,
-        larger: of(|[a, b]| if a >= b || b.is_nan() { *a } else { *b }),
-        smaller: of(|[a, b]| if a <= b { *a } else { *b }),
-        ended: early as f64 / lines.max(1) as f64,
+        // The other one where one is not a number.
+        larger: of(|[a, b]| a.max(*b)),
+        smaller: of(|[a, b]| a.min(*b)),
+        left: early as f64 / lines.max(1) as f64,
     })
 }
 
 /// Where the line of a sample leads.
 struct Start {
     direction: [f64; 2],
-    /// Along that direction, and against it.
-    ends: [[f64; 2]; 2],
-    early: u8,
+    /// Along that direction, and against it; none where the line leaves.
+    ends: [Option<[f64; 2]>; 2],
 }
 
 fn both_exponents(cell: Cell, grid: Grid, starts: &[Option<Start>], options: &FtleOptions) -> [f64; 2] {
@@ -158,7 +162,7 @@ fn both_exponents(cell: Cell, grid: Grid, starts: &[Option<Start>], options: &Ft
         let end = |c: Cell| {
             let s = starts[grid.index(c)].as_ref()?;
             let along = s.direction[0] * own.direction[0] + s.direction[1] * own.direction[1];
-            Some(s.ends[if along < 0.0 { 1 - side } else { side }])
+            s.ends[if along < 0.0 { 1 - side } else { side }]
         };
         let gradient = gradient_at(cell, grid, spacing, &end);
         gradient.map_or(f64::NAN, |f| exponent_of(f, options.length))

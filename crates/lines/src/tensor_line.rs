@@ -155,7 +155,7 @@ pub fn half_line(
     }
 }
 
-/// Where [`half_line`] ends, and whether it is as long as it may be. Nothing of the way is kept.
+/// Where [`half_line`] ends, and why. Nothing of the way is kept, so that a line that comes back to its start goes on.
 #[must_use]
 pub fn half_line_end(
     field: &Interpolated<'_>,
@@ -163,17 +163,18 @@ pub fn half_line_end(
     direction: [f64; 2],
     family: Family,
     options: &LineOptions,
-) -> ([f64; 2], bool) {
+) -> ([f64; 2], LineEnd) {
     let walk = Walk { field, family, options };
     let (mut at, mut towards, mut gone, mut step) = (start, direction, 0.0, options.step);
     while options.are_possible() && options.length - gone > 1e-9 * options.step {
-        let Ok((made, length)) = walk.fitting(at, towards, step.min(options.length - gone)) else {
-            return (at, false);
+        let (made, length) = match walk.fitting(at, towards, step.min(options.length - gone)) {
+            Ok(made) => made,
+            Err(end) => return (at, end),
         };
         gone += length;
         (at, towards, step) = (made.to, made.direction, walk.longer(length, made.error));
     }
-    (at, true)
+    (at, LineEnd::Length)
 }
 
 impl LineOptions {

@@ -26,11 +26,10 @@ fn parallel_lines_part_nowhere() {
     let straight = Field::from_fn(Grid::new(12, 9).expect("a size"), |_| Tensor2::from_axes(0.4, 3.0, 1.0));
     let found = of(&straight, Family::Major, 2.0, 3);
     assert_eq!((found.larger.grid().width(), found.larger.grid().height()), (34, 25));
-    // Lines that leave the field end at its border, so look where none does.
-    for (c, v) in found.larger.iter() {
-        let inside = (9..25).contains(&c.x) && (9..16).contains(&c.y);
-        assert!(!inside || v.abs() < 1e-9, "{c:?} {v}");
-    }
+    // Lines that leave the field end early; one of the two directions is long enough everywhere but in two corners.
+    let known = found.larger.values().iter().filter(|v| v.is_finite());
+    assert!(known.clone().count() > 800 && known.into_iter().all(|v| v.abs() < 1e-9));
+    assert!(found.left > 0.1 && found.left < 0.4, "{}", found.left);
 }
 
 /// Rays part as the circles they cross grow: outwards by (r + L) / r. Circles do not part, but those inside go further round: a
@@ -198,7 +197,7 @@ fn what_has_no_lines_has_no_exponent() {
                 let between = Interpolated::new(&field).with_axes(axes);
                 let found = ftle(&between, Family::Major, &FtleOptions::default()).expect("samples");
                 assert!(found.larger.values().iter().all(|v| v.is_nan()));
-                assert_eq!(found.ended, 0.0);
+                assert_eq!(found.left, 0.0);
             }
         }
     }

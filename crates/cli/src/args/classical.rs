@@ -129,6 +129,188 @@ pub(crate) struct TopologyArgs {
     pub(crate) json: bool,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct LicArgs {
+    /// A data file, a field file or a generator.
+    pub(crate) input: String,
+    /// Outputs by their endings: .png, .svg, .vti.
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
+    pub(crate) outputs: Vec<PathBuf>,
+    /// Smear along both axes, along each as far as it is long (HyperLIC).
+    #[arg(long, conflicts_with = "family")]
+    pub(crate) hyper: bool,
+    /// Along which axis.
+    #[arg(long, value_enum, default_value_t = OneFamily::Major)]
+    pub(crate) family: OneFamily,
+    /// The axes to follow; by default eigen where all tensors are symmetric, half otherwise.
+    #[arg(long, value_enum)]
+    pub(crate) axes: Option<AxesName>,
+    /// How far noise is smeared to each side, cells; with --hyper along the longer axis.
+    #[arg(long, value_name = "CELLS", default_value = "5", value_parser = parse_smear)]
+    pub(crate) half_length: f64,
+    /// Samples a cell along each side.
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = parse_samples)]
+    pub(crate) samples: usize,
+    /// Seed of the noise.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Colour by the anisotropy.
+    #[arg(long)]
+    pub(crate) tint: bool,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+    /// Summary as JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FtleArgs {
+    /// A data file, a field file or a generator.
+    pub(crate) input: String,
+    /// Outputs by their endings: .vti, .png, .svg.
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
+    pub(crate) outputs: Vec<PathBuf>,
+    /// Which lines.
+    #[arg(long, value_enum, default_value_t = OneFamily::Major)]
+    pub(crate) family: OneFamily,
+    /// The axes to follow; by default eigen where all tensors are symmetric, half otherwise.
+    #[arg(long, value_enum)]
+    pub(crate) axes: Option<AxesName>,
+    /// Length of the lines to each side, cells.
+    #[arg(long, value_name = "CELLS", default_value = "10", value_parser = parse_reach)]
+    pub(crate) length: f64,
+    /// Samples a cell along each side.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = parse_samples)]
+    pub(crate) samples: usize,
+    /// Step of the lines, cells.
+    #[arg(long, value_name = "CELLS", default_value = "0.25", value_parser = parse_coarse_step)]
+    pub(crate) step: f64,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+    /// Summary as JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct GlyphsArgs {
+    /// A data file, a field file or a generator.
+    pub(crate) input: String,
+    /// Outputs by their endings: .png, .svg.
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
+    pub(crate) outputs: Vec<PathBuf>,
+    /// What stands for a tensor.
+    #[arg(long, value_enum, default_value_t = KindName::Ellipse)]
+    pub(crate) kind: KindName,
+    /// Sharpness of superquadrics.
+    #[arg(long, value_name = "F", default_value = "3", value_parser = parse_gamma)]
+    pub(crate) gamma: f64,
+    /// How glyphs are scaled against each other.
+    #[arg(long, value_enum, default_value_t = ScaleName::Field)]
+    pub(crate) scale: ScaleName,
+    /// What colours mean; by default the signs where all tensors are symmetric, the anisotropy otherwise.
+    #[arg(long, value_enum)]
+    pub(crate) colour: Option<ColourName>,
+    /// A glyph for every n-th cell; by default as many as stay readable.
+    #[arg(long, value_name = "N", value_parser = parse_samples)]
+    pub(crate) every: Option<usize>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RidgesArgs {
+    /// Image data with one number a point: a gradient of `ltg`, exponents of `ftle`, or any other .vti.
+    pub(crate) input: String,
+    /// Outputs by their endings: .vtp; .png and .svg show one layer.
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
+    pub(crate) outputs: Vec<PathBuf>,
+    /// The array, where there are several.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) array: Option<String>,
+    /// Lines in one layer (from 0) instead of a surface in all of them.
+    #[arg(long, value_name = "N")]
+    pub(crate) layer: Option<usize>,
+    /// The contour of a value instead of ridges.
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true, value_parser = parse_level,
+          conflicts_with_all = ["least_value", "least_strength", "least_length", "direction_length", "samples"])]
+    pub(crate) contour: Option<f64>,
+    /// Ridges lie above this part of the range of values.
+    #[arg(long, value_name = "F", default_value = "0", value_parser = parse_share)]
+    pub(crate) least_value: f64,
+    /// Ridges are at least as strong as this part of the strongest curvature.
+    #[arg(long, value_name = "F", default_value = "0.05", value_parser = parse_share)]
+    pub(crate) least_strength: f64,
+    /// Ridges are at least so many cells long, or square cells large.
+    #[arg(long, value_name = "CELLS", default_value = "2", value_parser = parse_extent)]
+    pub(crate) least_length: f64,
+    /// How many cells the distance of two layers counts for; what is across a ridge depends on it.
+    #[arg(long, value_name = "CELLS", default_value = "1", value_parser = parse_step)]
+    pub(crate) direction_length: f64,
+    /// Steps a cell in which ridges are looked for; 2 for a layer and 1 for surfaces by default.
+    #[arg(long, value_name = "N", value_parser = parse_samples)]
+    pub(crate) samples: Option<usize>,
+    /// Summary as JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// One of the two axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OneFamily {
+    /// The longer half-axis, or the larger eigenvalue.
+    Major,
+    /// The other one.
+    Minor,
+}
+
+impl From<OneFamily> for Family {
+    fn from(name: OneFamily) -> Self {
+        match name {
+            OneFamily::Major => Self::Major,
+            OneFamily::Minor => Self::Minor,
+        }
+    }
+}
+
+/// Kinds of glyphs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum KindName {
+    /// The ellipse that the tensor makes of the unit circle.
+    Ellipse,
+    /// A rectangle along the half-axes.
+    Box,
+    /// A superellipse: round where isotropic, boxier the more anisotropic (Kindlmann 2004).
+    Superquadric,
+    /// The normal component in every direction: filled lobes for tension, hollow ones for compression.
+    Signed,
+    /// Arrows along the principal axes: outwards for tension, inwards for compression.
+    Arrows,
+    /// The ellipse and the angle by which a tensor that is not symmetric turns.
+    Asymmetric,
+}
+
+/// Scaling of glyphs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ScaleName {
+    /// The largest of the field fills a cell.
+    Field,
+    /// By the square root, the largest filling a cell.
+    Root,
+    /// Every one fills its cell.
+    Glyph,
+}
+
+/// Meaning of colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ColourName {
+    /// Tension and compression; of asymmetric glyphs the sense of rotation.
+    Sign,
+    /// Linear anisotropy.
+    Anisotropy,
+}
+
 /// Shortest and longest step, cells.
 const STEPS: [f64; 2] = [1e-3, 1e3];
 /// Longest line, cells.
@@ -165,4 +347,35 @@ fn parse_point(text: &str) -> Result<[f64; 2], String> {
     let number = |t: &str| t.trim().parse::<f64>().ok().filter(|v| v.is_finite());
     let point = text.split_once(',').and_then(|(x, y)| Some([number(x)?, number(y)?]));
     point.ok_or_else(|| "expected X,Y, for example 25.5,40".to_owned())
+}
+
+fn parse_coarse_step(text: &str) -> Result<f64, String> {
+    number_from(text, 0.01, 10.0, "a number of cells")
+}
+
+fn parse_reach(text: &str) -> Result<f64, String> {
+    number_from(text, 0.1, 1000.0, "a number of cells")
+}
+
+fn parse_smear(text: &str) -> Result<f64, String> {
+    number_from(text, 0.1, 100.0, "a number of cells")
+}
+
+fn parse_extent(text: &str) -> Result<f64, String> {
+    number_from(text, 0.0, 1e6, "a number of cells")
+}
+
+fn parse_level(text: &str) -> Result<f64, String> {
+    text.parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(|| "expected a finite number".to_owned())
+}
+
+fn parse_gamma(text: &str) -> Result<f64, String> {
+    number_from(text, 0.0, 100.0, "a number")
+}
+
+fn parse_samples(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 1..=64) => Ok(n),
+        _ => Err("expected 1 to 64".to_owned()),
+    }
 }

@@ -21,7 +21,7 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
     let request = request(args, &input);
     let found = lines(&input.field, &request);
     let story = drawing::story(&input, parameters(&request), &args.reading);
-    drawing::write(&args.outputs, &|| found.picture(&input.field, &args.input), &|| {
+    drawing::write(&args.outputs, &|| found.picture(&input.field, &args.input, Vec::new(), None), &|| {
         vtp::write(&found.poly_data(&drawing::placement(&input), &story))
     })?;
     let length: f64 = found.lines.iter().map(|l| l.line.length()).sum();

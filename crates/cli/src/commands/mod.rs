@@ -6,14 +6,18 @@ pub(crate) mod compare;
 pub(crate) mod convert;
 pub(crate) mod drawing;
 pub(crate) mod field;
+pub(crate) mod ftle;
+pub(crate) mod glyphs;
 pub(crate) mod info;
 pub(crate) mod lattice;
+pub(crate) mod lic;
 pub(crate) mod lines;
 pub(crate) mod ltg;
 pub(crate) mod merge;
 pub(crate) mod propagate;
 pub(crate) mod reproduce;
 pub(crate) mod review;
+pub(crate) mod ridges;
 pub(crate) mod topology;
 pub(crate) mod volume;
 

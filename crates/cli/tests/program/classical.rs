@@ -134,3 +134,106 @@ fn what_cannot_be_is_refused() {
     place.refuses(&["lines", "t.vtp", "-o", "t.vtp"], &["t.vtp"]);
     assert_eq!(place.read("t.vtp"), b"x");
 }
+
+/// Textures and exponents lie over the field, in samples finer than the cells.
+#[test]
+fn textures_and_exponents_lie_over_the_field() {
+    let place = Place::new();
+    for (command, array, samples) in [("lic", "LIC", "3"), ("ftle", "FTLE", "2")] {
+        let args = [command, "bow:size=15", "--samples", samples, "--json", "-o", "o.vti", "o.png", "o.svg"];
+        let found = place.succeeds(&args).json();
+        let n: f64 = samples.parse().expect("a number");
+        let side = 14.0 * n + 1.0;
+        assert_eq!((&found["width"], &found["height"]), (&json!(side as u64), &json!(side as u64)));
+        let image = place.image("o.vti");
+        assert_eq!((image.dimensions[0] as f64, image.spacing[0]), (side, 1.0 / n));
+        let values = &image.point_array(array).expect("the array").values;
+        assert!(values.iter().filter(|v| v.is_finite()).count() > 100, "{command}");
+    }
+    let hyper = place.succeeds(&["lic", "x:size=9", "--hyper", "--tint", "-o", "h.png"]).stdout;
+    assert_eq!(hyper, "33 x 33 samples\n");
+    let [one, two] = ["1", "2"].map(|n| {
+        place.succeeds(&["lic", "inverse:size=31", "-o", "t.vti", "--seed", n]);
+        place.read("t.vti")
+    });
+    assert_ne!(one, two);
+}
+
+/// The light gradient and the exponents of the same field have ridges, as lines and as surfaces.
+#[test]
+fn ridges_are_found_in_gradients_and_exponents() {
+    let place = Place::new();
+    place.succeeds(&["ltg", "inverse:size=19", "--directions", "16", "-o", "g.vti"]);
+    let surface = place.succeeds(&["ridges", "g.vti", "--json", "-o", "s.vtp"]).json();
+    assert_eq!((&surface["kind"], &surface["periodic"]), (&json!("triangle"), &json!(true)));
+    let data = poly_data(&place, "s.vtp");
+    assert!(data.polys.len() > 100 && data.cell_arrays.iter().any(|a| a.name == "piece"));
+    // The third coordinate counts layers, and the seam belongs to both ends.
+    assert!(data.points.iter().all(|p| (0.0..=16.0).contains(&p[2]) && (1.0..=17.0).contains(&p[0])));
+    let line = place.succeeds(&["ridges", "g.vti", "--layer", "4", "--json", "-o", "l.vtp", "l.png"]).json();
+    assert_eq!(line["kind"], "line");
+    let lines = poly_data(&place, "l.vtp");
+    // Pulses sent upwards part in the middle column, below the middle.
+    let middle =
+        lines.points.iter().filter(|p| (p[0] - 9.0).abs() < 0.1 && p[1] > 9.0 && p[2] == 4.0).count();
+    assert!(middle > 5, "{middle} of {}", lines.points.len());
+    place.succeeds(&["ftle", "inverse:size=19", "--length", "4", "-o", "f.vti"]);
+    place.refuses(
+        &["ridges", "f.vti", "--array", "LTG", "-o", "r.vtp"],
+        &["called LTG", "FTLE, FTLE_smaller"],
+    );
+    place.refuses(&["ridges", "f.vti", "-o", "r.vtp"], &["several arrays", "--array"]);
+    place.succeeds(&["ridges", "f.vti", "--array", "FTLE", "-o", "r.vtp"]);
+    // In the unit of the field: its middle is (9, 9).
+    let exponents = poly_data(&place, "r.vtp");
+    assert!(exponents.points.iter().any(|p| (p[0] - 9.0).abs() < 0.05 && (p[1] - 5.0).abs() < 0.5));
+    let contour = place.succeeds(&["ridges", "g.vti", "--contour", "150", "--json", "-o", "c.vtp"]).json();
+    assert!(contour["parts"].as_u64() > Some(100), "{contour}");
+    for (args, words) in [
+        (&["ridges", "g.vti", "-o", "p.png"][..], &["p.png", "--layer"][..]),
+        (&["ridges", "g.vti", "--layer", "16", "-o", "p.png"], &["layer 16", "0 to 15"]),
+        (&["ridges", "g.npy", "-o", "p.vtp"], &["g.npy", "expected .vti"]),
+        (&["ridges", "none.vti", "-o", "p.vtp"], &["none.vti"]),
+        (&["ridges", "g.vti", "-o", "g.vti"], &["expected .vtp, .png, .svg"]),
+        (&["ridges", "g.vti", "--contour", "nan", "-o", "p.vtp"], &["--contour", "finite"]),
+    ] {
+        place.refuses(args, words);
+    }
+}
+
+#[test]
+fn glyphs_of_every_kind_are_drawn() {
+    let place = Place::new();
+    for kind in ["ellipse", "box", "superquadric", "signed", "arrows", "asymmetric"] {
+        for input in ["random:size=7", "double_gyre:width=9,height=5", "isotropic:size=3", "x:size=1"] {
+            place.succeeds(&["glyphs", input, "--kind", kind, "-o", "g.png", "g.svg"]);
+            assert_eq!(place.read("g.png")[1..4], *b"PNG");
+        }
+    }
+    let [field, own] = ["field", "glyph"].map(|scale| {
+        place.succeeds(&["glyphs", "flamant:size=9", "--scale", scale, "--every", "2", "-o", "g.svg"]);
+        place.read("g.svg")
+    });
+    assert_ne!(field, own);
+    place.refuses(&["glyphs", "x:size=3", "-o", "g.vtp"], &["expected .png, .svg"]);
+    place.refuses(&["glyphs", "x:size=3", "--kind", "blob", "-o", "g.png"], &["blob", "superquadric"]);
+}
+
+#[test]
+fn impossible_samplings_are_refused() {
+    let place = Place::new();
+    for command in ["lic", "ftle"] {
+        for n in ["0", "65", "-1", "x"] {
+            let option = format!("--samples={n}");
+            place.refuses(&[command, "x:size=5", &option, "-o", "o.png"], &["--samples", "1 to 64"]);
+        }
+        place.refuses(
+            &[command, "isotropic:size=2000", "--samples", "64", "-o", "o.png"],
+            &["samples: expected at most"],
+        );
+    }
+    place.refuses(&["ftle", "x:size=5", "--length", "1e9", "-o", "o.png"], &["--length", "1000"]);
+    place.refuses(&["lic", "x:size=5", "--half-length=0", "-o", "o.png"], &["--half-length", "0.1"]);
+    let none = place.succeeds(&["ftle", "isotropic:size=5", "--json", "-o", "o.png", "o.vti"]).json();
+    assert_eq!((&none["lines"], &none["max"]), (&json!(0), &json!(null)));
+}

@@ -8,7 +8,10 @@ use tigereye_io::{DataArray, PolyData};
 use tigereye_lines::{
     Axes, Family, LineEnd, LineOptions, TensorLine, evenly_spaced, half_widths, tensor_line,
 };
-use tigereye_render::{Scene, plain_map};
+use tigereye_render::{Overlay, PlainOptions, Rgba, Ribbon, Scene, plain_map};
+
+/// Colours of major and minor bands.
+const RIBBONS: [Rgba; 2] = [Rgba::hex(0x0072b2), Rgba::hex(0xd55e00)];
 
 /// Where lines begin.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,16 +85,36 @@ pub fn lines(field: &Field<Tensor2>, request: &LinesRequest) -> FieldLines {
 }
 
 impl FieldLines {
-    /// The lines on white; cells without a tensor are hatched.
+    /// The lines on white, below `more`; cells without a tensor are hatched. Pixels a cell by default as [`plain_map`] has them.
     #[must_use]
-    pub fn picture(&self, field: &Field<Tensor2>, title: &str) -> Scene {
+    pub fn picture(
+        &self,
+        field: &Field<Tensor2>,
+        title: &str,
+        more: Vec<Overlay>,
+        cell_px: Option<usize>,
+    ) -> Scene {
         let overlays = [Family::Major, Family::Minor].into_iter().filter_map(|family| {
             let lines: Vec<&TensorLine> =
                 self.lines.iter().filter(|l| l.family == family).map(|l| &l.line).collect();
             let label = format!("{} lines ({})", family_name(family), axes_words(self.axes()));
             (!lines.is_empty()).then(|| line_overlay(lines, family, &label))
         });
-        plain_map(field.grid(), &plain_options(field, title, "Tensor lines", overlays.collect()))
+        let overlays = overlays.chain(more).collect();
+        let options = plain_options(field, title, "Tensor lines", overlays);
+        plain_map(field.grid(), &PlainOptions { ribbons: self.ribbons(), cell_px, ..options })
+    }
+
+    fn ribbons(&self) -> Vec<Ribbon> {
+        let mut ribbons: [Ribbon; 2] = RIBBONS.map(|colour| Ribbon { colour, ..Ribbon::default() });
+        for line in self.lines.iter().filter(|l| !l.half_widths.is_empty()) {
+            let ribbon = &mut ribbons[line.family as usize];
+            ribbon.points.extend(&line.line.points);
+            ribbon.half_widths.extend(&line.half_widths);
+            ribbon.points.push([f64::NAN; 2]);
+            ribbon.half_widths.push(f64::NAN);
+        }
+        ribbons.into_iter().filter(|r| !r.points.is_empty()).collect()
     }
 
     fn axes(&self) -> Axes {

@@ -1,7 +1,10 @@
 //! The classical pictures of tensor fields, computed by `lines`, as figures and as VTK data.
 
+pub mod agreement;
+pub mod fine;
 pub mod lines;
 mod overlays;
+pub mod ridges;
 pub mod topology;
 
 pub use overlays::{line_overlay, point_overlays};

@@ -6,10 +6,11 @@ mod lights;
 mod pulses;
 
 pub(crate) use fields::mean_anisotropy;
-pub(crate) use gradients::{difference as gradient_difference, inner_cells, ridge_columns};
+pub(crate) use gradients::{difference as gradient_difference, inner_cells, pearson, ridge_columns};
 pub(crate) use lights::{at_step, lobe_ratio, net_flux_ratio};
 pub(crate) use pulses::summary;
 
+use crate::comparison;
 use crate::outcome::{CheckOutcome, Expected};
 use crate::runs::{LightResult, Results, RunError};
 use crate::settings::Settings;
@@ -82,6 +83,9 @@ impl Measure<'_> {
                     runs.iter().map(|r| self.results.pulses.get(r).map(Vec::as_slice)).collect();
                 pulses.map(|pulses| summary(&pulses, *number, *over))
             }
+            Q::MapCorrelation { map, with } => comparison::map_correlation(map, with, self.results),
+            Q::RidgeDistance { of, from, number } => comparison::distances(of, from, self.results)
+                .map(|d| comparison::distance_number(&d, *number)),
             _ => self.light_quantity(quantity).or_else(|| self.gradient_quantity(quantity)),
         })
     }

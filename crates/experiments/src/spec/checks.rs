@@ -1,6 +1,6 @@
 //! What an experiment may check.
 
-use super::{Finite, NonNegative};
+use super::{DistanceNumber, Finite, MapSource, NonNegative, RidgeSource};
 use serde::Deserialize;
 
 /// A statement about a number of this run.
@@ -307,6 +307,22 @@ pub enum Quantity {
         number: PulseNumber,
         /// How pulses are summed up.
         over: Summary,
+    },
+    /// Correlation of two scalars over the inner cells where both are numbers.
+    MapCorrelation {
+        /// The one.
+        map: MapSource,
+        /// The other.
+        with: MapSource,
+    },
+    /// A number of the distances of one set of ridges from another.
+    RidgeDistance {
+        /// The ridges whose points are asked for their distance.
+        of: RidgeSource,
+        /// The ridges that are to be near.
+        from: RidgeSource,
+        /// The number.
+        number: DistanceNumber,
     },
     /// Correlation of the mean over directions of two gradients, the coarser one sampled at the finer one's cells.
     GradientCorrelation {

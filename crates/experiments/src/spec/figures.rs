@@ -1,6 +1,6 @@
 //! Pictures an experiment may draw.
 
-use super::{Finite, NonNegative, Positive, PulseNumber};
+use super::{AxesChoice, FamilyChoice, Finite, MapSource, NonNegative, Positive, PulseNumber, RidgeSource};
 use serde::Deserialize;
 
 /// A picture with its caption.
@@ -40,6 +40,54 @@ pub enum Panel {
     Orientation {
         /// Name of the field.
         field: String,
+        /// Heading of the panel.
+        title: String,
+    },
+    /// Lines along an axis, evenly spaced, with the degenerate points.
+    Lines {
+        /// Name of the field.
+        field: String,
+        /// The axes that lines follow.
+        #[serde(default)]
+        axes: AxesChoice,
+        /// Which of the two; both when left out.
+        #[serde(default)]
+        family: Option<FamilyChoice>,
+        /// Heading of the panel.
+        title: String,
+    },
+    /// Noise smeared along an axis (line integral convolution).
+    Texture {
+        /// Name of the field.
+        field: String,
+        /// The axes that lines follow.
+        #[serde(default)]
+        axes: AxesChoice,
+        /// Which of the two.
+        #[serde(default)]
+        family: FamilyChoice,
+        /// Smeared along both axes, as far as each is long (HyperLIC).
+        #[serde(default)]
+        hyper: bool,
+        /// Heading of the panel.
+        title: String,
+    },
+    /// A scalar over the cells.
+    Map {
+        /// The scalar.
+        map: MapSource,
+        /// Whether its height ridges are drawn.
+        #[serde(default)]
+        ridges: bool,
+        /// Heading of the panel.
+        title: String,
+    },
+    /// Height ridges of several scalars over each other.
+    Ridges {
+        /// The field, for its size.
+        field: String,
+        /// Names in the legend, and ridges; at most four.
+        sources: Vec<(String, RidgeSource)>,
         /// Heading of the panel.
         title: String,
     },

@@ -4,6 +4,7 @@
 //! their units. Everything is documented here because this is the reference for people who write such files.
 
 mod checks;
+mod classical;
 mod figures;
 mod load;
 mod named;
@@ -11,12 +12,13 @@ mod numbers;
 mod tables;
 
 pub use checks::{Check, Expectation, Mirror, PulseNumber, Quantity, SchemeConstant, Summary};
+pub use classical::{AxesChoice, DistanceNumber, FamilyChoice, MapSource, RidgeSource};
 pub use figures::{Axis, Curve, Figure, FlatView, GlyphColour, Panel, ProfileSource, Scale, SeriesSource};
 pub(crate) use load::place_after;
 pub use load::{SpecError, load, load_field};
 pub use named::Named;
 pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive, Sigma};
-pub use tables::{GradientRow, RuntimeRow, Table, TableRows};
+pub use tables::{ComparisonRow, GradientRow, NoiseRow, RuntimeRow, Table, TableRows};
 
 use serde::Deserialize;
 
@@ -314,6 +316,29 @@ pub enum Run {
         #[serde(default)]
         scope: Scope,
     },
+    /// The finite-time Lyapunov exponent of the field's lines.
+    Ftle {
+        /// Name of the field.
+        field: String,
+        /// The axes that lines follow.
+        #[serde(default)]
+        axes: AxesChoice,
+        /// Which of the two.
+        #[serde(default)]
+        family: FamilyChoice,
+        /// Length of the lines to each side, cells.
+        length: Positive,
+        /// Samples a cell along each side.
+        #[serde(default = "two")]
+        samples: usize,
+        /// When it runs.
+        #[serde(default)]
+        scope: Scope,
+    },
+}
+
+fn two() -> usize {
+    2
 }
 
 /// How profiles are scaled against each other.

@@ -34,6 +34,16 @@ pub enum TableRows {
         /// The rows.
         rows: Vec<GradientRow>,
     },
+    /// FTLE on tensor lines beside the gradient: how far they agree. Rows with a run of another scope are left out.
+    Comparison {
+        /// The rows.
+        rows: Vec<ComparisonRow>,
+    },
+    /// What noise changes of FTLE and gradient. Rows with a run of another scope are left out.
+    Noise {
+        /// The rows.
+        rows: Vec<NoiseRow>,
+    },
     /// Published runtimes beside those of this run. A row whose run is of another scope says so.
     Runtimes {
         /// The rows.
@@ -51,6 +61,30 @@ pub struct GradientRow {
     pub first: String,
     /// Name of the second gradient run.
     pub second: String,
+}
+
+/// An FTLE and a gradient of one field.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct ComparisonRow {
+    /// What the row is called.
+    pub label: String,
+    /// Name of the FTLE run.
+    pub ftle: String,
+    /// Name of the gradient run.
+    pub gradient: String,
+}
+
+/// FTLE and gradient of a field without and with noise.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct NoiseRow {
+    /// What the row is called.
+    pub label: String,
+    /// Names of the FTLE runs, without and with noise.
+    pub ftle: (String, String),
+    /// Names of the gradient runs, without and with noise.
+    pub gradient: (String, String),
 }
 
 /// A published runtime.

@@ -1,0 +1,41 @@
+//! `tigereye glyphs`: a glyph for every tensor.
+
+use crate::args::classical::{ColourName, GlyphsArgs, KindName, ScaleName};
+use crate::commands::drawing;
+use crate::error::CliError;
+use tigereye_experiments::classical::usual_axes;
+use tigereye_lines::Axes;
+use tigereye_render::{GlyphColour, GlyphKind, GlyphOptions, GlyphScale, glyphs};
+
+pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
+    drawing::check_outputs(&args.outputs, &["png", "svg"])?;
+    let input = drawing::open_input(&args.input, &args.reading, &args.outputs)?;
+    let kind = match args.kind {
+        KindName::Ellipse => GlyphKind::Ellipse,
+        KindName::Box => GlyphKind::Box,
+        KindName::Superquadric => GlyphKind::Superquadric { gamma: args.gamma },
+        KindName::Signed => GlyphKind::Signed,
+        KindName::Arrows => GlyphKind::Arrows,
+        KindName::Asymmetric => GlyphKind::Asymmetric,
+    };
+    let scale = match args.scale {
+        ScaleName::Field => GlyphScale::Field,
+        ScaleName::Root => GlyphScale::SquareRoot,
+        ScaleName::Glyph => GlyphScale::Glyph,
+    };
+    // Signs of eigenvalues say something of symmetric tensors only, and of the glyphs made for them.
+    let signs = usual_axes(&input.field) == Axes::Eigenvectors
+        || matches!(args.kind, KindName::Signed | KindName::Arrows | KindName::Asymmetric);
+    let colour = match args.colour {
+        Some(ColourName::Sign) => GlyphColour::AxisSign,
+        Some(ColourName::Anisotropy) => GlyphColour::Anisotropy,
+        None if signs => GlyphColour::AxisSign,
+        None => GlyphColour::Anisotropy,
+    };
+    let title = args.input.clone();
+    let options = GlyphOptions { title, kind, scale, colour, every: args.every, ..GlyphOptions::default() };
+    let picture = glyphs(&input.field, &options);
+    // No ending is left for data.
+    drawing::write(&args.outputs, &|| picture.clone(), &|| Ok(Vec::new()))?;
+    Ok(0)
+}

@@ -1,0 +1,38 @@
+//! `tigereye lic`: line integral convolution.
+
+use crate::args::classical::LicArgs;
+use crate::commands::{drawing, print_json, print_text};
+use crate::error::CliError;
+use serde_json::json;
+use tigereye_experiments::classical::fine::{
+    TextureRequest, image, texture, texture_parameters, texture_picture,
+};
+use tigereye_experiments::classical::usual_axes;
+use tigereye_io::vti;
+use tigereye_lines::{Axes, ConvolutionOptions};
+
+pub(crate) fn run(args: &LicArgs) -> Result<u8, CliError> {
+    drawing::check_outputs(&args.outputs, &["png", "svg", "vti"])?;
+    let input = drawing::open_input(&args.input, &args.reading, &args.outputs)?;
+    let (samples, half_length, seed) = (args.samples, args.half_length, args.seed);
+    let request = TextureRequest {
+        axes: args.axes.map_or_else(|| usual_axes(&input.field), Axes::from),
+        family: args.family.into(),
+        hyper: args.hyper,
+        options: ConvolutionOptions { samples, half_length, seed },
+    };
+    let found = texture(&input.field, &request).map_err(|e| CliError::input(&args.input, e))?;
+    let story = drawing::story(&input, texture_parameters(&request), &args.reading);
+    let picture = texture_picture(&found, &input.field, samples, args.tint, &args.input, Vec::new())
+        .map_err(|e| CliError::input(&args.input, e))?;
+    drawing::write(&args.outputs, &|| picture.clone(), &|| {
+        vti::write(&image(&[("LIC", &found)], samples, &drawing::placement(&input), &story))
+    })?;
+    let (width, height) = (found.grid().width(), found.grid().height());
+    if args.json {
+        print_json(&json!({ "width": width, "height": height, "samples": samples }))?;
+    } else {
+        print_text(&format!("{width} x {height} samples\n"))?;
+    }
+    Ok(0)
+}

@@ -1,0 +1,173 @@
+//! How far scalars and their ridges agree.
+
+use tigereye_core::{Field, Grid};
+use tigereye_lines::{NearestSegment, Polyline, Polylines, RidgeOptions, Threshold};
+
+/// Cells along the border that no ridge is compared in: gradients are 0 in the outermost ones, and ridges need others around them.
+pub const MARGIN: f64 = 4.0;
+/// Ridges are looked at in pieces of this length, cells.
+const PIECE: f64 = 0.25;
+/// Shorter ridges are left out, cells.
+const LEAST_LENGTH: f64 = 3.0;
+/// Crests weaker than this part of the strongest curvature are no ridges.
+const LEAST_STRENGTH: f64 = 0.05;
+/// Neither are those below this part of the range of values.
+const LEAST_VALUE: f64 = 0.25;
+
+/// Which ridges are compared: at least a twentieth as strong as the strongest crest, in the upper three quarters of the values, and
+/// three cells long. The same for all scalars; `samples` are those a cell.
+#[must_use]
+pub fn compared_ridges(samples: usize) -> RidgeOptions {
+    let fine = samples as f64;
+    RidgeOptions {
+        cell: [1.0 / fine, 1.0 / fine, 1.0],
+        least_strength: Threshold::Part(LEAST_STRENGTH),
+        least_value: Threshold::Part(LEAST_VALUE),
+        least_extent: LEAST_LENGTH,
+        ..RidgeOptions::default()
+    }
+}
+
+/// Adds lines to others, their points divided by `scale`.
+pub fn append(all: &mut Polylines, more: &Polylines, scale: f64) {
+    let first = all.points.len() as u32;
+    all.points.extend(more.points.iter().map(|p| p.map(|v| v / scale)));
+    all.lines.extend(more.lines.iter().map(|line| Polyline {
+        points: line.points.iter().map(|i| i + first).collect(),
+        closed: line.closed,
+    }));
+}
+
+/// Distances of ridges from others, over the length of the first; cells.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Distances {
+    /// Distance and length of every piece, the nearest first.
+    pieces: Vec<(f64, f64)>,
+    length: f64,
+}
+
+impl Distances {
+    /// Of the pieces of `of` that lie at least [`MARGIN`] cells inside of a grid, from the nearest point of `from`. Where there is
+    /// nothing to be near to, distances are infinite.
+    #[must_use]
+    pub fn between(of: &Polylines, from: &Polylines, grid: Grid) -> Self {
+        let near = NearestSegment::new(from);
+        let limits = [grid.width(), grid.height()].map(|n| (n - 1) as f64 - MARGIN);
+        let mut pieces = Vec::new();
+        for [a, b] in of.lines.iter().flat_map(Polyline::segments) {
+            let (p, q) = (of.points[a as usize], of.points[b as usize]);
+            let length = tigereye_core::math::hypot(q[0] - p[0], q[1] - p[1]);
+            let count = (length / PIECE).ceil().max(1.0) as usize;
+            for k in 0..count {
+                let t = (k as f64 + 0.5) / count as f64;
+                let at = [0, 1].map(|i| p[i] + t * (q[i] - p[i]));
+                if (0..2).all(|i| (MARGIN..=limits[i]).contains(&at[i])) {
+                    let distance = near.distance(at).unwrap_or(f64::INFINITY);
+                    pieces.push((distance, length / count as f64));
+                }
+            }
+        }
+        pieces.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // The sum of nothing is -0.
+        let length = pieces.iter().map(|p| p.1).sum::<f64>() + 0.0;
+        Self { pieces, length }
+    }
+
+    /// Length of what was compared, cells.
+    #[must_use]
+    pub const fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Mean distance; not a number where nothing was compared.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        self.pieces.iter().map(|(d, l)| d * l).sum::<f64>() / self.length
+    }
+
+    /// The distance within which `share` of the length lies; not a number where nothing was compared.
+    #[must_use]
+    pub fn quantile(&self, share: f64) -> f64 {
+        let mut gone = 0.0;
+        for (distance, length) in &self.pieces {
+            gone += length;
+            if gone >= share * self.length {
+                return *distance;
+            }
+        }
+        self.pieces.last().map_or(f64::NAN, |p| p.0)
+    }
+
+    /// Share of the length within a distance; not a number where nothing was compared.
+    #[must_use]
+    pub fn share_within(&self, distance: f64) -> f64 {
+        self.pieces.iter().filter(|(d, _)| *d <= distance).map(|p| p.1).fold(0.0, |sum, l| sum + l)
+            / self.length
+    }
+}
+
+/// Pearson's correlation over the cells where both scalars are numbers; `None` for fields of different size, or where one of them is
+/// constant.
+#[must_use]
+pub fn correlation(a: &Field<f64>, b: &Field<f64>) -> Option<f64> {
+    if a.grid() != b.grid() {
+        return None;
+    }
+    let pairs: Vec<(f64, f64)> = a.values().iter().copied().zip(b.values().iter().copied()).collect();
+    let pairs: Vec<(f64, f64)> = pairs.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
+    crate::measure::pearson(&pairs)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(points: &[[f64; 2]]) -> Polylines {
+        let indices = (0..points.len() as u32).collect();
+        Polylines { points: points.to_vec(), lines: vec![Polyline { points: indices, closed: false }] }
+    }
+
+    fn grid() -> Grid {
+        Grid::new(41, 41).expect("a size")
+    }
+
+    #[test]
+    fn distances_are_measured_along_the_first() {
+        let (a, b) = (line(&[[10.0, 10.0], [30.0, 10.0]]), line(&[[10.0, 12.0], [20.0, 12.0]]));
+        let forth = Distances::between(&a, &b, grid());
+        // Half of it is 2 away; the rest goes on to (30, 10), which is hypot(10, 2) away.
+        assert!((forth.length() - 20.0).abs() < 1e-9 && forth.quantile(0.4) == 2.0);
+        assert!((forth.share_within(2.0) - 0.5).abs() < 0.02, "{}", forth.share_within(2.0));
+        assert!(forth.mean() > 3.0 && forth.quantile(0.95) > 8.0);
+        let back = Distances::between(&b, &a, grid());
+        assert!((back.mean() - 2.0).abs() < 1e-12 && back.share_within(1.9) == 0.0);
+    }
+
+    #[test]
+    fn borders_and_nothing_are_left_out() {
+        let rim = line(&[[0.0, 2.0], [40.0, 2.0]]);
+        let inside = line(&[[0.0, 20.0], [40.0, 20.0]]);
+        assert!(Distances::between(&rim, &inside, grid()).mean().is_nan());
+        let cut = Distances::between(&inside, &rim, grid());
+        assert!((cut.length() - 32.0).abs() < 0.3 && (cut.mean() - 18.0).abs() < 1e-9, "{}", cut.length());
+        let alone = Distances::between(&inside, &Polylines::default(), grid());
+        assert_eq!((alone.mean(), alone.share_within(5.0)), (f64::INFINITY, 0.0));
+    }
+
+    #[test]
+    fn parts_are_put_together_in_cells() {
+        let mut all = line(&[[1.0, 1.0], [2.0, 2.0]]);
+        append(&mut all, &line(&[[4.0, 6.0], [8.0, 10.0]]), 2.0);
+        assert_eq!(all.points[2..], [[2.0, 3.0], [4.0, 5.0]]);
+        assert_eq!(all.lines[1].points, [2, 3]);
+    }
+
+    #[test]
+    fn correlation_looks_where_both_are_numbers() {
+        let field = |f: fn(f64) -> f64| Field::from_fn(grid(), |c| f(c.x as f64));
+        let rising = field(|x| x);
+        let holes = field(|x| if x < 5.0 { f64::NAN } else { 3.0 - 2.0 * x });
+        assert!((correlation(&rising, &holes).expect("both vary") + 1.0).abs() < 1e-12);
+        assert_eq!(correlation(&rising, &field(|_| 1.0)), None);
+    }
+}

@@ -1,0 +1,142 @@
+//! Scalars sampled finer than the cells: textures and exponents.
+
+use super::{Followed, Placement, axes_name, family_name};
+use serde_json::{Value, json};
+use tigereye_core::{Anisotropy, Cell, Field, Tensor2};
+use tigereye_io::{DataArray, ImageData, PROVENANCE};
+use tigereye_lines::{
+    Axes, ConvolutionOptions, Family, Ftle, FtleOptions, Interpolated, SamplingError, convolved, ftle,
+    hyper_convolved,
+};
+use tigereye_render::{
+    ColourMap, HeatOptions, Overlay, RenderError, Scene, TextureOptions, Tint, heat_map, texture_map,
+};
+
+/// Which texture of a field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureRequest {
+    /// The axes to smear along.
+    pub axes: Axes,
+    /// Which of the two.
+    pub family: Family,
+    /// Along both, as far as each is long.
+    pub hyper: bool,
+    /// How noise is smeared.
+    pub options: ConvolutionOptions,
+}
+
+/// The texture, in samples finer than the cells.
+///
+/// # Errors
+/// See [`SamplingError`].
+pub fn texture(field: &Field<Tensor2>, request: &TextureRequest) -> Result<Field<f64>, SamplingError> {
+    let followed = Followed::new(field, request.axes);
+    let between = followed.interpolated();
+    if request.hyper {
+        hyper_convolved(&between, &request.options)
+    } else {
+        convolved(&between, request.family, &request.options)
+    }
+}
+
+/// A texture in grey, or in the colours of the anisotropy.
+///
+/// # Errors
+/// [`RenderError`] for a texture of another field.
+pub fn texture_picture(
+    texture: &Field<f64>,
+    field: &Field<Tensor2>,
+    samples: usize,
+    tinted: bool,
+    title: &str,
+    overlays: Vec<Overlay>,
+) -> Result<Scene, RenderError> {
+    let tint = tinted.then(|| {
+        let between = Interpolated::new(field);
+        let at = |c: Cell| [c.x as f64 / samples as f64, c.y as f64 / samples as f64];
+        let anisotropy = |c: Cell| between.at(at(c)).map_or(f64::NAN, |t| Anisotropy::of(&t).linear);
+        Tint {
+            values: Field::from_fn(texture.grid(), anisotropy),
+            quantity: "linear anisotropy (s₁ − s₂) / (s₁ + s₂)".to_owned(),
+            map: ColourMap::Batlow,
+            range: Some((0.0, 1.0)),
+        }
+    });
+    let title = title.to_owned();
+    let missing = Some("no tensor".to_owned());
+    texture_map(
+        texture,
+        &TextureOptions {
+            title,
+            samples_a_cell: samples,
+            tint,
+            overlays,
+            missing,
+            ..TextureOptions::default()
+        },
+    )
+}
+
+/// The parameters of a texture, for provenance.
+#[must_use]
+pub fn texture_parameters(request: &TextureRequest) -> Value {
+    json!({
+        "axes": axes_name(request.axes),
+        "family": family_name(request.family),
+        "hyper": request.hyper,
+        "samples": request.options.samples,
+        "half_length": request.options.half_length,
+        "seed": request.options.seed,
+    })
+}
+
+/// FTLE on the lines of a field.
+///
+/// # Errors
+/// See [`SamplingError`].
+pub fn exponents(
+    field: &Field<Tensor2>,
+    axes: Axes,
+    family: Family,
+    options: &FtleOptions,
+) -> Result<Ftle, SamplingError> {
+    ftle(&Followed::new(field, axes).interpolated(), family, options)
+}
+
+/// The larger exponents in colours.
+#[must_use]
+pub fn exponents_picture(found: &Ftle, title: &str, overlays: Vec<Overlay>) -> Scene {
+    let options = HeatOptions {
+        title: title.to_owned(),
+        quantity: "FTLE on tensor lines / (1/cell)".to_owned(),
+        samples_a_cell: found.samples,
+        overlays,
+        missing: Some("no line".to_owned()),
+        ..HeatOptions::default()
+    };
+    heat_map(&found.larger, &options)
+}
+
+/// Scalars as image data that lie over the field as `convert` writes it: rows upwards.
+#[must_use]
+pub fn image(
+    arrays: &[(&str, &Field<f64>)],
+    samples: usize,
+    placement: &Placement,
+    story: &str,
+) -> ImageData {
+    let Some((name, first)) = arrays.first() else { return ImageData::empty([1, 1, 1]) };
+    let (width, height) = (first.grid().width(), first.grid().height());
+    let (origin, spacing) = placement.corner_and_spacing();
+    let mut image = ImageData::empty([width, height, 1]);
+    image.origin = [origin[0], origin[1], 0.0];
+    let fine = spacing.map(|s| s / samples as f64);
+    image.spacing = [fine[0], fine[1], 1.0];
+    image.point_active.scalars = Some((*name).to_owned());
+    for (name, field) in arrays {
+        let rows = field.values().chunks(width).rev();
+        image.point_arrays.push(DataArray::new(name, 1, rows.flatten().copied().collect()));
+    }
+    image.push_text(PROVENANCE, story);
+    image
+}

@@ -1,0 +1,287 @@
+//! Height ridges and contours of scalar images.
+
+use super::{push_line, push_story};
+use thiserror::Error;
+use tigereye_core::{Cell, Field, Grid};
+use tigereye_io::{DataArray, ImageData, IoError, LTG_ARRAY, PolyData};
+use tigereye_lines::{
+    ExtractionError, Polyline, Polylines, RidgeOptions, Surface, Volume, isolines, isosurface, ridge_lines,
+    ridge_surface,
+};
+use tigereye_render::{HeatOptions, Overlay, Rgba, Scene, heat_map};
+
+/// What keeps an image from having ridges.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum RidgesError {
+    /// No array of single numbers, or none of the name.
+    #[error("expected an array of one number a point{}, found {found}", wanted.as_ref().map_or(String::new(), |w| format!(" called {w}")))]
+    NoArray {
+        /// The name asked for.
+        wanted: Option<String>,
+        /// Those that are there.
+        found: String,
+    },
+    /// Several arrays of single numbers.
+    #[error("several arrays of one number a point: {found} (option --array)")]
+    Ambiguous {
+        /// Their names.
+        found: String,
+    },
+    /// A layer that is not there.
+    #[error("layer {layer}: expected 0 to {last}")]
+    Layer {
+        /// The layer asked for.
+        layer: usize,
+        /// The last one.
+        last: usize,
+    },
+    /// An image that is no image.
+    #[error(transparent)]
+    Io(#[from] IoError),
+    /// Options or sizes that cannot be.
+    #[error(transparent)]
+    Extraction(#[from] ExtractionError),
+}
+
+/// One number at every point of an image.
+#[derive(Clone, Debug)]
+pub struct ScalarImage {
+    /// Name of the array.
+    pub array: String,
+    values: Vec<f64>,
+    size: [usize; 3],
+    /// Whether the third axis goes all the way round: the directions of a gradient.
+    periodic: bool,
+    origin: [f64; 3],
+    /// From an index to a place, a column for every axis.
+    axes: [[f64; 3]; 3],
+}
+
+impl ScalarImage {
+    /// The array of a name, or the only one; gradients by theirs. The border of a gradient, 0 by definition, is missing.
+    ///
+    /// # Errors
+    /// [`RidgesError::NoArray`], [`RidgesError::Ambiguous`].
+    pub fn of(image: &ImageData, wanted: Option<&str>) -> Result<Self, RidgesError> {
+        let scalars: Vec<&DataArray> = image.point_arrays.iter().filter(|a| a.components == 1).collect();
+        let names =
+            |arrays: &[&DataArray]| arrays.iter().map(|a| a.name.as_str()).collect::<Vec<_>>().join(", ");
+        let missing = || {
+            let all: Vec<&DataArray> = image.point_arrays.iter().collect();
+            let found = if all.is_empty() { "none".to_owned() } else { names(&all) };
+            RidgesError::NoArray { wanted: wanted.map(str::to_owned), found }
+        };
+        let wanted = wanted.or_else(|| scalars.iter().find(|a| a.name == LTG_ARRAY).map(|_| LTG_ARRAY));
+        let array = match (wanted, &scalars[..]) {
+            (Some(name), all) => *all.iter().find(|a| a.name == name).ok_or_else(missing)?,
+            (None, [array]) => *array,
+            (None, []) => return Err(missing()),
+            (None, several) => return Err(RidgesError::Ambiguous { found: names(several) }),
+        };
+        let is_gradient = array.name == LTG_ARRAY;
+        let [width, height, depth] = image.dimensions;
+        let mut values = array.values.clone();
+        if is_gradient && width > 0 && height > 0 {
+            for (i, v) in values.iter_mut().enumerate() {
+                let (x, y) = (i % width, i / width % height);
+                if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
+                    *v = f64::NAN;
+                }
+            }
+        }
+        let whole = image.numbers(tigereye_io::SLICES).is_none();
+        let d = image.direction.unwrap_or([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+        let axes = [0, 1, 2].map(|axis| [0, 1, 2].map(|row| d[3 * row + axis] * image.spacing[axis]));
+        Ok(Self {
+            array: array.name.clone(),
+            values,
+            size: image.dimensions,
+            periodic: is_gradient && whole && depth > 1,
+            origin: image.origin,
+            axes,
+        })
+    }
+
+    /// Layers along the third axis.
+    #[must_use]
+    pub const fn layers(&self) -> usize {
+        self.size[2]
+    }
+
+    /// Whether it is the directions of a gradient that lie along the third axis, all the way round.
+    #[must_use]
+    pub const fn is_periodic(&self) -> bool {
+        self.periodic
+    }
+
+    /// One layer.
+    ///
+    /// # Errors
+    /// [`RidgesError::Layer`] for one that is not there.
+    pub fn layer(&self, layer: usize) -> Result<Field<f64>, RidgesError> {
+        let [width, height, depth] = self.size;
+        if layer >= depth {
+            return Err(RidgesError::Layer { layer, last: depth.saturating_sub(1) });
+        }
+        let grid = Grid::new(width, height).map_err(IoError::from)?;
+        let first = layer * grid.cells();
+        Ok(Field::from_fn(grid, |c: Cell| self.values[first + grid.index(c)]))
+    }
+
+    fn volume(&self) -> Result<Volume<'_>, ExtractionError> {
+        Volume::new(&self.values, self.size, [false, false, self.periodic])
+    }
+
+    fn place(&self, index: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2]
+            .map(|row| self.origin[row] + (0..3).map(|axis| self.axes[axis][row] * index[axis]).sum::<f64>())
+    }
+}
+
+/// What is looked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Feature {
+    /// Height ridges.
+    Ridges(RidgeOptions),
+    /// Where the scalar has a value.
+    Contour(f64),
+}
+
+/// Lines of a layer, or a surface of all of them.
+#[derive(Clone, Debug)]
+pub enum Found {
+    /// Lines with value and strength at every point; contours have no strength.
+    Lines {
+        /// The layer.
+        layer: usize,
+        /// The lines.
+        lines: Polylines,
+        /// Value at every point.
+        values: Vec<f64>,
+        /// Strength at every point; empty for contours.
+        strengths: Vec<f64>,
+    },
+    /// Triangles with the same.
+    Surface {
+        /// The triangles.
+        surface: Surface,
+        /// Value at every point.
+        values: Vec<f64>,
+        /// Strength at every point; empty for contours.
+        strengths: Vec<f64>,
+        /// The connected piece of every triangle, 0 the largest; empty for contours.
+        pieces: Vec<u32>,
+    },
+}
+
+/// Looks for lines in a layer, or for a surface in the whole image.
+///
+/// # Errors
+/// See [`RidgesError`].
+pub fn find(image: &ScalarImage, layer: Option<usize>, feature: &Feature) -> Result<Found, RidgesError> {
+    let layer = layer.or((image.layers() == 1).then_some(0));
+    Ok(match (layer, feature) {
+        (Some(layer), Feature::Ridges(options)) => {
+            let found = ridge_lines(&image.layer(layer)?, options)?;
+            Found::Lines { layer, lines: found.shape, values: found.value, strengths: found.strength }
+        }
+        (Some(layer), Feature::Contour(level)) => {
+            let lines = isolines(&image.layer(layer)?, *level);
+            Found::Lines { layer, values: vec![*level; lines.points.len()], lines, strengths: Vec::new() }
+        }
+        (None, Feature::Ridges(options)) => {
+            let found = ridge_surface(&image.volume()?, options)?;
+            Found::Surface {
+                surface: found.shape,
+                values: found.value,
+                strengths: found.strength,
+                pieces: found.piece,
+            }
+        }
+        (None, Feature::Contour(level)) => {
+            let surface = isosurface(&image.volume()?, *level);
+            let values = vec![*level; surface.points.len()];
+            Found::Surface { surface, values, strengths: Vec::new(), pieces: Vec::new() }
+        }
+    })
+}
+
+impl Found {
+    /// Number of lines or triangles.
+    #[must_use]
+    pub fn parts(&self) -> usize {
+        match self {
+            Self::Lines { lines, .. } => lines.lines.len(),
+            Self::Surface { surface, .. } => surface.triangles.len(),
+        }
+    }
+
+    /// The lines or triangles where the image lies. Point arrays: `value` and, for ridges, `strength`. Ridge surfaces have a cell
+    /// array `piece`.
+    #[must_use]
+    pub fn poly_data(&self, image: &ScalarImage, story: &str) -> PolyData {
+        let mut data = PolyData::default();
+        let (mut value, mut strength, mut piece) = (Vec::new(), Vec::new(), Vec::new());
+        match self {
+            Self::Lines { layer, lines, values, strengths } => {
+                for line in &lines.lines {
+                    let closing = if line.closed { line.points.first() } else { None };
+                    let indices = || line.points.iter().chain(closing).map(|&i| i as usize);
+                    let at = |i: usize| [lines.points[i][0], lines.points[i][1], *layer as f64];
+                    push_line(&mut data, indices().map(|i| image.place(at(i))));
+                    value.extend(indices().map(|i| values[i]));
+                    strength.extend(indices().filter_map(|i| strengths.get(i)));
+                }
+            }
+            Self::Surface { surface, values, strengths, pieces } => {
+                data.points = surface.points.iter().map(|p| image.place(*p)).collect();
+                for triangle in &surface.triangles {
+                    data.polys.push(triangle.map(|i| i as usize));
+                }
+                value.clone_from(values);
+                strength.clone_from(strengths);
+                piece = pieces.iter().map(|&p| f64::from(p)).collect();
+            }
+        }
+        data.point_arrays.push(DataArray::new("value", 1, value));
+        if !strength.is_empty() {
+            data.point_arrays.push(DataArray::new("strength", 1, strength));
+        }
+        if !piece.is_empty() {
+            data.cell_arrays.push(DataArray::new("piece", 1, piece));
+        }
+        push_story(&mut data, story);
+        data
+    }
+
+    /// The lines over their layer; `None` for surfaces.
+    ///
+    /// # Errors
+    /// [`RidgesError::Layer`] for another image.
+    pub fn picture(
+        &self,
+        image: &ScalarImage,
+        title: &str,
+        label: &str,
+    ) -> Result<Option<Scene>, RidgesError> {
+        let Self::Lines { layer, lines, .. } = self else { return Ok(None) };
+        let options = HeatOptions {
+            title: title.to_owned(),
+            quantity: image.array.clone(),
+            overlays: vec![line_overlay(lines, label, Rgba::hex(0xd62728))],
+            missing: Some("no value".to_owned()),
+            ..HeatOptions::default()
+        };
+        Ok(Some(heat_map(&image.layer(*layer)?, &options)))
+    }
+}
+
+/// Lines over shared points as an overlay.
+#[must_use]
+pub fn line_overlay(lines: &Polylines, label: &str, colour: Rgba) -> Overlay {
+    let mut points = Vec::new();
+    for [a, b] in lines.lines.iter().flat_map(Polyline::segments) {
+        points.extend([lines.points[a as usize], lines.points[b as usize], [f64::NAN; 2]]);
+    }
+    Overlay { label: label.to_owned(), points, colour, width_px: 1.4, ..Overlay::default() }
+}

@@ -1,0 +1,86 @@
+//! FTLE beside gradients: their maps, ridges, and numbers.
+
+use crate::classical::agreement::{Distances, append, compared_ridges, correlation};
+use crate::runs::Results;
+use crate::settings::sample_of;
+use crate::spec::{DistanceNumber, MapSource, RidgeSource};
+use tigereye_core::{Cell, Field, Grid, LtgVolume};
+use tigereye_lines::{Ftle, Polylines, ridge_lines};
+
+/// A scalar at the cells. The border of a gradient, 0 by definition, is missing.
+pub(crate) fn map(source: &MapSource, results: &Results) -> Option<Field<f64>> {
+    let gradient = |run: &str| results.gradients.get(run).map(|g| &g.volume);
+    match source {
+        MapSource::Ftle { run } => results.ftle.get(run).map(at_cells),
+        MapSource::Slice { run, deg } => {
+            let volume = gradient(run)?;
+            Some(inner(&volume.slice(sample_of(deg.get(), volume.directions()).ok()?)?))
+        }
+        MapSource::Mean { run } => gradient(run).map(|v| inner(&v.mean_over_directions())),
+        MapSource::Maximum { run } => gradient(run).map(|v| inner(&v.max_over_directions())),
+    }
+}
+
+fn inner(field: &Field<f64>) -> Field<f64> {
+    let grid = field.grid();
+    Field::from_fn(grid, |c| if grid.is_border(c) { f64::NAN } else { *field.at(c) })
+}
+
+/// The cells' own samples.
+fn at_cells(found: &Ftle) -> Field<f64> {
+    let fine = found.larger.grid();
+    let n = |v: usize| (v - 1) / found.samples + 1;
+    match Grid::new(n(fine.width()), n(fine.height())) {
+        Ok(grid) => {
+            Field::from_fn(grid, |c| *found.larger.at(Cell::new(found.samples * c.x, found.samples * c.y)))
+        }
+        Err(_) => found.larger.clone(),
+    }
+}
+
+/// The ridges of a source, in cells; `None` where there is no such run, or its ridges have too many samples.
+pub(crate) fn ridges(source: &RidgeSource, results: &Results) -> Option<Polylines> {
+    let mut all = Polylines::default();
+    match source {
+        RidgeSource::Of(MapSource::Ftle { run }) => {
+            let found = results.ftle.get(run)?;
+            let lines = ridge_lines(&found.larger, &compared_ridges(found.samples)).ok()?;
+            append(&mut all, &lines.shape, found.samples as f64);
+        }
+        RidgeSource::Of(source) => {
+            append(&mut all, &ridge_lines(&map(source, results)?, &compared_ridges(1)).ok()?.shape, 1.0);
+        }
+        RidgeSource::EverySlice { run } => {
+            let volume: &LtgVolume = &results.gradients.get(run)?.volume;
+            for slice in volume.slices().iter().filter_map(|&t| volume.slice(t)) {
+                append(&mut all, &ridge_lines(&inner(&slice), &compared_ridges(1)).ok()?.shape, 1.0);
+            }
+        }
+    }
+    Some(all)
+}
+
+/// Cells of a run's field.
+fn grid(run: &str, results: &Results) -> Option<Grid> {
+    let of_gradient = || results.gradients.get(run).map(|g| g.volume.grid());
+    results.ftle.get(run).map(|f| at_cells(f).grid()).or_else(of_gradient)
+}
+
+/// Distances of ridges from others.
+pub(crate) fn distances(of: &RidgeSource, from: &RidgeSource, results: &Results) -> Option<Distances> {
+    Some(Distances::between(&ridges(of, results)?, &ridges(from, results)?, grid(of.run(), results)?))
+}
+
+/// A number of them.
+pub(crate) fn distance_number(distances: &Distances, number: DistanceNumber) -> f64 {
+    match number {
+        DistanceNumber::Mean => distances.mean(),
+        DistanceNumber::Most => distances.quantile(0.95),
+        DistanceNumber::ShareWithin(cells) => distances.share_within(cells.get()),
+    }
+}
+
+/// Correlation of two scalars.
+pub(crate) fn map_correlation(a: &MapSource, b: &MapSource, results: &Results) -> Option<f64> {
+    correlation(&map(a, results)?, &map(b, results)?)
+}

@@ -1,0 +1,101 @@
+//! What the classical methods of an experiment may be told.
+
+use super::{Finite, NonNegative};
+use serde::Deserialize;
+
+/// The axes that lines follow.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+pub enum AxesChoice {
+    /// Eigenvectors where all tensors are symmetric, half-axes otherwise.
+    #[default]
+    Usual,
+    /// Half-axes of the ellipse: what light sees.
+    Half,
+    /// Eigenvectors, the larger eigenvalue first; pseudo-eigenvectors where eigenvalues are complex.
+    Eigen,
+    /// Dual eigenvectors.
+    Dual,
+}
+
+/// Which of the two axes.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+pub enum FamilyChoice {
+    /// The longer half-axis, or the larger eigenvalue.
+    #[default]
+    Major,
+    /// The other one.
+    Minor,
+}
+
+/// A scalar over the cells.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub enum MapSource {
+    /// FTLE on tensor lines, at the cells.
+    Ftle {
+        /// Name of the FTLE run.
+        run: String,
+    },
+    /// One direction of a gradient.
+    Slice {
+        /// Name of the gradient run.
+        run: String,
+        /// Direction, degrees.
+        deg: Finite,
+    },
+    /// Mean of a gradient over its directions.
+    Mean {
+        /// Name of the gradient run.
+        run: String,
+    },
+    /// Maximum of a gradient over its directions.
+    Maximum {
+        /// Name of the gradient run.
+        run: String,
+    },
+}
+
+impl MapSource {
+    /// The name of the run.
+    #[must_use]
+    pub fn run(&self) -> &str {
+        match self {
+            Self::Ftle { run } | Self::Slice { run, .. } | Self::Mean { run } | Self::Maximum { run } => run,
+        }
+    }
+}
+
+/// Height ridges of scalars over the cells.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub enum RidgeSource {
+    /// Those of one scalar; FTLE at all its samples.
+    Of(MapSource),
+    /// Those of every direction of a gradient, together.
+    EverySlice {
+        /// Name of the gradient run.
+        run: String,
+    },
+}
+
+impl RidgeSource {
+    /// The name of the run.
+    #[must_use]
+    pub fn run(&self) -> &str {
+        match self {
+            Self::Of(map) => map.run(),
+            Self::EverySlice { run } => run,
+        }
+    }
+}
+
+/// A number of the distances of one set of ridges from another, over the length of the first.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+pub enum DistanceNumber {
+    /// Mean distance, cells.
+    Mean,
+    /// The distance below which 95 % lie, cells.
+    Most,
+    /// Share within so many cells.
+    ShareWithin(NonNegative),
+}

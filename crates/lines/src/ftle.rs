@@ -66,9 +66,9 @@ pub struct Ftle {
     /// Samples a cell along each side.
     pub samples: usize,
     /// The larger exponent of the two directions of the line, per cell of length; not a number where there is no line, or where it
-    /// leaves to both sides.
+    /// leaves.
     pub larger: Field<f64>,
-    /// The smaller one; the only one where the line leaves to one side.
+    /// The smaller one.
     pub smaller: Field<f64>,
     /// Share of the lines that leave the field, or meet a cell without numbers, before their length.
     pub left: f64,
@@ -106,9 +106,9 @@ pub(crate) fn check_length(length: f64, step: f64) -> Result<(), SamplingError> 
 /// structures of characteristic curves in symmetric second order tensor fields, 2011), with the flow map of both directions of the
 /// line. A line has no first direction, so the neighbours of a sample are taken in the directions nearer to its own, and of the
 /// two exponents that this gives, both are kept. A line that ends at a degenerate point stays there, while its neighbours go on to
-/// either side: they part. One that leaves the field, or meets cells without numbers, says nothing of how far neighbours part: it
-/// counts as missing, so that differences are one-sided beside it, and a sample whose own line leaves to one side has the
-/// exponent of the other.
+/// either side: they part. One that leaves the field, or meets cells without numbers, says nothing of how far neighbours part: beside
+/// it differences are one-sided, and its own sample has no exponent. (The one of the other direction alone would be smaller than
+/// that of the samples next to it, an edge that looks like a ridge.)
 ///
 /// # Errors
 /// See [`SamplingError`].
@@ -141,9 +141,8 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
     let of = |pick: fn(&[f64; 2]) -> f64| Field::from_fn(grid, |c| pick(&both[grid.index(c)]));
     Ok(Ftle {
         samples: options.samples,
-        // The other one where one is not a number.
-        larger: of(|[a, b]| a.max(*b)),
-        smaller: of(|[a, b]| a.min(*b)),
+        larger: of(|[a, b]| if (a + b).is_nan() { f64::NAN } else { a.max(*b) }),
+        smaller: of(|[a, b]| if (a + b).is_nan() { f64::NAN } else { a.min(*b) }),
         left: early as f64 / lines.max(1) as f64,
     })
 }

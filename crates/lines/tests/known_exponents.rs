@@ -26,9 +26,9 @@ fn parallel_lines_part_nowhere() {
     let straight = Field::from_fn(Grid::new(12, 9).expect("a size"), |_| Tensor2::from_axes(0.4, 3.0, 1.0));
     let found = of(&straight, Family::Major, 2.0, 3);
     assert_eq!((found.larger.grid().width(), found.larger.grid().height()), (34, 25));
-    // Lines that leave the field end early; one of the two directions is long enough everywhere but in two corners.
+    // Lines that leave the field say nothing.
     let known = found.larger.values().iter().filter(|v| v.is_finite());
-    assert!(known.clone().count() > 800 && known.into_iter().all(|v| v.abs() < 1e-9));
+    assert!(known.clone().count() > 400 && known.into_iter().all(|v| v.abs() < 1e-9));
     assert!(found.left > 0.1 && found.left < 0.4, "{}", found.left);
 }
 
@@ -109,7 +109,7 @@ fn exponents_turn_with_the_field() {
             compared += 1;
         }
     }
-    assert!(compared > 2000);
+    assert!(compared > 500);
 }
 
 /// Velocity of the double gyre (Shadden, Lekien and Marsden 2005) with an added shear, and its gradient.

@@ -1,6 +1,6 @@
 //! FTLE beside gradients: their maps, ridges, and numbers.
 
-use crate::classical::agreement::{Distances, append, compared_ridges, correlation};
+use crate::classical::agreement::{COMPARED, Distances, append, chance, correlation};
 use crate::runs::Results;
 use crate::settings::sample_of;
 use crate::spec::{DistanceNumber, MapSource, RidgeSource};
@@ -42,18 +42,13 @@ fn at_cells(found: &Ftle) -> Field<f64> {
 pub(crate) fn ridges(source: &RidgeSource, results: &Results) -> Option<Polylines> {
     let mut all = Polylines::default();
     match source {
-        RidgeSource::Of(MapSource::Ftle { run }) => {
-            let found = results.ftle.get(run)?;
-            let lines = ridge_lines(&found.larger, &compared_ridges(found.samples)).ok()?;
-            append(&mut all, &lines.shape, found.samples as f64);
-        }
         RidgeSource::Of(source) => {
-            append(&mut all, &ridge_lines(&map(source, results)?, &compared_ridges(1)).ok()?.shape, 1.0);
+            append(&mut all, &ridge_lines(&map(source, results)?, &COMPARED).ok()?.shape);
         }
         RidgeSource::EverySlice { run } => {
             let volume: &LtgVolume = &results.gradients.get(run)?.volume;
             for slice in volume.slices().iter().filter_map(|&t| volume.slice(t)) {
-                append(&mut all, &ridge_lines(&inner(&slice), &compared_ridges(1)).ok()?.shape, 1.0);
+                append(&mut all, &ridge_lines(&inner(&slice), &COMPARED).ok()?.shape);
             }
         }
     }
@@ -69,6 +64,11 @@ fn grid(run: &str, results: &Results) -> Option<Grid> {
 /// Distances of ridges from others.
 pub(crate) fn distances(of: &RidgeSource, from: &RidgeSource, results: &Results) -> Option<Distances> {
     Some(Distances::between(&ridges(of, results)?, &ridges(from, results)?, grid(of.run(), results)?))
+}
+
+/// How much of anything would meet ridges by chance.
+pub(crate) fn chance_of(source: &RidgeSource, within: f64, results: &Results) -> Option<f64> {
+    Some(chance(&ridges(source, results)?, grid(source.run(), results)?, within))
 }
 
 /// A number of them.

@@ -220,12 +220,14 @@ impl Draw<'_> {
     ) -> Option<Scene> {
         let axes = axes_of(axes, field);
         let longest = field.grid().width().max(field.grid().height());
-        // About a sample a pixel.
-        let samples = (PANEL_PX / longest).clamp(1, 8);
+        // Whole pixels a sample, and at most eight samples a cell.
+        let wanted = if self.alone { 2 * PANEL_PX } else { PANEL_PX } / longest;
+        let pixels = wanted.div_ceil(8).max(1);
+        let samples = (wanted / pixels).max(1);
         let options = ConvolutionOptions { samples, ..ConvolutionOptions::default() };
         let request = TextureRequest { axes, family: family_of(family), hyper, options };
         let found = fine::texture(field, &request).ok()?;
-        fine::texture_picture(&found, field, samples, hyper, title, Vec::new()).ok()
+        fine::texture_picture(&found, field, samples, hyper, title, Some(samples * pixels)).ok()
     }
 
     fn map(&self, source: &spec::MapSource, ridges: bool, title: String) -> Option<Scene> {
@@ -236,7 +238,9 @@ impl Draw<'_> {
             Vec::new()
         };
         if let spec::MapSource::Ftle { run } = source {
-            return Some(fine::exponents_picture(self.results.ftle.get(run)?, &title, overlays));
+            let field = self.settings.runs.iter().find(|(name, _)| name == run)?.1.field();
+            let cell_px = self.cell_px(self.settings.fields.get(field)?.grid());
+            return Some(fine::exponents_picture(self.results.ftle.get(run)?, &title, overlays, cell_px));
         }
         let field = comparison::map(source, self.results)?;
         let quantity = match source {

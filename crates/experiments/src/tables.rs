@@ -1,6 +1,6 @@
 //! Tables from results.
 
-use crate::comparison::{distances, map_correlation};
+use crate::comparison::{chance_of, distances, map_correlation};
 use crate::measure::{gradient_difference, summary};
 use crate::outcome::{Column, Table};
 use crate::pulses::PulseRecord;
@@ -133,10 +133,12 @@ fn comparison_columns() -> Vec<Column> {
         "with largest LTG",
         "FTLE ridges / cells long",
         "met by LTG ridges of some direction /\u{a0}%",
+        "by chance /\u{a0}%",
         "their distance, mean / cells",
         "95\u{a0}% / cells",
         "LTG ridges of all directions / cells long",
         "met by FTLE ridges /\u{a0}%",
+        "by chance /\u{a0}%",
         "their distance, mean / cells",
         "95\u{a0}% / cells",
         "Ridges of largest LTG met by FTLE ridges /\u{a0}%",
@@ -155,10 +157,11 @@ fn comparison_row(row: &ComparisonRow, results: &Results) -> Option<Row> {
     let largest = distances(&RidgeSource::Of(MapSource::Maximum { run: run() }), &of_ftle, results)?;
     let mut entries =
         vec![correlation(MapSource::Mean { run: run() }), correlation(MapSource::Maximum { run: run() })];
-    for found in [&forth, &back] {
+    for (found, met) in [(&forth, &every), (&back, &of_ftle)] {
         entries.extend([
             whole(found.length()),
             percent(found.share_within(MEETING)),
+            percent(chance_of(met, MEETING, results)?),
             tenths(found.mean()),
             tenths(found.quantile(0.95)),
         ]);

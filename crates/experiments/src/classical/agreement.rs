@@ -15,23 +15,19 @@ const LEAST_STRENGTH: f64 = 0.05;
 const LEAST_VALUE: f64 = 0.25;
 
 /// Which ridges are compared: at least a twentieth as strong as the strongest crest, in the upper three quarters of the values, and
-/// three cells long. The same for all scalars; `samples` are those a cell.
-#[must_use]
-pub fn compared_ridges(samples: usize) -> RidgeOptions {
-    let fine = samples as f64;
-    RidgeOptions {
-        cell: [1.0 / fine, 1.0 / fine, 1.0],
-        least_strength: Threshold::Part(LEAST_STRENGTH),
-        least_value: Threshold::Part(LEAST_VALUE),
-        least_extent: LEAST_LENGTH,
-        ..RidgeOptions::default()
-    }
-}
+/// three cells long. The same for all scalars, all at the cells: between them exponents have the kinks of the interpolated
+/// tensors, which look like ridges.
+pub const COMPARED: RidgeOptions = RidgeOptions {
+    least_strength: Threshold::Part(LEAST_STRENGTH),
+    least_value: Threshold::Part(LEAST_VALUE),
+    least_extent: LEAST_LENGTH,
+    ..RidgeOptions::USUAL
+};
 
-/// Adds lines to others, their points divided by `scale`.
-pub fn append(all: &mut Polylines, more: &Polylines, scale: f64) {
+/// Adds lines to others.
+pub fn append(all: &mut Polylines, more: &Polylines) {
     let first = all.points.len() as u32;
-    all.points.extend(more.points.iter().map(|p| p.map(|v| v / scale)));
+    all.points.extend_from_slice(&more.points);
     all.lines.extend(more.lines.iter().map(|line| Polyline {
         points: line.points.iter().map(|i| i + first).collect(),
         closed: line.closed,
@@ -106,6 +102,18 @@ impl Distances {
     }
 }
 
+/// Share of the places at least [`MARGIN`] cells inside of a grid that lie within a distance of lines: how much of anything would
+/// meet them by chance.
+#[must_use]
+pub fn chance(lines: &Polylines, grid: Grid, within: f64) -> f64 {
+    let near = NearestSegment::new(lines);
+    let steps = [grid.width(), grid.height()].map(|n| (((n - 1) as f64 - 2.0 * MARGIN) / PIECE) as usize + 1);
+    let places =
+        (0..steps[1]).flat_map(|j| (0..steps[0]).map(move |i| [i, j].map(|k| MARGIN + k as f64 * PIECE)));
+    let met = places.filter(|&p| near.distance(p).is_some_and(|d| d <= within)).count();
+    met as f64 / (steps[0] * steps[1]) as f64
+}
+
 /// Pearson's correlation over the cells where both scalars are numbers; `None` for fields of different size, or where one of them is
 /// constant.
 #[must_use]
@@ -155,11 +163,19 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_put_together_in_cells() {
+    fn parts_are_put_together() {
         let mut all = line(&[[1.0, 1.0], [2.0, 2.0]]);
-        append(&mut all, &line(&[[4.0, 6.0], [8.0, 10.0]]), 2.0);
-        assert_eq!(all.points[2..], [[2.0, 3.0], [4.0, 5.0]]);
+        append(&mut all, &line(&[[4.0, 6.0], [8.0, 10.0]]));
+        assert_eq!(all.points[2..], [[4.0, 6.0], [8.0, 10.0]]);
         assert_eq!(all.lines[1].points, [2, 3]);
+    }
+
+    #[test]
+    fn chance_is_the_share_of_the_area() {
+        // A band of two cells in the middle 32.
+        let found = chance(&line(&[[0.0, 20.0], [40.0, 20.0]]), grid(), 1.0);
+        assert!((found - 2.0 / 32.0).abs() < 0.01, "{found}");
+        assert_eq!(chance(&Polylines::default(), grid(), 1.0), 0.0);
     }
 
     #[test]

@@ -39,7 +39,7 @@ pub fn texture(field: &Field<Tensor2>, request: &TextureRequest) -> Result<Field
     }
 }
 
-/// A texture in grey, or in the colours of the anisotropy.
+/// A texture in grey, or in the colours of the anisotropy; pixels a cell by default as [`texture_map`] has them.
 ///
 /// # Errors
 /// [`RenderError`] for a texture of another field.
@@ -49,7 +49,7 @@ pub fn texture_picture(
     samples: usize,
     tinted: bool,
     title: &str,
-    overlays: Vec<Overlay>,
+    cell_px: Option<usize>,
 ) -> Result<Scene, RenderError> {
     let tint = tinted.then(|| {
         let between = Interpolated::new(field);
@@ -70,7 +70,7 @@ pub fn texture_picture(
             title,
             samples_a_cell: samples,
             tint,
-            overlays,
+            cell_px,
             missing,
             ..TextureOptions::default()
         },
@@ -105,13 +105,14 @@ pub fn exponents(
 
 /// The larger exponents in colours.
 #[must_use]
-pub fn exponents_picture(found: &Ftle, title: &str, overlays: Vec<Overlay>) -> Scene {
+pub fn exponents_picture(found: &Ftle, title: &str, overlays: Vec<Overlay>, cell_px: Option<usize>) -> Scene {
     let options = HeatOptions {
         title: title.to_owned(),
         quantity: "FTLE on tensor lines / (1/cell)".to_owned(),
         samples_a_cell: found.samples,
         overlays,
-        missing: Some("no line".to_owned()),
+        cell_px,
+        missing: Some("no line, or one that leaves the field".to_owned()),
         ..HeatOptions::default()
     };
     heat_map(&found.larger, &options)

@@ -69,7 +69,7 @@ impl MapSource {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum RidgeSource {
-    /// Those of one scalar; FTLE at all its samples.
+    /// Those of one scalar.
     Of(MapSource),
     /// Those of every direction of a gradient, together.
     EverySlice {

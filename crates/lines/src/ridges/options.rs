@@ -44,19 +44,24 @@ pub struct RidgeOptions {
     pub most_nodes: usize,
 }
 
+impl RidgeOptions {
+    /// The default.
+    pub const USUAL: Self = Self {
+        samples_per_cell: 2,
+        cell: [1.0; 3],
+        least_value: Threshold::Part(0.0),
+        least_strength: Threshold::Part(0.05),
+        least_extent: 1.0,
+        least_sharpness: 0.2,
+        margin: 1,
+        rounding: 1e-10,
+        most_nodes: 1 << 25,
+    };
+}
+
 impl Default for RidgeOptions {
     fn default() -> Self {
-        Self {
-            samples_per_cell: 2,
-            cell: [1.0; 3],
-            least_value: Threshold::Part(0.0),
-            least_strength: Threshold::Part(0.05),
-            least_extent: 1.0,
-            least_sharpness: 0.2,
-            margin: 1,
-            rounding: 1e-10,
-            most_nodes: 1 << 25,
-        }
+        Self::USUAL
     }
 }
 

@@ -4,17 +4,24 @@ use crate::error::CliError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 static ASKED: AtomicBool = AtomicBool::new(false);
+/// Whether the first one ends the program: nobody asks before the end.
+static AT_ONCE: AtomicBool = AtomicBool::new(false);
 
 /// Installs the handler.
 pub(crate) fn install() -> Result<(), CliError> {
     ctrlc::set_handler(|| {
-        if ASKED.swap(true, Ordering::SeqCst) {
+        if ASKED.swap(true, Ordering::SeqCst) || AT_ONCE.load(Ordering::SeqCst) {
             crate::files::abandon();
             crate::commands::review::abandon();
             std::process::exit(130);
         }
     })
     .map_err(|e| CliError::Input(format!("cannot watch for interrupts: {e}")))
+}
+
+/// From now on the first interrupt ends the program, because what it does does not ask. Files that are being written are removed.
+pub(crate) fn end_at_once() {
+    AT_ONCE.store(true, Ordering::SeqCst);
 }
 
 /// Whether the user asked to end.

@@ -116,7 +116,8 @@ impl Axes {
 fn half_axes(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
     let (stretch, rest) = (size(*f), size(*e));
     let longer = 0.5 * (stretch + rest);
-    if stretch.min(rest) <= least * longer {
+    // What vanishes beside the rest has no direction, nor has its product with it.
+    if stretch.min(rest) <= least.max(f64::EPSILON * f64::EPSILON) * longer {
         return None;
     }
     let major = half_angle([f[0] * e[0] - f[1] * e[1], f[0] * e[1] + f[1] * e[0]]);

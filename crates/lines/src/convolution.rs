@@ -1,6 +1,6 @@
 //! Noise smeared along axes: line integral convolution.
 
-use crate::ftle::check_length;
+use crate::ftle::{check_length, check_work};
 use crate::{Family, Interpolated, SamplingError, fine_grid};
 use core::f64::consts::PI;
 use rayon::prelude::*;
@@ -82,6 +82,7 @@ fn sampled(field: &Interpolated<'_>, options: &ConvolutionOptions) -> Result<(Gr
     let grid = fine_grid(field.field().grid(), options.samples)?;
     let step = 1.0 / (STEPS_A_SAMPLE * options.samples as f64);
     check_length(options.half_length, step)?;
+    check_work(grid, options.half_length, step)?;
     Ok((grid, step))
 }
 

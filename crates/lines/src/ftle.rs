@@ -46,6 +46,16 @@ pub enum SamplingError {
         /// The largest number.
         limit: usize,
     },
+    /// More steps than can be waited for.
+    #[error("{samples} lines of {steps} steps to each side: expected at most {limit:e} steps together")]
+    Work {
+        /// Lines.
+        samples: usize,
+        /// Steps to each side.
+        steps: f64,
+        /// Most steps together.
+        limit: f64,
+    },
     /// A length that is no length.
     #[error(
         "a length of {length} cells in steps of {step}: expected positive numbers, and at most {limit} steps"
@@ -79,6 +89,8 @@ const MAX_SAMPLES: usize = 1 << 26;
 const MAX_SAMPLES_A_CELL: usize = 64;
 /// Most steps of a line.
 const MAX_STEPS: f64 = 1e5;
+/// Most steps of all lines together: an hour and more.
+const MAX_WORK: f64 = 1e11;
 
 /// The grid of samples finer than the cells of a grid: `samples (W - 1) + 1` by `samples (H - 1) + 1`.
 ///
@@ -102,6 +114,15 @@ pub(crate) fn check_length(length: f64, step: f64) -> Result<(), SamplingError> 
     if possible { Ok(()) } else { Err(SamplingError::Length { length, step, limit }) }
 }
 
+/// Refuses work that would take days.
+pub(crate) fn check_work(samples: Grid, length: f64, step: f64) -> Result<(), SamplingError> {
+    let steps = 2.0 * samples.cells() as f64 * length / step;
+    if steps <= MAX_WORK {
+        return Ok(());
+    }
+    Err(SamplingError::Work { samples: samples.cells(), steps: (length / step).ceil(), limit: MAX_WORK })
+}
+
 /// The exponent of the map that takes a point along its line by a length, after Hlawatsch, Vollrath, Sadlo and Weiskopf (Coherent
 /// structures of characteristic curves in symmetric second order tensor fields, 2011), with the flow map of both directions of the
 /// line. A line has no first direction, so the neighbours of a sample are taken in the directions nearer to its own, and of the
@@ -115,6 +136,7 @@ pub(crate) fn check_length(length: f64, step: f64) -> Result<(), SamplingError> 
 pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> Result<Ftle, SamplingError> {
     check_length(options.length, options.step)?;
     let grid = fine_grid(field.field().grid(), options.samples)?;
+    check_work(grid, options.length, options.step)?;
     let samples = options.samples as f64;
     let follow = LineOptions {
         step: options.step,

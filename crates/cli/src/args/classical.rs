@@ -81,13 +81,13 @@ pub(crate) struct LinesArgs {
     /// Step, cells; the longest one with rk45.
     #[arg(long, value_name = "CELLS", default_value = "0.1", value_parser = parse_step)]
     pub(crate) step: f64,
-    /// Largest error of a step with rk45, cells.
-    #[arg(long, value_name = "CELLS", default_value = "1e-6", value_parser = parse_tolerance)]
-    pub(crate) tolerance: f64,
+    /// Largest error of a step with rk45, cells; 1e-6 by default.
+    #[arg(long, value_name = "CELLS", value_parser = parse_tolerance)]
+    pub(crate) tolerance: Option<f64>,
     /// Longest line to each side of its seed, cells; by default four times the longer side.
     #[arg(long, value_name = "CELLS", value_parser = parse_length)]
     pub(crate) length: Option<f64>,
-    /// Lines end where the axes differ by less than this part of the longer one.
+    /// Lines end where the axes differ by less than this part of the longer one; with --inertia it only says where they begin.
     #[arg(long, value_name = "F", default_value = "0.001", value_parser = parse_share)]
     pub(crate) least_anisotropy: f64,
     /// Inertia of tensorlines, which cross round tensors: the weight of the tensor there, from 0 (straight on) to 1.
@@ -203,9 +203,9 @@ pub(crate) struct GlyphsArgs {
     /// What stands for a tensor.
     #[arg(long, value_enum, default_value_t = KindName::Ellipse)]
     pub(crate) kind: KindName,
-    /// Sharpness of superquadrics.
-    #[arg(long, value_name = "F", default_value = "3", value_parser = parse_gamma)]
-    pub(crate) gamma: f64,
+    /// Sharpness of superquadrics; 3 by default.
+    #[arg(long, value_name = "F", value_parser = parse_gamma)]
+    pub(crate) gamma: Option<f64>,
     /// How glyphs are scaled against each other.
     #[arg(long, value_enum, default_value_t = ScaleName::Field)]
     pub(crate) scale: ScaleName,

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use tigereye_experiments::classical::Placement;
 use tigereye_experiments::provenance::provenance;
 use tigereye_io::IoError;
-use tigereye_render::Scene;
+use tigereye_render::{RenderError, Scene};
 
 /// Refuses endings that are none of `endings`, and places where nothing can be written, before anything is computed.
 pub(super) fn check_outputs(outputs: &[PathBuf], endings: &[&str]) -> Result<(), CliError> {
@@ -25,11 +25,24 @@ pub(super) fn check_outputs(outputs: &[PathBuf], endings: &[&str]) -> Result<(),
     Ok(())
 }
 
-/// The input, unless it is among the outputs.
+/// The input, unless it is among the outputs. From here on an interrupt ends the program.
 pub(super) fn open_input(text: &str, reading: &ReadingArgs, outputs: &[PathBuf]) -> Result<Input, CliError> {
-    let input = Input::open(text, reading)?;
+    let input = Input::open_for_squares(text, reading)?;
     input.check_apart(outputs)?;
+    interrupt::end_at_once();
     Ok(input)
+}
+
+/// Most steps of a line.
+const MAX_STEPS: f64 = 1e7;
+
+/// Refuses lines of more steps than can be.
+pub(super) fn check_steps(length: f64, step: f64) -> Result<(), CliError> {
+    if length / step <= MAX_STEPS {
+        return Ok(());
+    }
+    let problem = format!("{length} cells in steps of {step}: expected at most 10^7 steps (option --step)");
+    Err(CliError::input("--length", problem))
 }
 
 /// The provenance of what is made of an input with these parameters.
@@ -54,15 +67,20 @@ pub(super) fn longer_side(input: &Input) -> f64 {
 /// Writes a picture to every output that is one, and data to the others.
 pub(super) fn write(
     outputs: &[PathBuf],
-    picture: &dyn Fn() -> Scene,
+    picture: &dyn Fn() -> Result<Scene, RenderError>,
     data: &dyn Fn() -> Result<Vec<u8>, IoError>,
 ) -> Result<(), CliError> {
+    let mut scene = None;
     for output in outputs {
         interrupt::check()?;
         let fault = |problem: String| CliError::input(&output.display().to_string(), problem);
-        let bytes = match files::extension(output).as_str() {
-            "png" => picture().to_png(PNG_SCALE).map_err(|e| fault(e.to_string()))?,
-            "svg" => picture().to_svg().map_err(|e| fault(e.to_string()))?.into_bytes(),
+        let ending = files::extension(output);
+        if scene.is_none() && matches!(ending.as_str(), "png" | "svg") {
+            scene = Some(picture().map_err(|e| fault(e.to_string()))?);
+        }
+        let bytes = match (ending.as_str(), &scene) {
+            ("png", Some(scene)) => scene.to_png(PNG_SCALE).map_err(|e| fault(e.to_string()))?,
+            ("svg", Some(scene)) => scene.to_svg().map_err(|e| fault(e.to_string()))?.into_bytes(),
             _ => data().map_err(|e| fault(e.to_string()))?,
         };
         files::write(output, &bytes)?;

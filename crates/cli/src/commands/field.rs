@@ -74,7 +74,7 @@ pub(crate) fn new(args: &FieldNewArgs) -> Result<u8, CliError> {
 
 pub(crate) fn show(args: &FieldShowArgs) -> Result<u8, CliError> {
     check_outputs(std::slice::from_ref(&args.output), &["png", "svg"])?;
-    let input = Input::open_for_light(&args.input, &args.reading)?;
+    let input = Input::open_for_squares(&args.input, &args.reading)?;
     input.check_apart(std::slice::from_ref(&args.output))?;
     let options = SheetOptions {
         title: input.title.clone().unwrap_or_else(|| input.name.clone()),

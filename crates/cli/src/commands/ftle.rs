@@ -26,7 +26,7 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
         "samples": samples,
     });
     let story = drawing::story(&input, parameters, &args.reading);
-    drawing::write(&args.outputs, &|| exponents_picture(&found, &args.input, Vec::new(), None), &|| {
+    drawing::write(&args.outputs, &|| Ok(exponents_picture(&found, &args.input, Vec::new(), None)), &|| {
         let arrays = [("FTLE", &found.larger), ("FTLE_smaller", &found.smaller)];
         vti::write(&image(&arrays, samples, &drawing::placement(&input), &story))
     })?;

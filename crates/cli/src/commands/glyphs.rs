@@ -13,7 +13,7 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
     let kind = match args.kind {
         KindName::Ellipse => GlyphKind::Ellipse,
         KindName::Box => GlyphKind::Box,
-        KindName::Superquadric => GlyphKind::Superquadric { gamma: args.gamma },
+        KindName::Superquadric => GlyphKind::Superquadric { gamma: args.gamma.unwrap_or(GlyphKind::GAMMA) },
         KindName::Signed => GlyphKind::Signed,
         KindName::Arrows => GlyphKind::Arrows,
         KindName::Asymmetric => GlyphKind::Asymmetric,
@@ -33,9 +33,14 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
         None => GlyphColour::Anisotropy,
     };
     let title = args.input.clone();
+    if args.gamma.is_some() && args.kind != KindName::Superquadric {
+        return Err(CliError::input(
+            "--gamma",
+            "is the sharpness of superquadrics: expected --kind superquadric",
+        ));
+    }
     let options = GlyphOptions { title, kind, scale, colour, every: args.every, ..GlyphOptions::default() };
-    let picture = glyphs(&input.field, &options);
     // No ending is left for data.
-    drawing::write(&args.outputs, &|| picture.clone(), &|| Ok(Vec::new()))?;
+    drawing::write(&args.outputs, &|| Ok(glyphs(&input.field, &options)), &|| Ok(Vec::new()))?;
     Ok(0)
 }

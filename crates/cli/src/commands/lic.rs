@@ -23,9 +23,8 @@ pub(crate) fn run(args: &LicArgs) -> Result<u8, CliError> {
     };
     let found = texture(&input.field, &request).map_err(|e| CliError::input(&args.input, e))?;
     let story = drawing::story(&input, texture_parameters(&request), &args.reading);
-    let picture = texture_picture(&found, &input.field, samples, args.tint, &args.input, None)
-        .map_err(|e| CliError::input(&args.input, e))?;
-    drawing::write(&args.outputs, &|| picture.clone(), &|| {
+    let picture = || texture_picture(&found, &input.field, samples, args.tint, &args.input, None);
+    drawing::write(&args.outputs, &picture, &|| {
         vti::write(&image(&[("LIC", &found)], samples, &drawing::placement(&input), &story))
     })?;
     let (width, height) = (found.grid().width(), found.grid().height());

@@ -12,19 +12,29 @@ use tigereye_lines::{Axes, Inertia, LineOptions, Method};
 
 /// Distance of lines in parts of the longer side.
 const LINES_A_SIDE: f64 = 40.0;
+/// Largest error of an adaptive step, cells.
+const TOLERANCE: f64 = 1e-6;
 /// Longest line in longer sides.
 const SIDES: f64 = 4.0;
 
 pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
     let input = drawing::open_input(&args.input, &args.reading, &args.outputs)?;
+    if args.tolerance.is_some() && args.method != MethodName::Rk45 {
+        return Err(CliError::input("--tolerance", "is that of adaptive steps: expected --method rk45"));
+    }
     let request = request(args, &input);
+    drawing::check_steps(request.options.length, request.options.step)?;
+    check_seeds(args, &input)?;
     let found = lines(&input.field, &request);
     let story = drawing::story(&input, parameters(&request), &args.reading);
-    drawing::write(&args.outputs, &|| found.picture(&input.field, &args.input, Vec::new(), None), &|| {
-        vtp::write(&found.poly_data(&drawing::placement(&input), &story))
-    })?;
-    let length: f64 = found.lines.iter().map(|l| l.line.length()).sum();
+    drawing::write(
+        &args.outputs,
+        &|| Ok(found.picture(&input.field, &args.input, Vec::new(), None)),
+        &|| vtp::write(&found.poly_data(&drawing::placement(&input), &story)),
+    )?;
+    // The sum of nothing is -0.
+    let length = found.lines.iter().map(|l| l.line.length()).sum::<f64>() + 0.0;
     if args.json {
         print_json(&json!({
             "width": input.field.grid().width(),
@@ -34,6 +44,8 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
             "points": found.lines.iter().map(|l| l.line.points.len()).sum::<usize>(),
             "length": length,
         }))?;
+    } else if found.lines.is_empty() {
+        print_text(&format!("no tensor where a line may begin has {}\n", axes_words(request.axes)))?;
     } else {
         let count = counted(found.lines.len(), "line");
         print_text(&format!(
@@ -42,6 +54,21 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
         ))?;
     }
     Ok(0)
+}
+
+/// Refuses seeds outside of the field.
+fn check_seeds(args: &LinesArgs, input: &Input) -> Result<(), CliError> {
+    let [right, bottom] = [input.field.grid().width() - 1, input.field.grid().height() - 1];
+    let is_inside =
+        |p: &[f64; 2]| (0.0..=right as f64).contains(&p[0]) && (0.0..=bottom as f64).contains(&p[1]);
+    match args.seeds.iter().find(|p| !is_inside(p)) {
+        None => Ok(()),
+        Some([x, y]) => {
+            let problem =
+                format!("is not in the field: expected X from 0 to {right} and Y from 0 to {bottom}");
+            Err(CliError::input(&format!("--seed {x},{y}"), problem))
+        }
+    }
 }
 
 fn request(args: &LinesArgs, input: &Input) -> LinesRequest {
@@ -53,7 +80,7 @@ fn request(args: &LinesArgs, input: &Input) -> LinesRequest {
     };
     let method = match args.method {
         MethodName::Rk4 => Method::RungeKutta4,
-        MethodName::Rk45 => Method::DormandPrince { tolerance: args.tolerance },
+        MethodName::Rk45 => Method::DormandPrince { tolerance: args.tolerance.unwrap_or(TOLERANCE) },
     };
     LinesRequest {
         axes: args.axes.map_or_else(|| usual_axes(&input.field), Axes::from),

@@ -23,7 +23,7 @@ use tigereye_transport::{Scattering, Scheme, SharedWeights};
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     check_places(args)?;
     let start = Instant::now();
-    let input = Input::open_for_light(&args.input, &args.scheme.reading)?;
+    let input = Input::open_for_squares(&args.input, &args.scheme.reading)?;
     input.check_apart(&args.outputs)?;
     let settings = settings_of(args)?;
     let normalization = input.normalization(args.scheme.normalization);

@@ -28,7 +28,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     check_outputs(&args.outputs, &["vti", "npy", "png", "svg", "pvd"])?;
     args.outputs.iter().filter(|o| is_collection(o)).try_for_each(|o| check_frames(o, args))?;
     let start = Instant::now();
-    let input = Input::open_for_light(&args.input, &args.scheme.reading)?;
+    let input = Input::open_for_squares(&args.input, &args.scheme.reading)?;
     input.check_apart(&args.outputs)?;
     for folder in args.outputs.iter().filter(|o| is_collection(o)).map(|o| folder_of_frames(o)) {
         let inside = |file: &&String| files::place_of(Path::new(file)).starts_with(files::place_of(&folder));

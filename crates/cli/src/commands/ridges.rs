@@ -57,9 +57,11 @@ pub(crate) fn run(args: &RidgesArgs) -> Result<u8, CliError> {
     let story = provenance(&command_line(), &parameters, &hash_of_bytes(&bytes));
     let label = if args.contour.is_some() { "contour" } else { "height ridges" };
     let picture = found.picture(&image, &args.input, label).map_err(|e| fault(e.to_string()))?;
-    drawing::write(&args.outputs, &|| picture.clone().unwrap_or_else(|| Scene::sized(1.0, 1.0)), &|| {
-        vtp::write(&found.poly_data(&image, &story))
-    })?;
+    drawing::write(
+        &args.outputs,
+        &|| Ok(picture.clone().unwrap_or_else(|| Scene::sized(1.0, 1.0))),
+        &|| vtp::write(&found.poly_data(&image, &story)),
+    )?;
     let (kind, points) = match &found {
         Found::Lines { lines, .. } => ("line", lines.points.len()),
         Found::Surface { surface, .. } => ("triangle", surface.points.len()),

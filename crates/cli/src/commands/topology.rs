@@ -4,7 +4,7 @@ use crate::args::classical::TopologyArgs;
 use crate::commands::{counted, drawing, print_json, print_text};
 use crate::error::CliError;
 use serde_json::json;
-use tigereye_experiments::classical::{axes_name, topology, usual_axes};
+use tigereye_experiments::classical::{axes_name, family_name, topology, usual_axes};
 use tigereye_io::vtp;
 use tigereye_lines::{Axes, LineOptions};
 
@@ -14,12 +14,17 @@ pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
     let axes = args.axes.map_or_else(|| usual_axes(&input.field), Axes::from);
     let length = args.length.unwrap_or(4.0 * drawing::longer_side(&input));
     let options = LineOptions { step: args.step, length, ..LineOptions::default() };
-    let found = topology::topology(&input.field, axes, args.family.families(), &options);
-    let parameters = json!({ "axes": axes_name(axes), "step": args.step, "length": length });
+    drawing::check_steps(length, args.step)?;
+    let families = args.family.families();
+    let found = topology::topology(&input.field, axes, families, &options);
+    let names: Vec<&str> = families.iter().map(|f| family_name(*f)).collect();
+    let parameters = json!({ "axes": axes_name(axes), "family": names, "step": args.step, "length": length });
     let story = drawing::story(&input, parameters, &args.reading);
-    drawing::write(&args.outputs, &|| topology::picture(&found, &input.field, axes, &args.input), &|| {
-        vtp::write(&topology::poly_data(&found, &drawing::placement(&input), &story))
-    })?;
+    drawing::write(
+        &args.outputs,
+        &|| Ok(topology::picture(&found, &input.field, axes, families, &args.input)),
+        &|| vtp::write(&topology::poly_data(&found, &drawing::placement(&input), &story)),
+    )?;
     let summary = topology::summary(&found);
     if args.json {
         print_json(&summary)?;

@@ -22,15 +22,18 @@ pub fn topology(field: &Field<Tensor2>, axes: Axes, families: &[Family], options
 
 /// Points and separatrices over thin lines of the same axes.
 #[must_use]
-pub fn picture(topology: &Topology, field: &Field<Tensor2>, axes: Axes, title: &str) -> Scene {
+pub fn picture(
+    topology: &Topology,
+    field: &Field<Tensor2>,
+    axes: Axes,
+    families: &[Family],
+    title: &str,
+) -> Scene {
     let longest = field.grid().width().max(field.grid().height()) as f64;
     let mut overlays = Vec::new();
-    for family in [Family::Major, Family::Minor] {
+    for &family in families {
         let lines: Vec<&TensorLine> =
             topology.separatrices.iter().filter(|s| s.family == family).map(|s| &s.line).collect();
-        if lines.is_empty() && family == Family::Minor {
-            continue;
-        }
         let options = LineOptions { step: 0.2, length: longest, ..LineOptions::default() };
         let followed = Followed::new(field, axes);
         let around =

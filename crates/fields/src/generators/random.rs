@@ -8,7 +8,6 @@
 //! Symmetric, often indefinite. Deterministic for a seed (SplitMix64); the thesis's own random numbers are
 //! not known. Source: the thesis's synthetic test fields.
 
-
 use crate::geometry::{Place, index_field};
 use crate::splitmix::SplitMix64;
 use crate::{Generator, Parameter, Settings};

@@ -37,11 +37,10 @@ const RIDGES: &str = "\
     exponent (FTLE) does for flows.";
 
 const TENSOR_LINES: &str = "\
-    Several figures of the thesis set a picture of tensor lines (curves that follow the major axis from \
-    cell to cell) beside the result. This report draws no such curves. In their place it shows the \
-    ellipses themselves as glyphs, and a map of the major axis’ orientation in a cyclic colour scale. Both \
-    carry the same directions, but the eye has to join them up: where lines part or meet is read from the \
-    glyphs, not seen as curves, and those panels are not reproduced line by line.";
+    The figures of the test fields have them too: curves that follow the major half-axis of the tensors’ ellipses, \
+    interpolated between the cells, evenly spaced and followed to the border. The thesis chose other seeds, so its curves \
+    are others of the same family. Where it lays lines over light or over a gradient, this report has glyphs or a map of \
+    the axis’ orientation beside them; the section on the classical methods has lines and gradients of the same fields.";
 
 /// The method in a few sentences, beside a drawing of one cell.
 pub(super) fn introduction() -> Markup {
@@ -77,7 +76,7 @@ fn diagram() -> Markup {
     }
 }
 
-/// What stands in for the tensor-line panels of the thesis.
+/// How the tensor-line panels of the thesis are reproduced.
 pub(super) fn about_tensor_lines() -> Markup {
     html! {
         section.note aria-labelledby="page--lines" {

@@ -55,6 +55,26 @@ pub enum CoreError {
         /// Row of the cell.
         y: usize,
     },
+    /// A wall's part is negative, or a wall sends back more than all.
+    #[error(
+        "of the light in direction {direction} a wall sends back {sum}: expected parts of 0 or more with a sum of at most 1"
+    )]
+    ReflectionRange {
+        /// Direction of the arriving light, 0 to 7.
+        direction: usize,
+        /// Sum of the parts.
+        sum: f64,
+    },
+    /// A rate outside [0, 1].
+    #[error("the rate {rate} of cell ({x}, {y}) is out of range: expected 0 to 1")]
+    Rate {
+        /// Column of the cell.
+        x: usize,
+        /// Row of the cell.
+        y: usize,
+        /// Its rate.
+        rate: f64,
+    },
     /// The fraction of `local-above` outside [0, 1].
     #[error("the fraction {fraction} of local-above is out of range: expected 0 to 1")]
     Fraction {

@@ -16,6 +16,7 @@ mod field;
 mod grid;
 pub mod math;
 mod profile;
+mod reflection;
 mod results;
 mod symmetric3;
 mod tensor;
@@ -29,10 +30,11 @@ pub use factors::{OrthogonalFactor, PrincipalAxes};
 pub use field::Field;
 pub use grid::{Cell, Grid, NEIGHBOUR_OFFSETS};
 pub use profile::PolarProfile;
+pub use reflection::{Reflection, Surface};
 pub use results::{LightDistribution, LtgVolume, StopReason, SweepWork, Work};
 pub use symmetric3::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
 pub use tensor::Tensor2;
 pub use transmission::{
-    Below, Normalization, TOTAL_ANISOTROPY_RATIO, TransmissionField, is_totally_anisotropic,
-    transmission_ellipse,
+    Below, CellTransmission, Normalization, TOTAL_ANISOTROPY_RATIO, TransmissionField,
+    is_totally_anisotropic, transmission_ellipse,
 };

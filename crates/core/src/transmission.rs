@@ -1,6 +1,7 @@
 //! Tensors to transmission profiles (thesis, section 3.3).
 
-use crate::{Cell, CoreError, Directions, Field, Grid, PolarProfile, Svd, Tensor2, math};
+use crate::reflection::Reflections;
+use crate::{Cell, CoreError, Directions, Field, Grid, PolarProfile, Reflection, Svd, Tensor2, math};
 
 /// Above this ratio of the half-axes (or with a vanishing one) a tensor counts as totally anisotropic and its profile
 /// is a bidirectional pulse (thesis, section 4.3; the value is the published programme's).
@@ -103,6 +104,18 @@ pub struct TransmissionField {
     directions: Directions,
     shapes: Vec<f64>,
     rates: Vec<f64>,
+    reflections: Reflections,
+}
+
+/// What [`TransmissionField::assembled`] puts into a cell.
+#[derive(Clone, Debug)]
+pub enum CellTransmission<'a> {
+    /// The same in every direction, a rate from 0 to 1.
+    Isotropic(f64),
+    /// That of a cell of another field.
+    Of(&'a TransmissionField, Cell),
+    /// None: the cell sends light back.
+    Reflecting(&'a Reflection),
 }
 
 impl TransmissionField {
@@ -136,6 +149,7 @@ impl TransmissionField {
             directions,
             shapes: Vec::with_capacity(tensors.grid().cells() * directions.count()),
             rates: Vec::with_capacity(tensors.grid().cells()),
+            reflections: Reflections::default(),
         };
         for (shape, &mean) in shapes.iter().zip(&means) {
             let rate = match normalization {
@@ -166,7 +180,7 @@ impl TransmissionField {
             let (width, height) = (grid.width(), grid.height());
             return Err(CoreError::ValueCount { values: profiles.len(), width, height });
         }
-        let mut field = Self { grid, directions, shapes: Vec::new(), rates: Vec::new() };
+        let mut field = Self::empty(grid, directions);
         for (cell, p) in grid.iter().zip(profiles) {
             let expected = directions.count();
             if p.directions() != directions {
@@ -186,6 +200,48 @@ impl TransmissionField {
             field.push(p.samples(), mean, mean.min(1.0));
         }
         Ok(field)
+    }
+
+    /// Transmission put together cell by cell: a scene.
+    ///
+    /// # Errors
+    /// [`CoreError::Rate`]; [`CoreError::ProfileLength`] where a cell of a field with other directions is taken.
+    ///
+    /// # Panics
+    /// Where a cell is taken that the other field does not have.
+    pub fn assembled<'a>(
+        grid: Grid,
+        directions: Directions,
+        mut of: impl FnMut(Cell) -> CellTransmission<'a>,
+    ) -> Result<Self, CoreError> {
+        let mut field = Self::empty(grid, directions);
+        let (even, nothing) = (vec![1.0; directions.count()], vec![0.0; directions.count()]);
+        for (index, cell) in grid.iter().enumerate() {
+            match of(cell) {
+                CellTransmission::Isotropic(rate) if (0.0..=1.0).contains(&rate) => {
+                    field.push(&even, 1.0, rate)
+                }
+                CellTransmission::Isotropic(rate) => {
+                    return Err(CoreError::Rate { x: cell.x, y: cell.y, rate });
+                }
+                CellTransmission::Of(other, there) if other.directions == directions => {
+                    field.push(other.shape(there), 1.0, other.rate(there));
+                }
+                CellTransmission::Of(other, _) => {
+                    let (samples, expected) = (other.directions.count(), directions.count());
+                    return Err(CoreError::ProfileLength { samples, expected });
+                }
+                CellTransmission::Reflecting(reflection) => {
+                    field.push(&nothing, 0.0, 0.0);
+                    field.reflections.push(index, reflection.clone());
+                }
+            }
+        }
+        Ok(field)
+    }
+
+    fn empty(grid: Grid, directions: Directions) -> Self {
+        Self { grid, directions, shapes: Vec::new(), rates: Vec::new(), reflections: Reflections::default() }
     }
 
     fn push(&mut self, samples: &[f64], mean: f64, rate: f64) {
@@ -220,6 +276,15 @@ impl TransmissionField {
     #[must_use]
     pub fn rates(&self) -> &[f64] {
         &self.rates
+    }
+    /// What a reflecting cell does. Its rate and its shape are 0: it passes nothing on, and a light in it none either.
+    #[must_use]
+    pub fn reflection(&self, cell: Cell) -> Option<&Reflection> {
+        self.reflections.of(self.grid.index(cell))
+    }
+    /// All reflecting cells, row-major.
+    pub fn reflections(&self) -> impl Iterator<Item = (Cell, &Reflection)> {
+        self.reflections.iter(self.grid.width())
     }
     /// `T` of a cell: `rate * shape`.
     #[must_use]
@@ -288,6 +353,30 @@ mod tests {
                 assert!(t.rate(cell) <= 1.0 && t.rate(cell) > 0.0);
             }
         }
+    }
+
+    #[test]
+    fn assembled_cells_keep_what_they_are_made_of() {
+        let d = directions(16);
+        let tensors = row(vec![Tensor2::from_axes(0.4, 1.0, 0.2), Tensor2::from_axes(0.4, 0.5, 0.1)]);
+        let crystal = TransmissionField::from_tensors(&tensors, d, Normalization::Global).expect("a field");
+        let mut parts = [[0.0; 8]; 8];
+        parts[4][0] = 1.0;
+        let wall = Reflection::new(parts).expect("a reflection");
+        let grid = Grid::new(2, 2).expect("a grid");
+        let made = TransmissionField::assembled(grid, d, |c| match (c.x, c.y) {
+            (x, 0) => CellTransmission::Of(&crystal, Cell::new(x, 0)),
+            (0, _) => CellTransmission::Isotropic(0.25),
+            _ => CellTransmission::Reflecting(&wall),
+        });
+        let made = made.expect("a field");
+        assert_eq!(made.shape(Cell::new(1, 0)), crystal.shape(Cell::new(1, 0)));
+        assert_eq!(made.rates(), [1.0, crystal.rates()[1], 0.25, 0.0]);
+        assert_eq!(made.reflection(Cell::new(1, 1)), Some(&wall));
+        assert_eq!(made.reflections().map(|(c, _)| c).collect::<Vec<_>>(), [Cell::new(1, 1)]);
+        assert_eq!(made.reflection(Cell::new(0, 1)), None);
+        let bright = TransmissionField::assembled(grid, d, |_| CellTransmission::Isotropic(1.5));
+        assert_eq!(bright, Err(CoreError::Rate { x: 0, y: 0, rate: 1.5 }));
     }
 
     #[test]

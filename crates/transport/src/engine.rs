@@ -3,7 +3,7 @@
 use crate::light::check_lights;
 use crate::{Light, Scheme, Stopping, StoppingRule, TransportError};
 use std::ops::ControlFlow;
-use tigereye_core::{Field, LightDistribution, StopReason, TransmissionField, Work};
+use tigereye_core::{Cell, Field, LightDistribution, StopReason, TransmissionField, Work};
 
 /// Everything that determines a propagation.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +30,12 @@ impl Problem<'_> {
             return Err(TransportError::TransmissionDirections { samples, expected: directions.count() });
         }
         self.stopping.check()?;
-        check_lights(self.lights, self.transmission.grid(), directions)
+        check_lights(self.lights, self.transmission.grid(), directions)?;
+        let in_wall = |light: &&Light| self.transmission.reflection(light.cell).is_some();
+        match self.lights.iter().find(in_wall) {
+            Some(Light { cell: Cell { x, y }, .. }) => Err(TransportError::LightInWall { x: *x, y: *y }),
+            None => Ok(()),
+        }
     }
 }
 

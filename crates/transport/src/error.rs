@@ -36,6 +36,14 @@ pub enum TransportError {
         /// Row of the light.
         y: usize,
     },
+    /// A light in a cell that sends light back.
+    #[error("the light at ({x}, {y}) is inside a wall: expected a cell that passes light on")]
+    LightInWall {
+        /// Column of the light.
+        x: usize,
+        /// Row of the light.
+        y: usize,
+    },
     /// A light with another sampling than the scheme's.
     #[error("the light at ({x}, {y}) has {samples} directions where the scheme has {expected}")]
     LightDirections {

@@ -86,7 +86,10 @@ impl Buffers {
                     None => {
                         let (m, a) =
                             (&field.cells[self.grid.index(cell)], &self.from[self.padding.index(x, y)]);
-                        normalized(m.rate, sum_of_eight(a), &scattered(m, a))
+                        match field.transmission().reflection(cell) {
+                            Some(wall) => wall.reflected(a),
+                            None => normalized(m.rate, sum_of_eight(a), &scattered(m, a)),
+                        }
                     }
                 };
                 row += self.pass(cell, phi);

@@ -85,7 +85,10 @@ fn step(problem: &Problem<'_>, source: &Buffer, target: &mut Buffer) -> (f64, u6
                 continue;
             }
             cells += 1;
-            let phi = outgoing_flux(problem, cell, intensity);
+            let phi = match problem.transmission.reflection(cell) {
+                Some(wall) => wall.reflected(&source.incoming[i]),
+                None => outgoing_flux(problem, cell, intensity),
+            };
             for k in 0..8 {
                 let Some(next) = grid.neighbour(cell, k) else { continue };
                 let j = grid.index(next);

@@ -1,6 +1,6 @@
 //! The number types pulses can be computed in.
 
-use crate::pulses::{Passage, SectorSums};
+use crate::pulses::{Passage, SectorSums, Walls};
 use crate::scattering::Scattering;
 use crate::simd::Vectors;
 use core::fmt::Debug;
@@ -62,6 +62,8 @@ pub(crate) trait Number:
 
     /// How the cells of a field pass light on, row-major.
     fn passages<'f>(field: &'f Scattering<'_>) -> &'f [Passage<Self>];
+    /// The cells that send light back.
+    fn walls<'f>(field: &'f Scattering<'_>) -> &'f Walls<Self>;
     /// The field's angular sums.
     fn sector_sums<'f>(field: &'f Scattering<'_>) -> &'f SectorSums<Self>;
     fn narrowed(value: f64) -> Self;
@@ -72,7 +74,7 @@ pub(crate) trait Number:
 }
 
 macro_rules! number {
-    ($type:ident, $passages:ident, $sums:ident, $tiny:literal, $settled:literal, $residence:literal) => {
+    ($type:ident, $passages:ident, $walls:ident, $sums:ident, $tiny:literal, $settled:literal, $residence:literal) => {
         impl Number for $type {
             const TINY: Self = $tiny;
             const SETTLED: f64 = $settled;
@@ -80,6 +82,9 @@ macro_rules! number {
 
             fn passages<'f>(field: &'f Scattering<'_>) -> &'f [Passage<Self>] {
                 field.$passages.get_or_init(|| field.make_passages())
+            }
+            fn walls<'f>(field: &'f Scattering<'_>) -> &'f Walls<Self> {
+                field.$walls.get_or_init(|| Walls::of(field.transmission()))
             }
             fn sector_sums<'f>(field: &'f Scattering<'_>) -> &'f SectorSums<Self> {
                 field.$sums.get_or_init(|| SectorSums::new(field.scheme()))
@@ -105,5 +110,5 @@ macro_rules! number {
     };
 }
 
-number!(f64, passages_f64, sums_f64, 1e-280, 1e-14, 1e7);
-number!(f32, passages_f32, sums_f32, 1e-30, 1e-6, 1e4);
+number!(f64, passages_f64, walls_f64, sums_f64, 1e-280, 1e-14, 1e7);
+number!(f32, passages_f32, walls_f32, sums_f32, 1e-30, 1e-6, 1e4);

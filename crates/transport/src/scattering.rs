@@ -8,7 +8,7 @@
 //! entries a row. And T is the same in opposite directions, so row k+4 repeats row k: twenty numbers a cell.
 
 use crate::Scheme;
-use crate::pulses::{Passage, SectorSums};
+use crate::pulses::{Passage, SectorSums, Walls};
 use crate::real::Number;
 use std::sync::OnceLock;
 use tigereye_core::{Cell, Grid, TransmissionField};
@@ -31,6 +31,9 @@ pub struct Scattering<'a> {
     /// The same in the form of the pulse lanes, made when first needed.
     pub(crate) passages_f64: OnceLock<Vec<Passage<f64>>>,
     pub(crate) passages_f32: OnceLock<Vec<Passage<f32>>>,
+    /// The cells that send light back, likewise.
+    pub(crate) walls_f64: OnceLock<Walls<f64>>,
+    pub(crate) walls_f32: OnceLock<Walls<f32>>,
     /// What sums over the angular samples need.
     pub(crate) sums_f64: OnceLock<SectorSums<f64>>,
     pub(crate) sums_f32: OnceLock<SectorSums<f32>>,
@@ -52,6 +55,8 @@ impl<'a> Scattering<'a> {
             cells,
             passages_f64: OnceLock::new(),
             passages_f32: OnceLock::new(),
+            walls_f64: OnceLock::new(),
+            walls_f32: OnceLock::new(),
             sums_f64: OnceLock::new(),
             sums_f32: OnceLock::new(),
         }

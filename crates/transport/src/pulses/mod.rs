@@ -12,12 +12,14 @@ mod stationary;
 mod stream;
 #[cfg(test)]
 mod tests;
+mod walls;
 
 pub use difference::l1_difference;
 pub use solver::{LaneOutcome, PulseSolver};
 
 pub(crate) use difference::SectorSums;
 pub(crate) use passage::Passage;
+pub(crate) use walls::Walls;
 
 use crate::Real;
 use crate::aligned::Aligned;

@@ -4,7 +4,7 @@ use super::PulseDistribution;
 use super::difference::distance;
 use super::source::Source;
 use super::stationary::{Memory, Settled};
-use super::stream::{MAX_FUSED, Scene, Stream};
+use super::stream::{MAX_FUSED, Medium, Stream};
 use crate::real::Number;
 use crate::scattering::Scattering;
 use crate::simd::{Level, Proven, Task, Vector};
@@ -100,8 +100,8 @@ fn run<T: Real, const N: usize>(
     let lanes: [usize; N] = std::array::from_fn(|l| samples[l.min(samples.len() - 1)]);
     let shape = field.transmission().shape(cell);
     let source = Source::new(field.scheme(), shape, cell, &lanes);
-    let scene = Scene { cells: T::passages(field), source };
-    let run = Run { field, level, scene, stream, stopping: *stopping, results };
+    let medium = Medium { cells: T::passages(field), walls: T::walls(field), source };
+    let run = Run { field, level, medium, stream, stopping: *stopping, results };
     level.dispatch(run)[..samples.len()].to_vec()
 }
 
@@ -109,7 +109,7 @@ fn run<T: Real, const N: usize>(
 pub(super) struct Run<'r, 'a, T, const N: usize> {
     pub(super) field: &'r Scattering<'a>,
     level: Level,
-    pub(super) scene: Scene<'r, T, N>,
+    pub(super) medium: Medium<'r, T, N>,
     pub(super) stream: &'r mut Stream<T, N>,
     stopping: Stopping,
     results: &'r mut [PulseDistribution<T>],
@@ -217,13 +217,13 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
         let mut changes = self.stopping.needs_distribution_change().then(|| Changes::new(self));
         // Up to which step runs may be fused: known better after a wrong guess.
         let mut fusible_until = usize::MAX;
-        let mut progress = Progress::new(self.scene.source.cell(), outcomes);
+        let mut progress = Progress::new(self.medium.source.cell(), outcomes);
         loop {
             let steps = match fusible_until.saturating_sub(progress.work.steps) {
                 0 => 1,
                 left => progress.fusible(&self.stopping).clamp(1, left.min(MAX_FUSED)),
             };
-            let (totals, windows) = self.stream.advance::<V>(proof, &self.scene, progress.window, steps);
+            let (totals, windows) = self.stream.advance::<V>(proof, &self.medium, progress.window, steps);
             let passed = windows[steps - 1];
             let mut foreseen = true;
             for s in 0..steps {
@@ -244,7 +244,7 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
             if !foreseen {
                 // The light of that step is gone: once more, and slowly from there on.
                 fusible_until = progress.work.steps - 1;
-                progress = Progress::new(self.scene.source.cell(), outcomes);
+                progress = Progress::new(self.medium.source.cell(), outcomes);
                 self.stream.clear(passed);
             } else if progress.outcomes.iter().all(Option::is_some) {
                 self.stream.clear(passed);
@@ -329,7 +329,7 @@ impl<T: Real> Changes<T> {
 
     fn measure_lane<const N: usize>(&self, run: &Run<'_, '_, T, N>, l: usize) -> (f64, f64) {
         let (scheme, grid, cell, sample) =
-            (run.field.scheme(), run.field.grid(), run.scene.source.cell(), run.results[l].sample);
+            (run.field.scheme(), run.field.grid(), run.medium.source.cell(), run.results[l].sample);
         let (now, before) = (self.now[l].lobes(), self.before[l].lobes());
         let l1 = distance(run.field, run.level, whole(grid), [now, before]);
         let at_sample =

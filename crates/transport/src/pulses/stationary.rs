@@ -14,7 +14,7 @@
 //! processor.
 
 use super::solver::Run;
-use super::stream::{Lobes, Parity, Scene, Stream, load8, slot_mut};
+use super::stream::{Lobes, Medium, Parity, Stream, load8, slot_mut};
 use crate::Real;
 use crate::real::Number;
 use crate::simd::Vector;
@@ -103,8 +103,8 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
         loop {
             self.stream.sample(&mut memory.before);
             for _ in 0..PAIRS {
-                self.stream.relax::<false, V>(proof, &self.scene);
-                self.stream.relax::<true, V>(proof, &self.scene);
+                self.stream.relax::<false, V>(proof, &self.medium);
+                self.stream.relax::<true, V>(proof, &self.medium);
                 sweeps += 2;
             }
             self.stream.sample(&mut memory.change);
@@ -153,7 +153,7 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
         let mut found = Balance { change: [0.0; N], energy: [0.0; N], injected: [0.0; N], lost: [0.0; N] };
         for (i, cell) in self.field.grid().iter().enumerate() {
             let arriving = self.stream.cell(cell);
-            let phi = self.stream.evaluate::<V>(proof, &self.scene, cell);
+            let phi = self.stream.evaluate::<V>(proof, &self.medium, cell);
             let reached = self.stream.reached(cell);
             let (mut energy, mut passed) = ([0.0; N], [0.0; N]);
             for k in 0..8 {
@@ -172,16 +172,22 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
                     }
                 }
             }
-            if cell == self.scene.source.cell() {
-                found.injected = self.scene.source.missing_energy(arriving);
+            if cell == self.medium.source.cell() {
+                found.injected = self.medium.source.missing_energy(arriving);
                 for l in 0..N {
                     energy[l] += found.injected[l];
                 }
             }
             // By the rate, not by what is missing from `passed`: that would be rounding where nothing is absorbed.
-            let absorbed = 1.0 - self.scene.cells[i].rate().widened();
+            let absorbed = 1.0 - self.medium.cells[i].rate().widened();
+            let wall = self.medium.walls.at(cell).filter(|_| cell != self.medium.source.cell());
             for l in 0..N {
                 found.energy[l] += energy[l];
+                if let Some(wall) = wall {
+                    let part = |k: usize| wall.absorbed(k) * arriving[k][l].widened();
+                    found.lost[l] += (0..8).map(part).sum::<f64>();
+                    continue;
+                }
                 found.lost[l] += if passed[l] > 0.0 { absorbed * energy[l] } else { energy[l] };
             }
         }
@@ -207,7 +213,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
     /// Every cell waits for the one before it. So a few rows run at once, each two cells behind the one before: far enough
     /// for all that it depends on, and the result is that of one row after the other, to the last bit.
     #[inline(always)]
-    fn relax<const BACK: bool, V: Vector<Number = T>>(&mut self, proof: V::Proof, scene: &Scene<'_, T, N>) {
+    fn relax<const BACK: bool, V: Vector<Number = T>>(&mut self, proof: V::Proof, medium: &Medium<'_, T, N>) {
         debug_assert_eq!(self.parity(), Parity::Even);
         let (width, height) = (self.grid().width(), self.grid().height());
         for first in (0..height).step_by(ROWS) {
@@ -217,23 +223,19 @@ impl<T: Number, const N: usize> Stream<T, N> {
                     let Some(j) = i.checked_sub(2 * r).filter(|&j| j < width) else { continue };
                     let (x, y) = (j, first + r);
                     let cell = if BACK { Cell::new(width - 1 - x, height - 1 - y) } else { Cell::new(x, y) };
-                    self.relax_cell::<V>(proof, scene, cell);
+                    self.relax_cell::<V>(proof, medium, cell);
                 }
             }
         }
     }
 
     #[inline(always)]
-    fn relax_cell<V: Vector<Number = T>>(&mut self, proof: V::Proof, scene: &Scene<'_, T, N>, cell: Cell) {
-        let passage = &scene.cells[self.grid().index(cell)];
+    fn relax_cell<V: Vector<Number = T>>(&mut self, proof: V::Proof, medium: &Medium<'_, T, N>, cell: Cell) {
+        let index = self.grid().index(cell);
         let mut around = self.three_rows(cell, 1);
         for c in 0..N / V::WIDTH {
             let a: [V; 8] = load8(proof, c, |k| &around[1][1][k]);
-            let phi = if cell == scene.source.cell() {
-                scene.source.passed(proof, c, passage, &a)
-            } else {
-                passage.pass(proof, &a).phi
-            };
+            let phi = medium.passed(proof, c, index, cell, &a);
             // What has nowhere to go ends in the ring of ghost cells, from where nothing is read.
             for k in 0..8 {
                 phi[k].store(slot_mut(&mut around, k), c);
@@ -246,19 +248,15 @@ impl<T: Number, const N: usize> Stream<T, N> {
     fn evaluate<V: Vector<Number = T>>(
         &self,
         proof: V::Proof,
-        scene: &Scene<'_, T, N>,
+        medium: &Medium<'_, T, N>,
         cell: Cell,
     ) -> Lobes<T, N> {
         let slots = self.cell(cell);
-        let passage = &scene.cells[self.grid().index(cell)];
+        let index = self.grid().index(cell);
         let mut passed = *slots;
         for c in 0..N / V::WIDTH {
             let a: [V; 8] = load8(proof, c, |k| &slots[k]);
-            let phi = if cell == scene.source.cell() {
-                scene.source.passed(proof, c, passage, &a)
-            } else {
-                passage.pass(proof, &a).phi
-            };
+            let phi = medium.passed(proof, c, index, cell, &a);
             for k in 0..8 {
                 phi[k].store(&mut passed[k], c);
             }

@@ -19,6 +19,7 @@ use crate::aligned::Aligned;
 use crate::pulses::passage::Passage;
 use crate::pulses::source::Source;
 use crate::pulses::stationary::Memory;
+use crate::pulses::walls::Walls;
 use crate::real::Number;
 use crate::simd::Vector;
 use crate::window::Window;
@@ -66,11 +67,37 @@ pub(crate) struct Stream<T, const N: usize> {
 }
 
 /// What the steps of a run have in common.
-pub(crate) struct Scene<'a, T, const N: usize> {
+pub(crate) struct Medium<'a, T, const N: usize> {
     /// Passages of the cells, row-major.
     pub(crate) cells: &'a [Passage<T>],
+    /// The cells that send light back instead; their passages let nothing through.
+    pub(crate) walls: &'a Walls<T>,
     /// The pulses.
     pub(crate) source: Source<T, N>,
+}
+
+impl<T: Number, const N: usize> Medium<'_, T, N> {
+    /// What part `c` of the lanes passes on in a cell of any kind where `a` arrives.
+    ///
+    /// The source comes first: a pulse in a wall shines on nothing.
+    #[inline(always)]
+    pub(crate) fn passed<V: Vector<Number = T>>(
+        &self,
+        proof: V::Proof,
+        c: usize,
+        index: usize,
+        cell: Cell,
+        a: &[V; 8],
+    ) -> [V; 8] {
+        let passage = &self.cells[index];
+        if cell == self.source.cell() {
+            return self.source.passed(proof, c, passage, a);
+        }
+        match self.walls.at(cell) {
+            Some(wall) => wall.pass(proof, a),
+            None => passage.pass(proof, a).phi,
+        }
+    }
 }
 
 impl<T: Number, const N: usize> Stream<T, N> {
@@ -190,7 +217,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
     pub(crate) fn advance<V: Vector<Number = T>>(
         &mut self,
         proof: V::Proof,
-        scene: &Scene<'_, T, N>,
+        medium: &Medium<'_, T, N>,
         window: Window,
         steps: usize,
     ) -> ([[f64; N]; MAX_FUSED], [Window; MAX_FUSED]) {
@@ -216,7 +243,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
                         let span = start.saturating_sub(s).max(w.x0)..(end - s.min(end)).min(w.x1 + 1);
                         if !span.is_empty() {
                             let mut flux = self.row_flux[s * height + y];
-                            self.pass_row::<V>(proof, scene, parity, y, span, &mut flux);
+                            self.pass_row::<V>(proof, medium, parity, y, span, &mut flux);
                             self.row_flux[s * height + y] = flux;
                         }
                     }
@@ -239,30 +266,38 @@ impl<T: Number, const N: usize> Stream<T, N> {
         (totals, windows)
     }
 
-    /// Cells `span` of row `y`: borders and the source apart, so that the inner loop asks nothing.
+    /// Cells `span` of row `y`: borders, walls and the source apart, so that the inner loop asks nothing.
     #[inline(always)]
     fn pass_row<V: Vector<Number = T>>(
         &mut self,
         proof: V::Proof,
-        scene: &Scene<'_, T, N>,
+        medium: &Medium<'_, T, N>,
         parity: Parity,
         y: usize,
         span: Range<usize>,
         flux: &mut [f64; N],
     ) {
-        let source = scene.source.cell();
+        let source = medium.source.cell();
         let last = self.grid.width() - 1;
         let border_row = y == 0 || y + 1 == self.grid.height();
+        let mut walls = medium.walls.right_of(y, span.start);
         let mut x = span.start;
         while x < span.end {
-            if (Cell { x, y }) == source {
-                self.pass_source::<V>(proof, scene, parity, flux);
+            let mut end = span.end;
+            if let [(column, _), rest @ ..] = walls {
+                if *column == x {
+                    walls = rest;
+                }
+                end = end.min(*column);
+            }
+            // An end at x itself: a wall.
+            if end == x || (Cell { x, y }) == source {
+                self.pass_single::<V>(proof, medium, parity, Cell { x, y }, flux);
                 x += 1;
                 continue;
             }
-            let mut end = span.end;
             if x == 0 {
-                end = 1;
+                end = end.min(1);
             } else if x < last {
                 end = end.min(last);
             }
@@ -271,10 +306,10 @@ impl<T: Number, const N: usize> Stream<T, N> {
             }
             let inner = !border_row && x > 0 && x < last;
             match (parity, inner) {
-                (Parity::Even, true) => self.even::<true, V>(proof, scene, y, x..end, flux),
-                (Parity::Even, false) => self.even::<false, V>(proof, scene, y, x..end, flux),
-                (Parity::Odd, true) => self.odd::<true, V>(proof, scene, y, x..end, flux),
-                (Parity::Odd, false) => self.odd::<false, V>(proof, scene, y, x..end, flux),
+                (Parity::Even, true) => self.even::<true, V>(proof, medium, y, x..end, flux),
+                (Parity::Even, false) => self.even::<false, V>(proof, medium, y, x..end, flux),
+                (Parity::Odd, true) => self.odd::<true, V>(proof, medium, y, x..end, flux),
+                (Parity::Odd, false) => self.odd::<false, V>(proof, medium, y, x..end, flux),
             }
             x = end;
         }
@@ -289,7 +324,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
     fn even<const INNER: bool, V: Vector<Number = T>>(
         &mut self,
         proof: V::Proof,
-        scene: &Scene<'_, T, N>,
+        medium: &Medium<'_, T, N>,
         y: usize,
         span: Range<usize>,
         flux: &mut [f64; N],
@@ -298,7 +333,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         let reached = if INNER { [true; 8] } else { self.reached(first) };
         let cell = self.grid.index(first);
         let here = self.index(span.start, y);
-        let passages = &scene.cells[cell..cell + span.len()];
+        let passages = &medium.cells[cell..cell + span.len()];
         for (slots, passage) in self.slots_mut()[here..here + span.len()].iter_mut().zip(passages) {
             for c in 0..N / V::WIDTH {
                 let a: [V; 8] = load8(proof, c, |k| &slots[k]);
@@ -314,7 +349,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
     fn odd<const INNER: bool, V: Vector<Number = T>>(
         &mut self,
         proof: V::Proof,
-        scene: &Scene<'_, T, N>,
+        medium: &Medium<'_, T, N>,
         y: usize,
         span: Range<usize>,
         flux: &mut [f64; N],
@@ -322,7 +357,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         let first = Cell::new(span.start, y);
         let reached = if INNER { [true; 8] } else { self.reached(first) };
         let cell = self.grid.index(first);
-        let passages = &scene.cells[cell..cell + span.len()];
+        let passages = &medium.cells[cell..cell + span.len()];
         let mut rows = self.three_rows(first, span.len());
         for (j, passage) in passages.iter().enumerate() {
             let mut around = rows.each_mut().map(|row| &mut row[j..j + 3]);
@@ -345,16 +380,16 @@ impl<T: Number, const N: usize> Stream<T, N> {
         [&mut above[..length + 2], &mut here[..length + 2], &mut below[..length + 2]]
     }
 
-    /// The cell of the pulses.
+    /// The cell of the pulses, or a wall.
     #[inline(always)]
-    fn pass_source<V: Vector<Number = T>>(
+    fn pass_single<V: Vector<Number = T>>(
         &mut self,
         proof: V::Proof,
-        scene: &Scene<'_, T, N>,
+        medium: &Medium<'_, T, N>,
         parity: Parity,
+        cell: Cell,
         flux: &mut [f64; N],
     ) {
-        let cell = scene.source.cell();
         let reached = self.reached(cell);
         let index = self.grid.index(cell);
         let mut a = [[T::default(); N]; 8];
@@ -367,7 +402,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         }
         for c in 0..N / V::WIDTH {
             let a: [V; 8] = load8(proof, c, |k| &a[k]);
-            let mut phi = scene.source.passed(proof, c, &scene.cells[index], &a);
+            let mut phi = medium.passed(proof, c, index, cell, &a);
             keep_reached(proof, &mut phi, &reached);
             super::passage::sum_of_eight(&phi).add_to(flux, c);
             for k in 0..8 {

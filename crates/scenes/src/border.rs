@@ -1,0 +1,163 @@
+//! Distance to the borders of shapes, and the direction of the border there.
+
+use tigereye_core::math;
+
+/// Lengths below this are rounding, cells.
+pub(crate) const ROUNDING: f64 = 1e-9;
+
+/// The nearest places of a border.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Nearest {
+    /// How far they are, cells.
+    pub(crate) distance: f64,
+    /// Mean of the directions across the border there, y downwards; `[0, 0]` where they cancel.
+    pub(crate) across: [f64; 2],
+}
+
+impl Nearest {
+    const NONE: Self = Self { distance: f64::INFINITY, across: [0.0; 2] };
+
+    /// Direction along the border, degrees from 0 to 180; 0 where there is none.
+    pub(crate) fn along_deg(self) -> f64 {
+        let [x, y] = self.across;
+        if math::hypot(x, y) < ROUNDING {
+            return 0.0;
+        }
+        // Across is (x, -y) with y upwards; a quarter turn from it is (y, x).
+        let deg = math::degrees(math::atan2(x, y)).rem_euclid(180.0);
+        // Corners of whole cells give 45 degrees but for rounding.
+        let whole = math::round_ties_even(deg);
+        if (deg - whole).abs() < ROUNDING { whole % 180.0 } else { deg }
+    }
+}
+
+/// Of a circle.
+pub(crate) fn to_circle(p: [f64; 2], centre: [f64; 2], radius: f64) -> Nearest {
+    let from = [p[0] - centre[0], p[1] - centre[1]];
+    let r = math::hypot(from[0], from[1]);
+    let across = if r > 0.0 { [from[0] / r, from[1] / r] } else { [0.0; 2] };
+    Nearest { distance: (r - radius).abs(), across }
+}
+
+/// Of a line between two points.
+pub(crate) fn to_segment(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
+    let q = foot(p, [a, b]);
+    math::hypot(p[0] - q[0], p[1] - q[1])
+}
+
+/// The point of a line that is nearest to `p`.
+fn foot(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
+    let d = [b[0] - a[0], b[1] - a[1]];
+    let squared = d[0] * d[0] + d[1] * d[1];
+    let along = (p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1];
+    let t = if squared > 0.0 { (along / squared).clamp(0.0, 1.0) } else { 0.0 };
+    [a[0] + t * d[0], a[1] + t * d[1]]
+}
+
+/// Of a closed polygon.
+///
+/// Beside a side that is the side's normal, off a corner the direction from the corner, and on a corner, or where two sides are
+/// equally far, their mean.
+pub(crate) fn to_polygon(p: [f64; 2], corners: &[[f64; 2]]) -> Nearest {
+    let clockwise = signed_area(corners) > 0.0;
+    let mut nearest = Nearest::NONE;
+    let mut feet: Vec<[f64; 2]> = Vec::new();
+    for (i, &a) in corners.iter().enumerate() {
+        let b = corners[(i + 1) % corners.len()];
+        let q = foot(p, [a, b]);
+        let away = [p[0] - q[0], p[1] - q[1]];
+        let distance = math::hypot(away[0], away[1]);
+        if distance > nearest.distance + ROUNDING {
+            continue;
+        }
+        if distance < nearest.distance - ROUNDING {
+            nearest = Nearest { distance, across: [0.0; 2] };
+            feet.clear();
+        }
+        let across = if distance > ROUNDING {
+            // Two sides that share a corner would count it twice.
+            if feet.iter().any(|f| math::hypot(f[0] - q[0], f[1] - q[1]) < ROUNDING) {
+                continue;
+            }
+            feet.push(q);
+            [away[0] / distance, away[1] / distance]
+        } else {
+            outwards(a, b, clockwise)
+        };
+        nearest.across = [nearest.across[0] + across[0], nearest.across[1] + across[1]];
+    }
+    nearest
+}
+
+/// Unit normal of a side that points out of the polygon, y downwards.
+fn outwards(a: [f64; 2], b: [f64; 2], clockwise: bool) -> [f64; 2] {
+    let d = [b[0] - a[0], b[1] - a[1]];
+    let length = math::hypot(d[0], d[1]);
+    if length == 0.0 {
+        return [0.0; 2];
+    }
+    let side = if clockwise { 1.0 } else { -1.0 };
+    [side * d[1] / length, -side * d[0] / length]
+}
+
+/// Twice the area; positive where the corners run clockwise as seen, y downwards.
+fn signed_area(corners: &[[f64; 2]]) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum()
+}
+
+/// Whether a point lies in a polygon, by the even-odd rule; its border belongs to it.
+pub(crate) fn inside_polygon(p: [f64; 2], corners: &[[f64; 2]]) -> bool {
+    let mut inside = false;
+    for (i, &a) in corners.iter().enumerate() {
+        let b = corners[(i + 1) % corners.len()];
+        if to_segment(p, [a, b]) <= ROUNDING {
+            return true;
+        }
+        if (a[1] > p[1]) != (b[1] > p[1]) {
+            let x = a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+            inside ^= p[0] < x;
+        }
+    }
+    inside
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [[f64; 2]; 4] = [[2.0, 2.0], [8.0, 2.0], [8.0, 8.0], [2.0, 8.0]];
+
+    #[test]
+    fn sides_and_corners_of_a_square_have_their_directions() {
+        let mut reversed = SQUARE;
+        reversed.reverse();
+        for corners in [SQUARE, reversed] {
+            let along = |x, y| to_polygon([x, y], &corners).along_deg();
+            assert_eq!((along(5.0, 2.0), along(8.0, 4.0)), (0.0, 90.0));
+            assert_eq!((along(2.0, 2.0), along(8.0, 2.0)), (45.0, 135.0), "on the corner");
+            assert_eq!(
+                (along(1.0, 1.0), along(3.0, 3.0)),
+                (45.0, 45.0),
+                "off the corner, outside and inside"
+            );
+            assert_eq!(along(1.0, 2.0), 90.0, "beside the left side");
+        }
+    }
+
+    #[test]
+    fn borders_belong_to_polygons() {
+        assert!(inside_polygon([5.0, 5.0], &SQUARE) && inside_polygon([2.0, 5.0], &SQUARE));
+        assert!(inside_polygon([8.0, 8.0], &SQUARE) && !inside_polygon([8.1, 5.0], &SQUARE));
+        let bow = [[0.0, 0.0], [4.0, 4.0], [4.0, 0.0], [0.0, 4.0]];
+        assert!(inside_polygon([3.5, 2.0], &bow) && !inside_polygon([2.0, 3.5], &bow));
+    }
+
+    #[test]
+    fn circles_are_crossed_along_their_radius() {
+        let n = to_circle([3.0, 4.0], [0.0, 0.0], 7.0);
+        assert!((n.distance - 2.0).abs() < 1e-15);
+        // The radius points down to the right at -53.13 degrees.
+        assert!((n.along_deg() - (90.0 - 53.130_102_354_155_98)).abs() < 1e-12);
+    }
+}

@@ -352,10 +352,12 @@ pub(crate) enum StopRule {
 
 #[derive(Debug, Args)]
 pub(crate) struct PropagateArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value;
+    /// or a scene (NAME.scene.ron).
     pub(crate) input: String,
-    /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1).
-    #[arg(long = "light", value_name = "X,Y[,PROFILE]", required = true, allow_hyphen_values = true)]
+    /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1). A scene has
+    /// lights of its own where none is given.
+    #[arg(long = "light", value_name = "X,Y[,PROFILE]", allow_hyphen_values = true)]
     pub(crate) lights: Vec<String>,
     /// The lights flash once instead of shining all the time.
     #[arg(long)]
@@ -363,7 +365,8 @@ pub(crate) struct PropagateArgs {
     /// Exactly N steps instead of a stopping rule.
     #[arg(long, value_name = "N", value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) steps: Option<usize>,
-    /// Outputs by their endings: .vti, .npy, .png, .svg; .pvd has a frame for every step, in the folder NAME beside NAME.pvd.
+    /// Outputs by their endings: .vti, .npy, .png, .svg; .pvd has a frame for every step, in the folder NAME beside NAME.pvd;
+    /// .apng is an animation of the steps.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// What pictures show.
@@ -387,7 +390,8 @@ pub(crate) enum Picture {
 
 #[derive(Debug, Args)]
 pub(crate) struct LtgArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value;
+    /// or a scene (NAME.scene.ron).
     pub(crate) input: String,
     /// Outputs by their endings: .vti, .npy; .png, .svg show the only slice, or the mean over the slices. With --shard
     /// one .part.

@@ -11,6 +11,7 @@ use tigereye_experiments::input::{
     Derived, InputError, PlaneField, Reading, TEXT_MATRICES, TensorFile, is_readable, open,
 };
 use tigereye_experiments::provenance::hash_of_field;
+use tigereye_experiments::scene::is_scene_file;
 use tigereye_experiments::settings::{defined_plane, is_field_file, make_plane};
 use tigereye_experiments::spec::load_field;
 
@@ -27,6 +28,10 @@ pub(crate) enum Source {
 impl Source {
     /// Reads INPUT: a path with a known ending, or a generator.
     pub(crate) fn open(text: &str, reading: &ReadingArgs) -> Result<Self, CliError> {
+        if is_scene_file(text) {
+            let problem = "a scene has no tensors: expected a tensor field (propagate and ltg take scenes)";
+            return Err(CliError::input(text, problem));
+        }
         if is_field_file(text) {
             return Input::of_field_file(text, &reading.reading()).map(Self::Generated);
         }

@@ -10,7 +10,9 @@ mod files;
 mod host;
 mod input;
 mod interrupt;
+mod medium;
 mod part_file;
+mod reel;
 mod system;
 mod watch;
 

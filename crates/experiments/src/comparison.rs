@@ -7,23 +7,18 @@ use crate::spec::{DistanceNumber, MapSource, RidgeSource};
 use tigereye_core::{Cell, Field, Grid, LtgVolume};
 use tigereye_lines::{Ftle, Polylines, ridge_lines};
 
-/// A scalar at the cells. The border of a gradient, 0 by definition, is missing.
+/// A scalar at the cells; of a gradient where it is a result.
 pub(crate) fn map(source: &MapSource, results: &Results) -> Option<Field<f64>> {
     let gradient = |run: &str| results.gradients.get(run).map(|g| &g.volume);
     match source {
         MapSource::Ftle { run } => results.ftle.get(run).map(at_cells),
         MapSource::Slice { run, deg } => {
             let volume = gradient(run)?;
-            Some(inner(&volume.slice(sample_of(deg.get(), volume.directions()).ok()?)?))
+            Some(results.inner(run, &volume.slice(sample_of(deg.get(), volume.directions()).ok()?)?))
         }
-        MapSource::Mean { run } => gradient(run).map(|v| inner(&v.mean_over_directions())),
-        MapSource::Maximum { run } => gradient(run).map(|v| inner(&v.max_over_directions())),
+        MapSource::Mean { run } => gradient(run).map(|v| results.inner(run, &v.mean_over_directions())),
+        MapSource::Maximum { run } => gradient(run).map(|v| results.inner(run, &v.max_over_directions())),
     }
-}
-
-fn inner(field: &Field<f64>) -> Field<f64> {
-    let grid = field.grid();
-    Field::from_fn(grid, |c| if grid.is_border(c) { f64::NAN } else { *field.at(c) })
 }
 
 /// The cells' own samples.
@@ -48,7 +43,7 @@ pub(crate) fn ridges(source: &RidgeSource, results: &Results) -> Option<Polyline
         RidgeSource::EverySlice { run } => {
             let volume: &LtgVolume = &results.gradients.get(run)?.volume;
             for slice in volume.slices().iter().filter_map(|&t| volume.slice(t)) {
-                append(&mut all, &ridge_lines(&inner(&slice), &COMPARED).ok()?.shape);
+                append(&mut all, &ridge_lines(&results.inner(run, &slice), &COMPARED).ok()?.shape);
             }
         }
     }

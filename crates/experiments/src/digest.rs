@@ -8,6 +8,7 @@ use crate::settings::Settings;
 use crate::spec::PulseNumber;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use tigereye_core::Surface;
 use tigereye_lines::Ftle;
 use tigereye_ltg::LtgOutcome;
 
@@ -17,6 +18,9 @@ use tigereye_ltg::LtgOutcome;
 pub struct Digest {
     slug: String,
     fields: BTreeMap<String, FieldDigest>,
+    /// Scenes by the cells of each kind.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    scenes: BTreeMap<String, SceneDigest>,
     lights: BTreeMap<String, LightDigest>,
     gradients: BTreeMap<String, GradientDigest>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -86,6 +90,16 @@ struct FtleDigest {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+struct SceneDigest {
+    width: usize,
+    height: usize,
+    absorbing: usize,
+    filters: usize,
+    mirrors: usize,
+    matt: usize,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
 struct CheckDigest {
     name: String,
     value: String,
@@ -106,9 +120,23 @@ pub(crate) fn digest(settings: &Settings, results: &Results, outcome: &Experimen
         };
         (name.clone(), digest)
     });
+    let scenes = settings.scenes.iter().map(|(name, s)| {
+        let count =
+            |is: fn(&Surface) -> bool| s.built.surfaces.values().iter().flatten().filter(|s| is(s)).count();
+        let digest = SceneDigest {
+            width: s.scene.grid.width(),
+            height: s.scene.grid.height(),
+            absorbing: count(|s| matches!(s, Surface::Absorbing)),
+            filters: count(|s| matches!(s, Surface::Filter { .. })),
+            mirrors: count(|s| matches!(s, Surface::Mirror { .. })),
+            matt: count(|s| matches!(s, Surface::Diffuse { .. })),
+        };
+        (name.clone(), digest)
+    });
     Digest {
         slug: settings.slug.clone(),
         fields: fields.collect(),
+        scenes: scenes.collect(),
         lights: results.lights.iter().map(|(n, r)| (n.clone(), light(r))).collect(),
         gradients: results.gradients.iter().map(|(n, g)| (n.clone(), gradient(g))).collect(),
         pulses: results.pulses.iter().map(|(n, p)| (n.clone(), pulses(p))).collect(),

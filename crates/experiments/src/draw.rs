@@ -128,13 +128,14 @@ impl Draw<'_> {
             }
             Panel::Overlay { run, step, scale, transmission, title } => {
                 let scene = self.light(run).and_then(|r| {
-                    self.overlay(r, at_step(r, *step)?, *scale, *transmission, own_title(title))
+                    self.overlay(run, r, at_step(r, *step)?, *scale, *transmission, own_title(title))
                 });
                 shown(scene, title, figure)
             }
             Panel::Energy { run, step, decades, title } => {
                 let decades = decades.map(spec::Positive::get);
-                let scene = self.light(run).and_then(|r| self.energy(r, *step, decades, own_title(title)));
+                let scene =
+                    self.light(run).and_then(|r| self.energy(run, r, *step, decades, own_title(title)));
                 shown(scene, title, figure)
             }
             Panel::Slice { run, deg, ridge, title } => {
@@ -248,7 +249,7 @@ impl Draw<'_> {
             spec::MapSource::Maximum { .. } => "largest LTG / (W/rad)",
             _ => "LTG / (W/rad)",
         };
-        Some(self.gradient_map(&field, quantity, overlays, title))
+        Some(self.gradient_map(source.run(), &field, quantity, overlays, title))
     }
 
     fn ridges(
@@ -272,6 +273,7 @@ impl Draw<'_> {
 
     fn overlay(
         &self,
+        run: &str,
         r: &LightResult,
         light: &LightDistribution,
         scale: spec::Scale,
@@ -290,6 +292,7 @@ impl Draw<'_> {
             intensity,
             transmission: TransmissionScale::Rate,
             sources: r.sources.clone(),
+            walls: self.results.surfaces.get(run).cloned(),
             cell_px: self.cell_px(r.last.grid()),
             ..PolarOptions::default()
         };
@@ -298,6 +301,7 @@ impl Draw<'_> {
 
     fn energy(
         &self,
+        run: &str,
         r: &LightResult,
         step: Option<usize>,
         decades: Option<f64>,
@@ -309,6 +313,7 @@ impl Draw<'_> {
             quantity: "energy of a cell / W".to_owned(),
             scale,
             sources: r.sources.clone(),
+            walls: self.results.surfaces.get(run).cloned(),
             cell_px: self.cell_px(r.last.grid()),
             ..HeatOptions::default()
         };
@@ -319,7 +324,7 @@ impl Draw<'_> {
         let volume = &self.results.gradients.get(run)?.volume;
         let slice = volume.slice(sample_of(deg, volume.directions()).ok()?)?;
         let overlays = if ridge { vec![ridge_line(&slice)] } else { Vec::new() };
-        Some(self.gradient_map(&slice, "LTG / (W/rad)", overlays, title))
+        Some(self.gradient_map(run, &slice, "LTG / (W/rad)", overlays, title))
     }
 
     fn flat(&self, run: &str, view: FlatView, title: String) -> Option<Scene> {
@@ -329,27 +334,29 @@ impl Draw<'_> {
             FlatView::Maximum => (volume.max_over_directions(), "largest LTG / (W/rad)"),
             FlatView::Deviation => (volume.deviation_over_directions(), "deviation of LTG / (W/rad)"),
         };
-        Some(self.gradient_map(&field, quantity, Vec::new(), title))
+        Some(self.gradient_map(run, &field, quantity, Vec::new(), title))
     }
 
-    /// The border is 0 by definition and no result: it is drawn as missing, so that it does not stretch the scale.
+    /// What is no result is drawn as missing, so that it does not stretch the scale.
     fn gradient_map(
         &self,
+        run: &str,
         field: &Field<f64>,
         quantity: &str,
         overlays: Vec<Overlay>,
         title: String,
     ) -> Scene {
         let grid = field.grid();
-        let inner = Field::from_fn(grid, |c| if grid.is_border(c) { f64::NAN } else { *field.at(c) });
-        let range = extrema(field);
+        let inner = self.results.inner(run, field);
+        let walls = self.results.surfaces.get(run).cloned();
+        let missing = if walls.is_some() { "border, or beside a wall" } else { "border, 0 by definition" };
         let options = HeatOptions {
             title,
             quantity: quantity.to_owned(),
-            range,
+            walls,
             overlays,
             cell_px: self.cell_px(grid),
-            missing: Some("border, 0 by definition".to_owned()),
+            missing: Some(missing.to_owned()),
             ..HeatOptions::default()
         };
         heat_map(&inner, &options)
@@ -522,14 +529,6 @@ fn parse_in_x(text: &str) -> Result<Expression, RunError> {
 fn profile_at(grid: Grid, cell: (usize, usize), f: impl Fn(Cell) -> Vec<f64>) -> Option<Vec<f64>> {
     let cell = Cell::new(cell.0, cell.1);
     grid.contains(cell).then(|| f(cell))
-}
-
-/// Smallest and largest value of the inner cells.
-fn extrema(field: &Field<f64>) -> Option<(f64, f64)> {
-    let values = || inner_cells(field.grid()).map(|c| *field.at(c));
-    let low = values().fold(f64::INFINITY, f64::min);
-    let high = values().fold(f64::NEG_INFINITY, f64::max);
-    (low < high).then_some((low, high))
 }
 
 fn ridge_line(slice: &Field<f64>) -> Overlay {

@@ -1,12 +1,13 @@
 //! One experiment from settings to outcome.
 
+use crate::Medium;
 use crate::classical::{Placement, axes_name, family_name, fine};
 use crate::digest::{Digest, digest};
 use crate::draw::{Drawn, draw_figure};
 use crate::host::Host;
 use crate::measure;
 use crate::outcome::{DataFile, ExperimentOutcome};
-use crate::provenance::{hash_of_field, provenance};
+use crate::provenance::provenance;
 use crate::pulses::comma_separated;
 use crate::runs::{Results, RunError, run_all};
 use crate::settings::{RunSettings, Settings};
@@ -178,7 +179,7 @@ pub(crate) fn file_name(run: &str) -> String {
 }
 
 fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
-    let hash = settings.fields.get(run.field()).map(hash_of_field).unwrap_or_default();
+    let hash = settings.medium(run.field()).map(Medium::blake3).unwrap_or_default();
     let (scene, own) = match run {
         RunSettings::Ftle(f) => {
             let parameters = json!({

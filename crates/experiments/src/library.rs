@@ -1,6 +1,6 @@
 //! The experiments and data that the program carries, so that an installed one works in any folder.
 
-use crate::field_file::ENDING;
+use crate::{field_file, scene};
 use include_dir::{Dir, File, include_dir};
 
 static EXPERIMENTS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../experiments");
@@ -26,18 +26,23 @@ fn collect(dir: &'static Dir<'static>, found: &mut Vec<(String, &'static str)>) 
     }
 }
 
-/// Whether a file in a folder of experiments is one: fields may lie beside them.
+/// Whether a file in a folder of experiments is one: fields and scenes may lie beside them.
 #[must_use]
 pub fn is_experiment(path: &str) -> bool {
-    path.ends_with(".ron") && !path.ends_with(ENDING)
+    path.ends_with(".ron") && !path.ends_with(field_file::ENDING) && !scene::is_scene_file(path)
 }
 
-/// Bytes of a carried data file; `path` is `data/NAME` or `NAME`, or the name of a field file beside any experiment.
+/// Bytes of a carried data file; `path` is `data/NAME` or `NAME`, or the name of a field, scene or picture beside any experiment.
 #[must_use]
 pub fn data(path: &str) -> Option<&'static [u8]> {
     let carried = DATA.get_file(path.strip_prefix("data/").unwrap_or(path));
-    let field = || path.ends_with(ENDING).then(|| file_below(&EXPERIMENTS, path)).flatten();
-    carried.or_else(field).map(File::contents)
+    let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
+    let beside = || {
+        let is_known =
+            [field_file::ENDING, scene::ENDING, ".png"].iter().any(|ending| name.ends_with(ending));
+        is_known.then(|| file_below(&EXPERIMENTS, name)).flatten()
+    };
+    carried.or_else(beside).map(File::contents)
 }
 
 /// A file by its name, in a folder or those below it.

@@ -1,5 +1,6 @@
 //! Whether the steps, slices and cells that figures and checks mention exist, asked before anything is computed.
 
+use crate::Medium;
 use crate::settings::{GradientSettings, LightSettings, RunSettings, sample_of};
 use crate::spec::{MapSource, Panel, ProfileSource, Quantity, RidgeSource, SeriesSource};
 use tigereye_core::{Cell, Field, Grid, Tensor2};
@@ -10,6 +11,7 @@ use tigereye_transport::StoppingRule;
 pub(crate) struct Known<'a> {
     pub(crate) run: &'a dyn Fn(&str) -> Option<&'a RunSettings>,
     pub(crate) field: &'a dyn Fn(&str) -> Option<&'a Field<Tensor2>>,
+    pub(crate) medium: &'a dyn Fn(&str) -> Option<Medium<'a>>,
 }
 
 /// Something that figures or checks mention and that does not exist.
@@ -149,7 +151,7 @@ impl Known<'_> {
     }
 
     fn cell_of(&self, run: &str, cell: (usize, usize)) -> Option<Misplaced> {
-        self.cell((self.field)((self.run)(run)?.field())?.grid(), cell)
+        self.cell((self.medium)((self.run)(run)?.field())?.grid(), cell)
     }
 
     fn step(&self, run: &str, step: Option<usize>) -> Option<Misplaced> {
@@ -185,7 +187,7 @@ impl Known<'_> {
     }
 
     fn same_size(&self, map: &MapSource, with: &MapSource) -> Option<Misplaced> {
-        let grid = |run: &str| Some((self.field)((self.run)(run)?.field())?.grid());
+        let grid = |run: &str| Some((self.medium)((self.run)(run)?.field())?.grid());
         let problem = || format!("\"{}\" and \"{}\" differ in cells", map.run(), with.run());
         let same = grid(map.run())? == grid(with.run())?;
         (!same).then(|| Misplaced { word: format!("\"{}\"", with.run()), problem: problem() })
@@ -196,7 +198,7 @@ impl Known<'_> {
         else {
             return None;
         };
-        let grid = |g: &GradientSettings| (self.field)(&g.scene.field).map(Field::grid);
+        let grid = |g: &GradientSettings| (self.medium)(&g.scene.field).map(Medium::grid);
         let slices = |g: &GradientSettings| g.slices.clone().map(sorted);
         let same = grid(a)? == grid(b)? && a.scene.directions == b.scene.directions && slices(a) == slices(b);
         let problem = || format!("\"{run}\" and \"{from}\" differ in cells, directions or slices");

@@ -1,5 +1,6 @@
 //! How pulses come to rest: the stopping rule's state, plain steps and the solver, compared.
 
+use crate::Medium;
 use crate::host::Host;
 use crate::runs::RunError;
 use crate::settings::PulsesSettings;
@@ -7,7 +8,7 @@ use crate::spec::PulseNumber;
 use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::sync::atomic::{AtomicU64, Ordering};
-use tigereye_core::{Cell, Field, StopReason, Tensor2, TransmissionField};
+use tigereye_core::{Cell, Field, StopReason, TransmissionField};
 use tigereye_transport::{
     EightLobe, Engine, Level, Light, Problem, PulseDistribution, PulseSolver, Scattering, Scheme, Stopping,
     StoppingRule, TransportError,
@@ -61,11 +62,12 @@ impl PulseRecord {
 pub(crate) fn run_pulses(
     name: &str,
     settings: &PulsesSettings,
-    field: &Field<Tensor2>,
+    medium: Medium<'_>,
     host: &dyn Host,
 ) -> Result<Vec<PulseRecord>, RunError> {
     let scene = &settings.scene;
-    let transmission = TransmissionField::from_tensors(field, scene.directions, scene.normalization)
+    let transmission = medium
+        .transmission(scene.directions, scene.normalization)
         .map_err(|source| RunError::Field { run: name.to_owned(), source })?;
     let scheme = Scheme::new(scene.directions, scene.weights);
     let scattering = Scattering::new(&scheme, &transmission);
@@ -206,8 +208,13 @@ mod tests {
             weights: SharedWeights::Thesis,
             stopping: Stopping::REFERENCE,
         };
-        run_pulses("run", &PulsesSettings { scene, pulses: pulses.to_vec() }, field, &Nothing)
-            .expect("pulses")
+        run_pulses(
+            "run",
+            &PulsesSettings { scene, pulses: pulses.to_vec() },
+            Medium::Tensors(field),
+            &Nothing,
+        )
+        .expect("pulses")
     }
 
     #[test]

@@ -1,19 +1,20 @@
 //! Runs settings and keeps what figures and checks ask for.
 
+use crate::Medium;
 use crate::classical::fine::exponents;
 use crate::host::Host;
 use crate::pulses::{PulseRecord, run_pulses};
+use crate::scene::where_result;
 use crate::settings::{GradientSettings, LightSettings, RunSettings, Settings};
 use crate::spec::EngineChoice;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use thiserror::Error;
-use tigereye_core::{
-    Cell, CoreError, Field, LightDistribution, StopReason, Tensor2, TransmissionField, Work, math,
-};
+use tigereye_core::{Cell, Field, LightDistribution, StopReason, Surface, TransmissionField, Work, math};
 use tigereye_lines::{Ftle, FtleOptions, SamplingError};
 use tigereye_ltg::{LtgError, LtgOutcome, LtgSettings, Precision, SweepObserver, check_fit, sweep};
 use tigereye_render::RenderError;
+use tigereye_scenes::SceneError;
 use tigereye_transport::{
     EightLobe, Engine, Problem, SampleSpace, Scattering, Scheme, StepView, TransportError,
 };
@@ -26,8 +27,8 @@ pub enum RunError {
     Field {
         /// Name of the run.
         run: String,
-        /// What is wrong with the field.
-        source: CoreError,
+        /// What is wrong with the field or scene.
+        source: SceneError,
     },
     /// A propagation that cannot start.
     #[error("run \"{run}\": {source}")]
@@ -89,8 +90,17 @@ pub(crate) struct Results {
     pub(crate) gradients: BTreeMap<String, LtgOutcome>,
     pub(crate) pulses: BTreeMap<String, Vec<PulseRecord>>,
     pub(crate) ftle: BTreeMap<String, Ftle>,
+    /// What the cells are, for runs of scenes.
+    pub(crate) surfaces: BTreeMap<String, Field<Option<Surface>>>,
     /// Seconds each run took.
     pub(crate) seconds: BTreeMap<String, f64>,
+}
+
+impl Results {
+    /// A gradient's scalar where it is a result.
+    pub(crate) fn inner(&self, run: &str, field: &Field<f64>) -> Field<f64> {
+        where_result(field, self.surfaces.get(run))
+    }
 }
 
 /// What a propagation leaves for figures and checks.
@@ -112,22 +122,26 @@ pub(crate) struct LightResult {
 pub(crate) fn run_all(settings: &Settings, memory_bytes: u64, host: &dyn Host) -> Result<Results, RunError> {
     let mut results = Results::default();
     for (name, run) in &settings.runs {
-        let Some(field) = settings.fields.get(run.field()) else { continue };
+        let Some(medium) = settings.medium(run.field()) else { continue };
+        if let Some(scene) = medium.scene() {
+            results.surfaces.insert(name.clone(), scene.built.surfaces.clone());
+        }
         let start = host.seconds();
         match run {
             RunSettings::Light(light) => {
-                let result = run_light(name, light, field, host)?;
+                let result = run_light(name, light, medium, host)?;
                 results.lights.insert(name.clone(), result);
             }
             RunSettings::Gradient(gradient) => {
-                let result = run_gradient(name, gradient, field, memory_bytes, host)?;
+                let result = run_gradient(name, gradient, medium, memory_bytes, host)?;
                 results.gradients.insert(name.clone(), result);
             }
             RunSettings::Pulses(pulses) => {
-                let result = run_pulses(name, pulses, field, host)?;
+                let result = run_pulses(name, pulses, medium, host)?;
                 results.pulses.insert(name.clone(), result);
             }
             RunSettings::Ftle(ftle) => {
+                let Some(field) = medium.tensors() else { continue };
                 if host.progress(name, 0, 0).is_break() {
                     return Err(RunError::Interrupted);
                 }
@@ -146,11 +160,12 @@ pub(crate) fn run_all(settings: &Settings, memory_bytes: u64, host: &dyn Host) -
 fn run_light(
     name: &str,
     settings: &LightSettings,
-    field: &Field<Tensor2>,
+    medium: Medium<'_>,
     host: &dyn Host,
 ) -> Result<LightResult, RunError> {
     let scene = &settings.scene;
-    let transmission = TransmissionField::from_tensors(field, scene.directions, scene.normalization)
+    let transmission = medium
+        .transmission(scene.directions, scene.normalization)
         .map_err(|source| RunError::Field { run: name.to_owned(), source })?;
     let scheme = Scheme::new(scene.directions, scene.weights);
     let problem = Problem {
@@ -232,7 +247,7 @@ impl SweepObserver for Watch<'_> {
 fn run_gradient(
     name: &str,
     settings: &GradientSettings,
-    field: &Field<Tensor2>,
+    medium: Medium<'_>,
     memory_bytes: u64,
     host: &dyn Host,
 ) -> Result<LtgOutcome, RunError> {
@@ -247,8 +262,9 @@ fn run_gradient(
         precision: Precision::F64,
     };
     // Before anything large is made.
-    check_fit(field.grid(), scene.directions, &ltg).map_err(failed)?;
-    let transmission = TransmissionField::from_tensors(field, scene.directions, scene.normalization)
+    check_fit(medium.grid(), scene.directions, &ltg).map_err(failed)?;
+    let transmission = medium
+        .transmission(scene.directions, scene.normalization)
         .map_err(|source| RunError::Field { run: name.to_owned(), source })?;
     let scheme = Scheme::new(scene.directions, scene.weights);
     let scattering = Scattering::new(&scheme, &transmission);

@@ -1,10 +1,12 @@
 //! Experiment files to settings: names looked up, fields made, nothing optional left. All problems are reported at once.
 
+use crate::Medium;
 use crate::classical::usual_axes;
 use crate::evaluate::file_name;
 use crate::host::Host;
 use crate::input::{self, Derivation, Derived, PlaneField, Reading};
 use crate::places::{Known, Misplaced};
+use crate::scene::{self, PreparedScene, is_scene_file, light_fault};
 use crate::shortened;
 use crate::spec::{
     self, DeriveRule, Experiment, FieldSource, Named, ProfileShape, Run, Scope, Sigma, SpecError,
@@ -27,8 +29,26 @@ pub struct Settings {
     pub experiment: Experiment,
     /// Fields by name.
     pub fields: BTreeMap<String, Field<Tensor2>>,
+    /// Scenes by name; none has the name of a field.
+    pub scenes: BTreeMap<String, PreparedScene>,
     /// Runs in order.
     pub runs: Vec<(String, RunSettings)>,
+}
+
+impl Settings {
+    /// The field or scene of a name.
+    #[must_use]
+    pub fn medium(&self, name: &str) -> Option<Medium<'_>> {
+        medium(&self.fields, &self.scenes, name)
+    }
+}
+
+fn medium<'a>(
+    fields: &'a BTreeMap<String, Field<Tensor2>>,
+    scenes: &'a BTreeMap<String, PreparedScene>,
+    name: &str,
+) -> Option<Medium<'a>> {
+    fields.get(name).map(Medium::Tensors).or_else(|| scenes.get(name).map(Medium::Scene))
 }
 
 /// A run, ready to start.
@@ -45,7 +65,7 @@ pub enum RunSettings {
 }
 
 impl RunSettings {
-    /// Name of the field.
+    /// Name of the field or scene.
     #[must_use]
     pub fn field(&self) -> &str {
         match self {
@@ -143,14 +163,28 @@ pub fn resolve(
             Err(problem) => resolver.fault_at(&["fields:"], name, &format!("field \"{name}\": {problem}")),
         }
     }
+    let mut scenes = BTreeMap::new();
+    for (name, path) in experiment.scenes.iter() {
+        if experiment.fields.get(name).is_some() {
+            resolver.fault_at(
+                &["scenes:"],
+                name,
+                &format!("\"{name}\" is the name of a field and of a scene"),
+            );
+        }
+        if let Some(scene) = resolver.scene(path, host) {
+            scenes.insert(name.to_owned(), scene);
+        }
+    }
     let mut runs = Vec::new();
     for (name, run) in experiment.runs.iter() {
-        if let Some(settings) = resolver.run(&experiment, name, run, &fields) {
+        let medium_of = |name: &str| medium(&fields, &scenes, name);
+        if let Some(settings) = resolver.run(&experiment, name, run, &medium_of) {
             runs.push((name.to_owned(), settings));
         }
     }
     resolver.references(&experiment);
-    resolver.places(&experiment, &fields, &runs);
+    resolver.places(&experiment, &fields, &scenes, &runs);
     runs.retain(|(name, _)| full || experiment.runs.get(name).map(scope_of) == Some(Scope::Always));
     let runs_now: Vec<&str> = runs.iter().map(|(n, _)| n.as_str()).collect();
     if resolver.problems.is_empty() {
@@ -165,7 +199,7 @@ pub fn resolve(
             uses::keep_rows(table, &runs_now);
         }
         experiment.tables.retain(|t| !uses::is_empty(t));
-        Ok(Settings { slug, experiment, fields, runs })
+        Ok(Settings { slug, experiment, fields, scenes, runs })
     } else {
         Err(resolver.problems)
     }
@@ -213,12 +247,41 @@ impl Resolver<'_> {
         self.fault_at(&["runs:"], run, &problem);
     }
 
-    fn run(
+    /// The scene of a file.
+    fn scene(&mut self, path: &str, host: &dyn Host) -> Option<PreparedScene> {
+        if !is_scene_file(path) {
+            self.fault_at(&["scenes:"], path, &format!("{path}: expected a file NAME{}", scene::ENDING));
+            return None;
+        }
+        let text = match host.read(path).map(String::from_utf8) {
+            Ok(Ok(text)) => text,
+            Ok(Err(_)) => {
+                self.fault_at(&["scenes:"], path, &format!("{path}: expected UTF-8 text"));
+                return None;
+            }
+            Err(problem) => {
+                self.fault_at(&["scenes:"], path, &problem);
+                return None;
+            }
+        };
+        match scene::prepare(path, &text, host) {
+            Ok(scene) => {
+                scene.remarks().iter().for_each(|words| host.remark(&format!("{path}: {words}")));
+                Some(scene)
+            }
+            Err(problems) => {
+                self.problems.extend(problems);
+                None
+            }
+        }
+    }
+
+    fn run<'b>(
         &mut self,
         experiment: &Experiment,
         name: &str,
         run: &Run,
-        fields: &BTreeMap<String, Field<Tensor2>>,
+        medium_of: &dyn Fn(&str) -> Option<Medium<'b>>,
     ) -> Option<RunSettings> {
         let field_name = match run {
             Run::Light { field, .. }
@@ -226,15 +289,21 @@ impl Resolver<'_> {
             | Run::Pulses { field, .. }
             | Run::Ftle { field, .. } => field,
         };
-        if experiment.fields.get(field_name).is_none() {
-            let known = experiment.fields.names();
+        if experiment.fields.get(field_name).is_none() && experiment.scenes.get(field_name).is_none() {
+            let known = [experiment.fields.names(), experiment.scenes.names()];
+            let known =
+                known.iter().filter(|names| !names.is_empty()).cloned().collect::<Vec<_>>().join(", ");
             self.fault(
                 field_name,
                 format!("run \"{name}\" names a field \"{field_name}\": expected one of {known}"),
             );
             return None;
         }
-        let field = fields.get(field_name)?;
+        let medium = medium_of(field_name)?;
+        if let (Medium::Scene(_), Some(problem)) = (medium, unfit_for_scenes(run)) {
+            self.fault(name, format!("run \"{name}\": {problem}"));
+            return None;
+        }
         let scene = |directions: spec::DirectionCount, normalization, weights, stop| Scene {
             field: field_name.clone(),
             directions: directions.0,
@@ -248,7 +317,7 @@ impl Resolver<'_> {
         match run {
             Run::Light { directions, normalization, weights, stop, lights, engine, frames, .. } => {
                 let scene = scene(*directions, *normalization, *weights, *stop);
-                self.light(name, scene, field.grid(), lights, *engine, frames, experiment)
+                self.light(name, scene, medium, lights, *engine, frames, experiment)
             }
             Run::Gradient { directions, normalization, weights, stop, omega_step, slices_deg, .. } => {
                 let scene = scene(*directions, *normalization, *weights, *stop);
@@ -256,10 +325,10 @@ impl Resolver<'_> {
             }
             Run::Pulses { directions, normalization, weights, stop, cells, angles_deg, .. } => {
                 let scene = scene(*directions, *normalization, *weights, *stop);
-                self.pulses(name, scene, field.grid(), cells, angles_deg)
+                self.pulses(name, scene, medium.grid(), cells, angles_deg)
             }
             Run::Ftle { axes, family, length, samples, .. } => {
-                self.ftle(name, (field_name, field), *axes, *family, length.get(), *samples)
+                self.ftle(name, (field_name, medium.tensors()?), *axes, *family, length.get(), *samples)
             }
         }
     }
@@ -289,24 +358,20 @@ impl Resolver<'_> {
         &mut self,
         name: &str,
         scene: Scene,
-        grid: Grid,
+        medium: Medium<'_>,
         sources: &[spec::LightSource],
         engine: spec::EngineChoice,
         frames: &[usize],
         experiment: &Experiment,
     ) -> Option<RunSettings> {
-        let mut lights = Vec::new();
-        for source in sources {
-            let cell = source.cell.map_or(grid.centre(), |(x, y)| Cell::new(x, y));
-            match profile_of(&source.profile, scene.directions) {
-                Ok(profile) => lights.push(match source.emission {
-                    spec::EmissionKind::Continuous => Light::continuous(cell, profile),
-                    spec::EmissionKind::Impulse => Light::impulse(cell, profile),
-                }),
-                Err(problem) => {
-                    self.fault(name, format!("run \"{name}\", light at ({}, {}): {problem}", cell.x, cell.y))
-                }
-            }
+        let grid = medium.grid();
+        let sources = match medium.scene() {
+            Some(scene) if sources.is_empty() => &scene.lights,
+            _ => sources,
+        };
+        let (lights, faults) = lights_of(sources, grid, scene.directions);
+        for problem in faults {
+            self.fault(name, format!("run \"{name}\", {problem}"));
         }
         // A light without a profile has been reported.
         if lights.len() < sources.len() {
@@ -314,6 +379,11 @@ impl Resolver<'_> {
         }
         if let Err(e) = tigereye_transport::check_lights(&lights, grid, scene.directions) {
             self.fault(name, format!("run \"{name}\": {e}"));
+            return None;
+        }
+        let in_wall = |scene: &PreparedScene| lights.iter().find_map(|l| light_fault(&scene.built, l.cell));
+        if let Some(problem) = medium.scene().and_then(in_wall) {
+            self.fault(name, format!("run \"{name}\": {problem}"));
             return None;
         }
         let mut frames = frames.to_vec();
@@ -464,11 +534,13 @@ impl Resolver<'_> {
         &mut self,
         experiment: &Experiment,
         fields: &BTreeMap<String, Field<Tensor2>>,
+        scenes: &BTreeMap<String, PreparedScene>,
         runs: &[(String, RunSettings)],
     ) {
         let known = Known {
             run: &|name| runs.iter().find(|(n, _)| n == name).map(|(_, r)| r),
             field: &|name| fields.get(name),
+            medium: &|name| medium(fields, scenes, name),
         };
         for figure in &experiment.figures {
             let user = User { kind: "figure", name: &figure.name };
@@ -509,6 +581,17 @@ impl Resolver<'_> {
     }
 }
 
+/// Why a run cannot take a scene.
+fn unfit_for_scenes(run: &Run) -> Option<&'static str> {
+    match run {
+        Run::Ftle { .. } => Some("a scene has no tensors: expected the name of a field"),
+        Run::Light { normalization, .. }
+        | Run::Gradient { normalization, .. }
+        | Run::Pulses { normalization, .. } => (*normalization != spec::NormalizationRule::default())
+            .then_some("a scene's crystals have a normalisation of their own, in the scene's file"),
+    }
+}
+
 /// Most samples a cell along each side: more show nothing.
 const MAX_SAMPLES_A_CELL: usize = 16;
 
@@ -530,7 +613,7 @@ pub(crate) const fn family_of(choice: spec::FamilyChoice) -> Family {
     }
 }
 
-fn normalization_of(rule: spec::NormalizationRule) -> Normalization {
+pub(crate) fn normalization_of(rule: spec::NormalizationRule) -> Normalization {
     use spec::NormalizationRule as Rule;
     match rule {
         Rule::Local => Normalization::Local,
@@ -566,6 +649,27 @@ pub(crate) fn sample_of(degrees: f64, directions: Directions) -> Result<usize, S
             directions.count()
         ))
     }
+}
+
+/// Lights with their profiles, and a sentence for each whose profile cannot be made. Lights without a cell stand in the centre.
+#[must_use]
+pub fn lights_of(
+    sources: &[spec::LightSource],
+    grid: Grid,
+    directions: Directions,
+) -> (Vec<Light>, Vec<String>) {
+    let (mut lights, mut faults) = (Vec::new(), Vec::new());
+    for source in sources {
+        let cell = source.cell.map_or(grid.centre(), |(x, y)| Cell::new(x, y));
+        match profile_of(&source.profile, directions) {
+            Ok(profile) => lights.push(match source.emission {
+                spec::EmissionKind::Continuous => Light::continuous(cell, profile),
+                spec::EmissionKind::Impulse => Light::impulse(cell, profile),
+            }),
+            Err(problem) => faults.push(format!("light at ({}, {}): {problem}", cell.x, cell.y)),
+        }
+    }
+    (lights, faults)
 }
 
 /// Samples of a light's profile.
@@ -687,17 +791,17 @@ fn plane_in_file(path: &str, host: &dyn Host) -> Result<(PlaneField, Option<&'st
                 "{path}: its field is in {other}: expected a generator, formulas or a data file"
             ));
         }
-        // Names are those of files beside it, where they are there.
         for name in std::iter::once(other).chain(mask) {
-            if let Some(folder) = path.rfind(['/', '\\']) {
-                let beside = format!("{}{name}", &path[..=folder]);
-                if host.has(&beside) {
-                    *name = beside;
-                }
-            }
+            *name = beside(path, name, host);
         }
     }
     make_plane(&file.field, host).map_err(|e| format!("{path}: {e}"))
+}
+
+/// What a file at `path` calls `name`: the file beside it, where there is one.
+pub(crate) fn beside(path: &str, name: &str, host: &dyn Host) -> String {
+    let beside = path.rfind(['/', '\\']).map(|folder| format!("{}{name}", &path[..=folder]));
+    beside.filter(|path| host.has(path)).unwrap_or_else(|| name.to_owned())
 }
 
 /// A field that needs no reading, cropped and resampled.

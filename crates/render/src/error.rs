@@ -29,6 +29,18 @@ pub enum RenderError {
         /// What the encoder says.
         reason: String,
     },
+    /// An animation without frames, or with too many.
+    #[error(
+        "an animation of {frames} frames with {pixels:.1e} pixels: expected one or more, and at most {most} pixels"
+    )]
+    Frames {
+        /// Frames asked for.
+        frames: usize,
+        /// Pixels of all of them.
+        pixels: f64,
+        /// Most pixels.
+        most: u64,
+    },
     /// Two fields that should be compared have different grids.
     #[error("cannot compare a field of {a_width} x {a_height} cells with one of {b_width} x {b_height}")]
     GridMismatch {

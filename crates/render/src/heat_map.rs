@@ -11,7 +11,8 @@ use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
 use crate::sampling::{Sampling, block_mean};
 use crate::scene::Scene;
-use tigereye_core::{Cell, Field, math};
+use crate::walls;
+use tigereye_core::{Cell, Field, Surface, math};
 
 /// How values become colours.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -46,6 +47,9 @@ pub struct HeatOptions {
     /// n (W - 1) + 1 by n (H - 1) + 1 values, of which (i, j) lies at (i/n, j/n) cells; axes, sources and overlays stay in
     /// cells. 0 counts as 1, more than there are as all of them.
     pub samples_a_cell: usize,
+    /// Walls of a scene over the map. What they hide counts for neither colours nor legend. With several samples a cell they
+    /// are not drawn.
+    pub walls: Option<Field<Option<Surface>>>,
     /// Light sources, marked with stars.
     pub sources: Vec<Cell>,
     /// Bands over the map.
@@ -67,6 +71,7 @@ impl Default for HeatOptions {
             scale: HeatScale::default(),
             range: None,
             samples_a_cell: 1,
+            walls: None,
             sources: Vec::new(),
             ribbons: Vec::new(),
             overlays: Vec::new(),
@@ -82,7 +87,9 @@ impl Default for HeatOptions {
 pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     let sampling = Sampling::of(field.grid(), options.samples_a_cell);
     let grid = sampling.cells;
-    let summary = Summary::of(field.values());
+    let walls = options.walls.as_ref().filter(|walls| walls.grid() == field.grid());
+    let seen = seen_values(field, walls);
+    let summary = Summary::of(&seen);
     let axis = chosen_axis(&summary, options);
     let map = options.map.unwrap_or(match options.scale {
         HeatScale::Diverging => ColourMap::Vik,
@@ -103,10 +110,13 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     let colour = |first| cell_colour(block_mean(field, first, block), &axis, map);
     page.scene.items.push(sampling.raster(&page, colour));
     page.hatch(&sampling.cells_where(|sample| !field.at(sample).is_finite()));
-    let mut legend = value_legend(field.values(), &summary, &axis, options.missing.as_deref(), &sampling);
+    let mut legend = value_legend(&seen, &summary, &axis, options.missing.as_deref(), &sampling);
     if block > 1 {
         let text = format!("one pixel = mean of {block} × {block} {}", sampling.places());
         legend.push(Entry::of(Mark::None, text));
+    }
+    if let Some(walls) = walls {
+        walls::draw(&mut page, walls, &mut legend);
     }
     ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
@@ -114,6 +124,12 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     let (edge, top, height) = (page.left + page.width(), page.top, page.side_height());
     bar.draw(&mut page.scene, edge, top, height);
     page.finish(&options.title, description(&sampling, &summary, options), &legend)
+}
+
+/// The values that no wall hides.
+fn seen_values(field: &Field<f64>, walls: Option<&Field<Option<Surface>>>) -> Vec<f64> {
+    let hidden = |cell| walls.is_some_and(|w| w.at(cell).as_ref().is_some_and(walls::hides));
+    field.iter().filter(|(cell, _)| !hidden(*cell)).map(|(_, v)| *v).collect()
 }
 
 /// What is to be compared by [`difference_map`].

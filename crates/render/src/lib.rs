@@ -4,6 +4,7 @@
 //! bytes. Values that cannot be drawn (not finite, or not positive on a logarithmic scale) are never silently turned into
 //! others: the picture's legend names them.
 
+mod animation;
 mod axis;
 mod chart;
 mod chart_backend;
@@ -29,7 +30,9 @@ mod scene;
 mod shapes;
 mod svg;
 mod texture;
+mod walls;
 
+pub use animation::{Pace, animation};
 pub use chart::{Chart, ChartAxis, Reference, Series, line_chart};
 pub use colour::{ColourMap, Rgba, SERIES_PALETTE};
 pub use error::RenderError;

@@ -32,6 +32,25 @@ impl Scene {
     }
 }
 
+/// Pixels on white.
+#[derive(Debug)]
+pub(crate) struct Pixels {
+    /// Columns and rows.
+    pub(crate) size: [u32; 2],
+    /// Red, green and blue, row by row.
+    pub(crate) rgb: Vec<u8>,
+}
+
+/// A scene at its own size on a page of `width_px` x `height_px`.
+pub(crate) fn pixels(scene: &Scene, width_px: f64, height_px: f64) -> Result<Pixels, RenderError> {
+    let mut pixmap = checked_pixmap(width_px.ceil(), height_px.ceil())?;
+    pixmap.fill(Color::WHITE);
+    draw_items(&mut pixmap, &scene.items, Transform::identity())?;
+    // On white nothing is transparent.
+    let rgb = pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
+    Ok(Pixels { size: [pixmap.width(), pixmap.height()], rgb })
+}
+
 /// One pixel per cell.
 pub(crate) fn raster_png(raster: &Raster) -> Result<Vec<u8>, RenderError> {
     encoded(&raster_pixmap(raster)?)

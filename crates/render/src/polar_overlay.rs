@@ -6,7 +6,8 @@ use crate::map_frame::{self, MapFrame};
 use crate::overlay::{self, Overlay};
 use crate::scene::{PathBuilder, Scene};
 use crate::shapes;
-use tigereye_core::{Cell, Directions, Grid, LightDistribution, TransmissionField, math};
+use crate::walls;
+use tigereye_core::{Cell, Directions, Field, Grid, LightDistribution, Surface, TransmissionField, math};
 
 /// How intensity profiles are scaled against each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +49,8 @@ pub struct PolarOptions {
     pub transmission: TransmissionScale,
     /// Cells of light sources, marked.
     pub sources: Vec<Cell>,
+    /// Walls of a scene over the diagrams.
+    pub walls: Option<Field<Option<Surface>>>,
     /// Draws every n-th cell; by default as many as stay readable.
     pub every: Option<usize>,
     /// Pixels per cell; by default whole, such that the longer side has about 720.
@@ -63,6 +66,7 @@ impl Default for PolarOptions {
             intensity: IntensityScale::Logarithmic { decades: 4.0 },
             transmission: TransmissionScale::PerCell,
             sources: Vec::new(),
+            walls: None,
             every: None,
             cell_px: None,
             overlays: Vec::new(),
@@ -105,6 +109,9 @@ pub fn polar_overlay(
     }
     if let Some(l) = light {
         draw_light(&mut page, l, &cells, radius, line_px, options, &mut legend);
+    }
+    if let Some(walls) = options.walls.as_ref().filter(|walls| walls.grid() == grid) {
+        walls::draw(&mut page, walls, &mut legend);
     }
     overlay::draw(&mut page, &options.overlays, &mut legend);
     if every > 1 {

@@ -5,15 +5,15 @@ use crate::checkpoint::Checkpoint;
 use crate::commands::propagate::{check_outputs, stop_name, stopping_of};
 use crate::commands::{command_line, print_json, print_text, volume};
 use crate::error::CliError;
-use crate::input::{Input, insert_reading};
+use crate::input::insert_reading;
+use crate::medium::Lit;
 use crate::part_file::{self, Costs, Identity};
 use crate::watch::Watch;
 use crate::{files, interrupt, system};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Instant;
-use tigereye_core::{Normalization, TransmissionField};
-use tigereye_experiments::normalization_name;
+use tigereye_core::Normalization;
 use tigereye_experiments::provenance::provenance;
 use tigereye_ltg::{
     LtgError, LtgSettings, PartialVolume, Precision, Shard, check_fit, omega_step_of_volumes, sweep_part,
@@ -23,12 +23,12 @@ use tigereye_transport::{Scattering, Scheme, SharedWeights};
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     check_places(args)?;
     let start = Instant::now();
-    let input = Input::open_for_squares(&args.input, &args.scheme.reading)?;
+    let input = Lit::open(&args.input, &args.scheme.reading)?;
     input.check_apart(&args.outputs)?;
     let settings = settings_of(args)?;
-    let normalization = input.normalization(args.scheme.normalization);
-    let parameters = parameters(args, &settings, normalization);
-    let identity = Identity::new(&parameters, &input.blake3);
+    let normalization = input.normalization(args.scheme.normalization)?;
+    let parameters = parameters(args, &settings, &input.normalization_name(normalization));
+    let identity = Identity::new(&parameters, input.blake3());
     let (computed, costs) = system::on_threads(args.resources.threads, || {
         compute(args, &settings, normalization, &input, &identity, start)
     })?;
@@ -39,9 +39,9 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
             files::write(output, &part_file::encoded(&command_line(), &identity, shard, &computed, &costs))?;
         }
         _ => {
-            let story = provenance(&command_line(), &parameters, &input.blake3);
+            let story = provenance(&command_line(), &parameters, input.blake3());
             let outcome = computed.into_outcome().map_err(fault)?;
-            volume::write(&args.outputs, &outcome.volume, &args.input, &story)?;
+            volume::write(&args.outputs, &outcome.volume, input.surfaces(), &args.input, &story)?;
             if args.view {
                 volume::write_scripts(&args.outputs)?;
             }
@@ -85,13 +85,13 @@ fn compute(
     args: &LtgArgs,
     settings: &LtgSettings,
     normalization: Normalization,
-    input: &Input,
+    input: &Lit,
     identity: &Identity,
     start: Instant,
 ) -> Result<(PartialVolume, Costs), CliError> {
     let (directions, shard) = (args.scheme.directions, args.shard.unwrap_or(Shard::WHOLE));
     // Before anything large is made.
-    check_fit(input.field.grid(), directions, settings).map_err(fault)?;
+    check_fit(input.grid(), directions, settings).map_err(fault)?;
     let (checkpoint, found) = match &args.checkpoint {
         Some(folder) => {
             let (checkpoint, found) = Checkpoint::open(folder, command_line(), identity.clone(), shard)?;
@@ -105,8 +105,7 @@ fn compute(
     let computed = match found {
         Some(volume) if volume.missing(shard) == 0 => Ok(volume),
         found => {
-            let transmission = TransmissionField::from_tensors(&input.field, directions, normalization)
-                .map_err(|e| CliError::input(&input.name, e))?;
+            let transmission = input.transmission(directions, normalization)?;
             let scheme = Scheme::new(directions, SharedWeights::Thesis);
             let scattering = Scattering::new(&scheme, &transmission);
             sweep_part(&scattering, settings, shard, found, &watch)
@@ -159,7 +158,7 @@ fn settings_of(args: &LtgArgs) -> Result<LtgSettings, CliError> {
 }
 
 /// All parameters, resolved, under the names of the options.
-fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: Normalization) -> Value {
+fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: &str) -> Value {
     let mut parameters = json!({
         "input": args.input,
         "directions": args.scheme.directions.count(),
@@ -167,7 +166,7 @@ fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: Normalizati
         "max_iterations": settings.stopping.max_iterations,
         "stop": stop_name(args.scheme.stop),
         "omega_step": settings.omega_step,
-        "normalization": normalization_name(normalization),
+        "normalization": normalization,
         "slices": settings.slices,
         "precision": settings.precision.name(),
         "threads": args.resources.threads.unwrap_or_else(rayon::current_num_threads),

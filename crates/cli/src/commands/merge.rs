@@ -44,7 +44,7 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     let outcome = sum.into_outcome().map_err(|e| CliError::input(&names(&taken), e))?;
     let story = provenance(&command_line(), &identity.parameters, &identity.input_blake3);
     let title = identity.parameters["input"].as_str().unwrap_or_default();
-    volume::write(&args.outputs, &outcome.volume, title, &story)?;
+    volume::write(&args.outputs, &outcome.volume, None, title, &story)?;
     if args.json {
         print_json(&summary)?
     } else {

@@ -3,14 +3,15 @@
 use crate::args::{Picture, PropagateArgs, SchemeArgs, StopRule};
 use crate::commands::{command_line, counted, print_json, print_text};
 use crate::error::CliError;
-use crate::input::{Input, insert_reading};
+use crate::input::insert_reading;
+use crate::medium::Lit;
+use crate::reel::Reel;
 use crate::{files, interrupt, system};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use tigereye_core::{Cell, LightDistribution, Normalization, PolarProfile, StopReason, TransmissionField};
-use tigereye_experiments::normalization_name;
+use tigereye_core::{Cell, Field, LightDistribution, PolarProfile, StopReason, Surface};
 use tigereye_experiments::provenance::provenance;
 use tigereye_experiments::settings::profile_of_expression;
 use tigereye_io::{npy, pvd, vti};
@@ -18,43 +19,46 @@ use tigereye_render::{
     HeatOptions, HeatScale, PolarOptions, Scene, TransmissionScale, heat_map, polar_overlay,
 };
 use tigereye_transport::{
-    EightLobe, Engine, Light, Outcome, Problem, Scheme, SharedWeights, Stopping, StoppingRule,
+    EightLobe, Emission, Engine, Light, Outcome, Problem, Scheme, SharedWeights, Stopping, StoppingRule,
 };
 
 /// Resolution of PNG pictures.
 pub(super) const PNG_SCALE: f64 = 2.0;
 
 pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
-    check_outputs(&args.outputs, &["vti", "npy", "png", "svg", "pvd"])?;
+    check_outputs(&args.outputs, &["vti", "npy", "png", "svg", "pvd", "apng"])?;
     args.outputs.iter().filter(|o| is_collection(o)).try_for_each(|o| check_frames(o, args))?;
     let start = Instant::now();
-    let input = Input::open_for_squares(&args.input, &args.scheme.reading)?;
+    let input = Lit::open(&args.input, &args.scheme.reading)?;
     input.check_apart(&args.outputs)?;
     for folder in args.outputs.iter().filter(|o| is_collection(o)).map(|o| folder_of_frames(o)) {
         let inside = |file: &&String| files::place_of(Path::new(file)).starts_with(files::place_of(&folder));
-        if let Some(file) = input.files.iter().find(inside) {
+        if let Some(file) = input.files().iter().find(inside) {
             let problem =
                 format!("is in the folder {} of the frames: expected another place", folder.display());
             return Err(CliError::input(file, problem));
         }
     }
-    let normalization = input.normalization(args.scheme.normalization);
-    let lights = args.lights.iter().map(|l| light(l, args)).collect::<Result<Vec<_>, _>>()?;
-    let transmission = TransmissionField::from_tensors(&input.field, args.scheme.directions, normalization)
-        .map_err(|e| CliError::input(&input.name, e))?;
+    let normalization = input.normalization(args.scheme.normalization)?;
+    let lights = lights(args, &input)?;
+    let transmission = input.transmission(args.scheme.directions, normalization)?;
     let scheme = Scheme::new(args.scheme.directions, SharedWeights::Thesis);
     let stopping = args.steps.map_or_else(|| stopping_of(&args.scheme), Stopping::steps);
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
-    let parameters = parameters(args, &stopping, normalization);
-    let story = provenance(&command_line(), &parameters, &input.blake3);
+    let parameters = parameters(args, &stopping, &input.normalization_name(normalization));
+    let story = provenance(&command_line(), &parameters, input.blake3());
     let mut frames = args
         .outputs
         .iter()
         .any(|o| is_collection(o))
         .then(|| Frames { story: story.clone(), images: Vec::new() });
     problem.check().map_err(|e| CliError::input("--light", e))?;
+    let mut reel = args.outputs.iter().any(|o| is_animation(o)).then(|| Reel::new(input.grid().cells()));
     if let Some(frames) = &mut frames {
         frames.add(&problem.before_first_step())?;
+    }
+    if let Some(reel) = &mut reel {
+        reel.add(&problem.before_first_step());
     }
     let mut fault = None;
     let outcome = EightLobe
@@ -62,16 +66,20 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
             if let Some(frames) = &mut frames {
                 fault = frames.add(&view.distribution()).err();
             }
+            if let Some(reel) = &mut reel {
+                reel.add(&view.distribution());
+            }
             let end = interrupt::asked() || fault.is_some();
             if end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })
         .map_err(|e| CliError::input("--light", e))?;
     interrupt::check()?;
     fault.map_or(Ok(()), Err)?;
+    let drawn = Drawn { problem: &problem, outcome: &outcome, walls: input.surfaces(), reel: reel.as_ref() };
     for output in &args.outputs {
         match &frames {
             Some(frames) if is_collection(output) => frames.write(output)?,
-            _ => files::write(output, &encoded(output, args, &problem, &outcome, &story)?)?,
+            _ => files::write(output, &encoded(output, args, &drawn, &story)?)?,
         }
     }
     report(args, &input, &outcome, start.elapsed().as_secs_f64())?;
@@ -100,6 +108,10 @@ fn check_output(output: &Path, endings: &[&str]) -> Result<(), CliError> {
     let last = expected.pop().unwrap_or_default();
     let problem = format!("the ending tells the format: expected {} or {last}", expected.join(", "));
     Err(CliError::input(&output.display().to_string(), problem))
+}
+
+fn is_animation(output: &Path) -> bool {
+    files::extension(output) == "apng"
 }
 
 fn is_collection(output: &Path) -> bool {
@@ -175,6 +187,26 @@ impl Frames {
     }
 }
 
+/// The lights asked for, or a scene's own.
+fn lights(args: &PropagateArgs, input: &Lit) -> Result<Vec<Light>, CliError> {
+    let asked = args.lights.iter().map(|l| light(l, args)).collect::<Result<Vec<_>, _>>()?;
+    if !asked.is_empty() {
+        input.check_lights(&asked)?;
+        return Ok(asked);
+    }
+    let mut own = input.own_lights(args.scheme.directions)?;
+    if own.is_empty() {
+        let problem = "nothing shines: expected a light, --light X,Y or --light X,Y,PROFILE";
+        return Err(CliError::input(input.name(), problem));
+    }
+    if args.impulse {
+        for light in &mut own {
+            light.emission = Emission::Impulse(light.initial_profile(args.scheme.directions));
+        }
+    }
+    Ok(own)
+}
+
 /// `X,Y[,PROFILE]`; the profile may hold commas itself.
 fn light(text: &str, args: &PropagateArgs) -> Result<Light, CliError> {
     let fault = |problem: String| CliError::input(&format!("--light {text}"), problem);
@@ -212,7 +244,7 @@ pub(crate) const fn stop_name(rule: StopRule) -> &'static str {
     }
 }
 
-fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: Normalization) -> Value {
+fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: &str) -> Value {
     let mut parameters = json!({
         "input": args.input,
         "light": args.lights,
@@ -222,62 +254,73 @@ fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: Normaliz
         "threshold": stopping.rule.threshold(),
         "max_iterations": stopping.max_iterations,
         "stop": stop_name(args.scheme.stop),
-        "normalization": normalization_name(normalization),
+        "normalization": normalization,
     });
     insert_reading(&mut parameters, &args.scheme.reading);
     parameters
 }
 
-fn encoded(
-    output: &Path,
-    args: &PropagateArgs,
-    problem: &Problem<'_>,
-    outcome: &Outcome,
-    story: &str,
-) -> Result<Vec<u8>, CliError> {
+fn encoded(output: &Path, args: &PropagateArgs, drawn: &Drawn<'_>, story: &str) -> Result<Vec<u8>, CliError> {
     let name = output.display().to_string();
-    let light = &outcome.distribution;
+    let light = &drawn.outcome.distribution;
     match files::extension(output).as_str() {
         "npy" => Ok(npy::write_light(light)),
         "vti" => {
             vti::write(&tigereye_io::image_from_light(light, story)).map_err(|e| CliError::input(&name, e))
         }
-        "png" => picture(args, problem, outcome).to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
-        _ => picture(args, problem, outcome)
-            .to_svg()
-            .map(String::into_bytes)
-            .map_err(|e| CliError::input(&name, e)),
+        "apng" => {
+            let reel = drawn.reel.ok_or_else(|| CliError::input(&name, "no step was kept"))?;
+            reel.encoded(&name, &args.input, &drawn.sources(), drawn.walls)
+        }
+        "png" => drawn.picture(args).to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
+        _ => drawn.picture(args).to_svg().map(String::into_bytes).map_err(|e| CliError::input(&name, e)),
     }
 }
 
-fn picture(args: &PropagateArgs, problem: &Problem<'_>, outcome: &Outcome) -> Scene {
-    let sources: Vec<Cell> = problem.lights.iter().map(|l| l.cell).collect();
-    let title = args.input.clone();
-    match args.picture {
-        Picture::Overlay => {
-            let options = PolarOptions {
-                title,
-                sources,
-                transmission: TransmissionScale::Rate,
-                ..PolarOptions::default()
-            };
-            polar_overlay(Some(problem.transmission), Some(&outcome.distribution), &options)
-        }
-        Picture::Energy => {
-            let options = HeatOptions {
-                title,
-                sources,
-                quantity: "energy of a cell / W".to_owned(),
-                scale: HeatScale::Logarithmic { decades: 4.0 },
-                ..HeatOptions::default()
-            };
-            heat_map(&outcome.distribution.energy(), &options)
+/// What pictures show.
+struct Drawn<'a> {
+    problem: &'a Problem<'a>,
+    outcome: &'a Outcome,
+    walls: Option<&'a Field<Option<Surface>>>,
+    /// The steps, where an animation is asked for.
+    reel: Option<&'a Reel>,
+}
+
+impl Drawn<'_> {
+    fn sources(&self) -> Vec<Cell> {
+        self.problem.lights.iter().map(|l| l.cell).collect()
+    }
+
+    fn picture(&self, args: &PropagateArgs) -> Scene {
+        let (sources, walls, title) = (self.sources(), self.walls.cloned(), args.input.clone());
+        match args.picture {
+            Picture::Overlay => {
+                let options = PolarOptions {
+                    title,
+                    sources,
+                    walls,
+                    transmission: TransmissionScale::Rate,
+                    ..PolarOptions::default()
+                };
+                polar_overlay(Some(self.problem.transmission), Some(&self.outcome.distribution), &options)
+            }
+            Picture::Energy => {
+                let options = HeatOptions {
+                    title,
+                    sources,
+                    walls,
+                    quantity: "energy of a cell / W".to_owned(),
+                    scale: HeatScale::Logarithmic { decades: 4.0 },
+                    ..HeatOptions::default()
+                };
+                heat_map(&self.outcome.distribution.energy(), &options)
+            }
         }
     }
 }
 
-fn report(args: &PropagateArgs, input: &Input, outcome: &Outcome, seconds: f64) -> Result<(), CliError> {
-    let grid = input.field.grid();
+fn report(args: &PropagateArgs, input: &Lit, outcome: &Outcome, seconds: f64) -> Result<(), CliError> {
+    let grid = input.grid();
     let energy = outcome.distribution.energy();
     let largest = energy.values().iter().fold(0.0, |m: f64, &e| m.max(e));
     let (stop, stop_words) = match outcome.stop {

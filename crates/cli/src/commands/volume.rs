@@ -5,7 +5,8 @@ use crate::error::CliError;
 use crate::files;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use tigereye_core::{Field, LtgVolume};
+use tigereye_core::{Field, LtgVolume, Surface};
+use tigereye_experiments::scene::where_result;
 use tigereye_io::{npy, vti};
 use tigereye_render::{HeatOptions, Scene, heat_map};
 
@@ -42,37 +43,49 @@ pub(super) fn write_scripts(outputs: &[PathBuf]) -> Result<(), CliError> {
 pub(super) fn write(
     outputs: &[PathBuf],
     volume: &LtgVolume,
+    walls: Option<&Field<Option<Surface>>>,
     title: &str,
     story: &str,
 ) -> Result<(), CliError> {
-    outputs.iter().try_for_each(|output| files::write(output, &encoded(output, volume, title, story)?))
+    let drawn = || picture(title, volume, walls);
+    outputs.iter().try_for_each(|output| files::write(output, &encoded(output, volume, &drawn, story)?))
 }
 
 /// A volume in the format of the output's ending.
-fn encoded(output: &Path, volume: &LtgVolume, title: &str, story: &str) -> Result<Vec<u8>, CliError> {
+fn encoded(
+    output: &Path,
+    volume: &LtgVolume,
+    drawn: &dyn Fn() -> Scene,
+    story: &str,
+) -> Result<Vec<u8>, CliError> {
     let name = output.display().to_string();
     match files::extension(output).as_str() {
         "npy" => Ok(npy::write_ltg(volume)),
         "vti" => {
             vti::write(&tigereye_io::image_from_ltg(volume, story)).map_err(|e| CliError::input(&name, e))
         }
-        "png" => picture(title, volume).to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
-        _ => picture(title, volume).to_svg().map(String::into_bytes).map_err(|e| CliError::input(&name, e)),
+        "png" => drawn().to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
+        _ => drawn().to_svg().map(String::into_bytes).map_err(|e| CliError::input(&name, e)),
     }
 }
 
 /// The only slice, or the mean over the slices.
-fn picture(title: &str, volume: &LtgVolume) -> Scene {
+fn picture(title: &str, volume: &LtgVolume, walls: Option<&Field<Option<Surface>>>) -> Scene {
     let (field, quantity) = match volume.slices() {
         [t] => (volume.slice(*t), format!("LTG at {} degrees / (W/rad)", volume.directions().angle_deg(*t))),
         _ => (None, "mean LTG over direction / (W/rad)".to_owned()),
     };
     let field = field.unwrap_or_else(|| volume.mean_over_directions());
-    let grid = field.grid();
-    // The border is 0 by definition and would stretch the scale.
-    let inner = Field::from_fn(grid, |c| if grid.is_border(c) { f64::NAN } else { *field.at(c) });
-    let missing = Some("border, 0 by definition".to_owned());
-    heat_map(&inner, &HeatOptions { title: title.to_owned(), quantity, missing, ..HeatOptions::default() })
+    let missing = if walls.is_some() { "border, or beside a wall" } else { "border, 0 by definition" };
+    let options = HeatOptions {
+        title: title.to_owned(),
+        quantity,
+        missing: Some(missing.to_owned()),
+        walls: walls.cloned(),
+        ..HeatOptions::default()
+    };
+    // What is no result would stretch the scale.
+    heat_map(&where_result(&field, walls), &options)
 }
 
 /// A summary in one sentence.

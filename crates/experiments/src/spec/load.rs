@@ -1,6 +1,6 @@
 //! Text to [`Experiment`], with the place of every fault.
 
-use super::{Experiment, FORMAT, FieldFile};
+use super::{Experiment, FORMAT, FieldFile, SceneFile};
 use crate::shortened;
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
@@ -40,6 +40,16 @@ pub fn load_field(file: &str, text: &str) -> Result<FieldFile, SpecError> {
     Ok(field)
 }
 
+/// Reads a scene. Files that it names are read later, by [`crate::scene::prepare`].
+///
+/// # Errors
+/// The first fault, with line and column.
+pub fn load_scene(file: &str, text: &str) -> Result<SceneFile, SpecError> {
+    let scene: SceneFile = parsed(file, text)?;
+    check_format(file, text, scene.format)?;
+    Ok(scene)
+}
+
 fn parsed<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, SpecError> {
     let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
     options.from_str(text).map_err(|e| {
@@ -75,9 +85,57 @@ pub(crate) fn place_after(text: &str, anchors: &[&str], word: &str) -> (usize, u
             from = place + part.len();
         }
     }
+    line_and_column(&code, place)
+}
+
+/// Line and column of `word` in an item of the list behind `list`, or of the item where it has no such word.
+pub(crate) fn place_in_list(text: &str, list: &str, index: usize, word: &str) -> (usize, usize) {
+    let code = without_strings(&without_comments(text));
+    let Some(list) = code.find(list).map(|at| at + list.len()) else { return (1, 1) };
+    let Some(items) = code[list..].find('[').map(|at| list + at + 1) else { return (1, 1) };
+    let (mut depth, mut seen, mut start, mut end) = (0_usize, 0, items, code.len());
+    for (i, c) in code[items..].char_indices() {
+        match c {
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' if depth == 0 => {
+                end = items + i;
+                break;
+            }
+            ')' | ']' | '}' => depth -= 1,
+            ',' if depth == 0 && seen == index => {
+                end = items + i;
+                break;
+            }
+            ',' if depth == 0 => {
+                seen += 1;
+                start = items + i + 1;
+            }
+            _ => {}
+        }
+    }
+    let item = &code[start..end];
+    let place = start + item.find(word).unwrap_or(item.len() - item.trim_start().len());
+    line_and_column(&code, place)
+}
+
+fn line_and_column(code: &str, place: usize) -> (usize, usize) {
     let line = code[..place].matches('\n').count() + 1;
     let start = code[..place].rfind('\n').map_or(0, |n| n + 1);
     (line, code[start..place].chars().count() + 1)
+}
+
+/// The text with what stands in strings replaced by dots, every character at its place.
+fn without_strings(code: &str) -> String {
+    let (mut in_string, mut escaped) = (false, false);
+    let blanked = code.chars().map(|c| {
+        let inside = in_string && !(c == '"' && !escaped);
+        if c == '"' && !escaped {
+            in_string = !in_string;
+        }
+        escaped = in_string && c == '\\' && !escaped;
+        if inside && c != '\n' { '.' } else { c }
+    });
+    blanked.collect()
 }
 
 /// The text with comment tails blanked out, every other byte at its place.

@@ -9,15 +9,17 @@ mod figures;
 mod load;
 mod named;
 mod numbers;
+mod scene;
 mod tables;
 
 pub use checks::{Check, Expectation, Mirror, PulseNumber, Quantity, SchemeConstant, Summary};
 pub use classical::{AxesChoice, DistanceNumber, FamilyChoice, MapSource, RidgeSource};
 pub use figures::{Axis, Curve, Figure, FlatView, GlyphColour, Panel, ProfileSource, Scale, SeriesSource};
-pub(crate) use load::place_after;
-pub use load::{SpecError, load, load_field};
+pub use load::{SpecError, load, load_field, load_scene};
+pub(crate) use load::{place_after, place_in_list};
 pub use named::Named;
 pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive, Sigma};
+pub use scene::{MaterialSource, Point, SceneFile, ScenePart, ShapeSource};
 pub use tables::{ComparisonRow, GradientRow, NoiseRow, RuntimeRow, Table, TableRows};
 
 use serde::Deserialize;
@@ -50,6 +52,9 @@ pub struct Experiment {
     /// Tensor fields by name.
     #[serde(default)]
     pub fields: Named<FieldSource>,
+    /// Scenes by name, each in a file `NAME.scene.ron` beside this one. Runs of light take them where they take fields.
+    #[serde(default)]
+    pub scenes: Named<String>,
     /// Propagations, gradients and studies of pulses by name, in order.
     #[serde(default)]
     pub runs: Named<Run>,
@@ -250,7 +255,8 @@ pub enum Run {
         /// Cone weights of the overlap.
         #[serde(default)]
         weights: Weights,
-        /// The lights.
+        /// The lights; a scene's own where there are none.
+        #[serde(default)]
         lights: Vec<LightSource>,
         /// When to end.
         #[serde(default)]

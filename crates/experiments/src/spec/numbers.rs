@@ -57,6 +57,12 @@ impl Positive {
     }
 }
 
+impl Fraction {
+    pub(crate) const fn one() -> Self {
+        Self(1.0)
+    }
+}
+
 impl NonNegative {
     pub(crate) const fn half() -> Self {
         Self(0.5)

@@ -1,0 +1,141 @@
+//! What light runs through in a command: a tensor field or a scene.
+
+use crate::args::ReadingArgs;
+use crate::error::CliError;
+use crate::files;
+use crate::host::FileHost;
+use crate::input::Input;
+use std::path::{Path, PathBuf};
+use tigereye_core::{Directions, Field, Grid, Normalization, Surface, TransmissionField};
+use tigereye_experiments::input::Reading;
+use tigereye_experiments::scene::{PreparedScene, is_scene_file, light_fault, prepare};
+use tigereye_experiments::settings::lights_of;
+use tigereye_experiments::{Medium, normalization_name};
+use tigereye_transport::Light;
+
+/// INPUT of commands that propagate.
+#[derive(Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one at a time")]
+pub(crate) enum Lit {
+    /// Tensors of a file or a generator.
+    Tensors(Input),
+    /// A scene, and the files it was read from.
+    Scene(String, PreparedScene, Vec<String>),
+}
+
+impl Lit {
+    /// Reads INPUT. What had to be assumed and what looks wrong goes to standard error.
+    pub(crate) fn open(text: &str, reading: &ReadingArgs) -> Result<Self, CliError> {
+        if !is_scene_file(text) {
+            return Input::open_for_squares(text, reading).map(Self::Tensors);
+        }
+        if reading.reading() != Reading::default() {
+            let problem = "is a scene and has no tensors to read: expected it without options for reading";
+            return Err(CliError::input(text, problem));
+        }
+        let words = files::read_text(Path::new(text))?;
+        let host = FileHost::new(Some(PathBuf::from(".")), text.to_owned());
+        let made = prepare(text, &words, &host);
+        host.finish();
+        let scene = made.map_err(|problems| {
+            CliError::Input(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+        })?;
+        for line in scene.remarks() {
+            eprintln!("{text}: {line}");
+        }
+        let mut names = host.opened();
+        names.push(text.to_owned());
+        Ok(Self::Scene(text.to_owned(), scene, names))
+    }
+
+    fn medium(&self) -> Medium<'_> {
+        match self {
+            Self::Tensors(input) => Medium::Tensors(&input.field),
+            Self::Scene(_, scene, _) => Medium::Scene(scene),
+        }
+    }
+
+    pub(crate) fn grid(&self) -> Grid {
+        self.medium().grid()
+    }
+
+    pub(crate) fn name(&self) -> &str {
+        match self {
+            Self::Tensors(input) => &input.name,
+            Self::Scene(name, ..) => name,
+        }
+    }
+
+    pub(crate) fn files(&self) -> &[String] {
+        match self {
+            Self::Tensors(input) => &input.files,
+            Self::Scene(_, _, names) => names,
+        }
+    }
+
+    /// Refuses outputs that are among the files that were read: the data would be gone.
+    pub(crate) fn check_apart(&self, outputs: &[PathBuf]) -> Result<(), CliError> {
+        files::check_apart(self.files(), outputs)
+    }
+
+    /// Hash of what determines the numbers, hex.
+    pub(crate) fn blake3(&self) -> &str {
+        match self {
+            Self::Tensors(input) => &input.blake3,
+            Self::Scene(_, scene, _) => &scene.blake3,
+        }
+    }
+
+    /// The normalisation asked for, or the kind's own.
+    pub(crate) fn normalization(&self, asked: Option<Normalization>) -> Result<Normalization, CliError> {
+        match (self, asked) {
+            (Self::Tensors(input), asked) => Ok(input.normalization(asked)),
+            (Self::Scene(..), None) => Ok(Normalization::Local),
+            (Self::Scene(..), Some(_)) => Err(CliError::input(
+                "--normalization",
+                "a scene's crystals have one of their own: expected none",
+            )),
+        }
+    }
+
+    /// Name of a normalisation for parameters.
+    pub(crate) fn normalization_name(&self, normalization: Normalization) -> String {
+        match self {
+            Self::Tensors(_) => normalization_name(normalization),
+            Self::Scene(..) => "scene".to_owned(),
+        }
+    }
+
+    pub(crate) fn transmission(
+        &self,
+        directions: Directions,
+        normalization: Normalization,
+    ) -> Result<TransmissionField, CliError> {
+        let made = self.medium().transmission(directions, normalization);
+        made.map_err(|e| CliError::input(self.name(), e))
+    }
+
+    /// The walls of a scene.
+    pub(crate) fn surfaces(&self) -> Option<&Field<Option<Surface>>> {
+        self.medium().scene().map(|scene| &scene.built.surfaces)
+    }
+
+    /// The lights a scene comes with.
+    pub(crate) fn own_lights(&self, directions: Directions) -> Result<Vec<Light>, CliError> {
+        let Some(scene) = self.medium().scene() else { return Ok(Vec::new()) };
+        let (lights, faults) = lights_of(&scene.lights, self.grid(), directions);
+        match faults.into_iter().next() {
+            Some(fault) => Err(CliError::input(self.name(), fault)),
+            None => Ok(lights),
+        }
+    }
+
+    /// Refuses lights inside of walls.
+    pub(crate) fn check_lights(&self, lights: &[Light]) -> Result<(), CliError> {
+        let Some(scene) = self.medium().scene() else { return Ok(()) };
+        match lights.iter().find_map(|light| light_fault(&scene.built, light.cell)) {
+            Some(problem) => Err(CliError::input("--light", problem)),
+            None => Ok(()),
+        }
+    }
+}

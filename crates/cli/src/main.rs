@@ -12,7 +12,6 @@ mod input;
 mod interrupt;
 mod medium;
 mod part_file;
-mod reel;
 mod system;
 mod watch;
 

@@ -144,7 +144,13 @@ pub(crate) fn digest(settings: &Settings, results: &Results, outcome: &Experimen
         figures: outcome
             .figures
             .iter()
-            .map(|f| format!("{} {}x{}", f.name, f.width_px.round(), f.height_px.round()))
+            .map(|f| {
+                let frames = match f.frames {
+                    0 => String::new(),
+                    n => format!(", {n} frames"),
+                };
+                format!("{} {}x{}{frames}", f.name, f.width_px.round(), f.height_px.round())
+            })
             .collect(),
         tables: outcome.tables.iter().map(|t| format!("{}: {} rows", t.title, t.rows.len())).collect(),
         checks: outcome

@@ -11,14 +11,15 @@ use crate::outcome::{DataFile, Figure};
 use crate::runs::{LightResult, Results, RunError};
 use crate::settings::{PulsesSettings, RunSettings, Settings, axes_of, family_of, sample_of};
 use crate::spec::{self, FlatView, Panel, ProfileSource, RidgeSource, SeriesSource};
+use crate::ways::Ways;
 use std::fmt::Write as _;
 use tigereye_core::{Cell, Field, Grid, LightDistribution, PolarProfile, transmission_ellipse};
 use tigereye_fields::Expression;
 use tigereye_lines::{ConvolutionOptions, Family, LineOptions};
 use tigereye_render::{
     Chart, ChartAxis, GlyphColour, GlyphOptions, GlyphScale, HeatOptions, HeatScale, IntensityScale,
-    OrientationOptions, Overlay, PlainOptions, PolarOptions, PolarPlotOptions, PolarSeries, Rgba,
-    SERIES_PALETTE, Scene, Series, TransmissionScale, glyphs, heat_map, line_chart, orientation_map,
+    OrientationOptions, Overlay, PlainOptions, PolarOptions, PolarPlotOptions, PolarSeries, RenderError,
+    Rgba, SERIES_PALETTE, Scene, Series, TransmissionScale, glyphs, heat_map, line_chart, orientation_map,
     plain_map, polar_overlay, polar_plot, small_multiples,
 };
 use tigereye_transport::{Scheme, SharedWeights, emitter};
@@ -62,6 +63,12 @@ pub(crate) fn draw_figure(
         }
     }
     let alt_of_panels: Vec<String> = panels.iter().map(|(t, s)| format!("{t}. {}", s.description)).collect();
+    let mut frames = 0;
+    if let Some((encoded, count)) = figure.animation.as_ref().and_then(|a| draw.animation(a)) {
+        let bytes = encoded.map_err(failed)?;
+        tables.push(DataFile { name: format!("{}.apng", figure.name), bytes });
+        frames = count;
+    }
     let mut scene = match panels.len() {
         1 => panels.remove(0).1,
         _ => small_multiples(&panels, figure.columns.clamp(1, panels.len().max(1)), ""),
@@ -76,6 +83,7 @@ pub(crate) fn draw_figure(
     };
     let figure = Figure {
         timed: figure.panels.iter().any(draws_seconds),
+        frames,
         name: figure.name.clone(),
         caption: figure.caption.clone(),
         alt: scene.description.clone(),
@@ -132,10 +140,12 @@ impl Draw<'_> {
                 });
                 shown(scene, title, figure)
             }
-            Panel::Energy { run, step, decades, title } => {
+            Panel::Energy { run, step, decades, way_to, title } => {
                 let decades = decades.map(spec::Positive::get);
-                let scene =
-                    self.light(run).and_then(|r| self.energy(run, r, *step, decades, own_title(title)));
+                let overlays = way_to.and_then(|to| self.ways(run, to)).unwrap_or_default();
+                let scene = self
+                    .light(run)
+                    .and_then(|r| self.energy(run, r, *step, decades, (overlays, own_title(title))));
                 shown(scene, title, figure)
             }
             Panel::Slice { run, deg, ridge, title } => {
@@ -305,7 +315,7 @@ impl Draw<'_> {
         r: &LightResult,
         step: Option<usize>,
         decades: Option<f64>,
-        title: String,
+        (overlays, title): (Vec<Overlay>, String),
     ) -> Option<Scene> {
         let scale = decades.map_or(HeatScale::Linear, |decades| HeatScale::Logarithmic { decades });
         let options = HeatOptions {
@@ -314,10 +324,42 @@ impl Draw<'_> {
             scale,
             sources: r.sources.clone(),
             walls: self.results.surfaces.get(run).cloned(),
+            overlays,
             cell_px: self.cell_px(r.last.grid()),
             ..HeatOptions::default()
         };
         Some(heat_map(&at_step(r, step)?.energy(), &options))
+    }
+
+    /// The shortest way to a cell, and the brightest one over it.
+    fn ways(&self, run: &str, to: (usize, usize)) -> Option<Vec<Overlay>> {
+        let ways = Ways::of(self.settings, self.results, run, to)?;
+        let line = |way: &[Cell], label: &str, colour, width_px| Overlay {
+            label: label.to_owned(),
+            points: way.iter().map(|c| [c.x as f64, c.y as f64]).collect(),
+            colour,
+            width_px,
+            ..Overlay::default()
+        };
+        Some(vec![
+            line(&ways.shortest, "shortest way (breadth-first search)", Rgba::hex(0xd55e00), 4.0),
+            line(&ways.brightest, "brightest way", Rgba::hex(0x56b4e9), 1.2),
+        ])
+    }
+
+    /// Frames of a light run and their number.
+    fn animation(&self, animation: &spec::Animation) -> Option<(Result<Vec<u8>, RenderError>, usize)> {
+        let r = self.light(&animation.run)?;
+        let reel = r.reel.as_ref()?;
+        let options = HeatOptions {
+            quantity: "energy of a cell / W".to_owned(),
+            sources: r.sources.clone(),
+            walls: self.results.surfaces.get(&animation.run).cloned(),
+            cell_px: Some((PANEL_PX / r.last.grid().width().max(r.last.grid().height())).max(2)),
+            ..HeatOptions::default()
+        };
+        let decades = animation.decades.map_or(4.0, spec::Positive::get);
+        Some((reel.encoded(&options, decades), reel.len()))
     }
 
     fn slice(&self, run: &str, deg: f64, ridge: bool, title: String) -> Option<Scene> {

@@ -21,6 +21,7 @@ mod outcome;
 mod places;
 pub mod provenance;
 mod pulses;
+mod reel;
 pub mod report;
 pub mod review;
 mod runs;
@@ -30,12 +31,14 @@ pub mod sheet;
 pub mod spec;
 mod tables;
 mod uses;
+mod ways;
 
 pub use digest::Digest;
 pub use evaluate::{Evaluation, ExperimentError, evaluate, normalization_name};
 pub use host::Host;
 pub use medium::Medium;
 pub use outcome::{CheckOutcome, Column, DataFile, Expected, ExperimentOutcome, Figure, Table};
+pub use reel::Reel;
 pub use runs::RunError;
 
 /// A message with its middle left out where somebody's input makes it longer than people read.

@@ -54,6 +54,8 @@ pub struct Figure {
     pub height_px: f64,
     /// Whether it draws seconds, which are others in every run.
     pub timed: bool,
+    /// Frames of the animation beside it, `NAME.apng` among the data; 0 for none.
+    pub frames: usize,
     /// The picture as PNG.
     pub png: Vec<u8>,
     /// The picture as SVG.

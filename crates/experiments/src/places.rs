@@ -42,7 +42,10 @@ impl Known<'_> {
     /// The first fault of a panel; names that are unknown are reported elsewhere.
     pub(crate) fn fault_of_panel(&self, panel: &Panel) -> Option<Misplaced> {
         match panel {
-            Panel::Overlay { run, step, .. } | Panel::Energy { run, step, .. } => self.step(run, *step),
+            Panel::Overlay { run, step, .. } => self.step(run, *step),
+            Panel::Energy { run, step, way_to, .. } => {
+                self.step(run, *step).or_else(|| self.way(run, (*way_to)?))
+            }
             Panel::Slice { run, deg, .. } => self.slice(run, deg.get()),
             Panel::Polar { curves, .. } => curves.iter().find_map(|c| self.fault_of_curve(&c.source)),
             Panel::Chart { series, .. } => series.iter().find_map(|s| self.fault_of_series(s)),
@@ -109,6 +112,10 @@ impl Known<'_> {
         match quantity {
             Q::MajorAxisError { phi_deg, .. } => fault_of_expression(phi_deg, &ExpressionField::VARIABLES),
             Q::MajorAxisDeg { field, cell } => self.cell((self.field)(field)?.grid(), *cell),
+            Q::EnergyOver { run, over, cell } => {
+                self.cell_of(run, *cell).or_else(|| self.cell_of(over, *cell))
+            }
+            Q::WayLength { run, to } | Q::WayDifference { run, to } => self.way(run, *to),
             Q::EnergyRatio { run, cell, over } => {
                 self.cell_of(run, *cell).or_else(|| self.cell_of(run, *over))
             }
@@ -148,6 +155,16 @@ impl Known<'_> {
         let problem = || format!("cell ({x}, {y}) lies outside of the {w} x {h} cells");
         let outside = !grid.contains(Cell::new(x, y));
         outside.then(|| Misplaced { word: format!("({x}, {y})"), problem: problem() })
+    }
+
+    /// The end of a way through a scene.
+    fn way(&self, run: &str, to: (usize, usize)) -> Option<Misplaced> {
+        let medium = (self.medium)((self.run)(run)?.field())?;
+        let problem = || format!("\"{run}\" runs through a field: ways are found through scenes");
+        match medium.scene() {
+            Some(_) => self.cell(medium.grid(), to),
+            None => Some(Misplaced { word: format!("\"{run}\""), problem: problem() }),
+        }
     }
 
     fn cell_of(&self, run: &str, cell: (usize, usize)) -> Option<Misplaced> {

@@ -1,12 +1,12 @@
 //! Runs settings and keeps what figures and checks ask for.
 
-use crate::Medium;
 use crate::classical::fine::exponents;
 use crate::host::Host;
 use crate::pulses::{PulseRecord, run_pulses};
 use crate::scene::where_result;
 use crate::settings::{GradientSettings, LightSettings, RunSettings, Settings};
 use crate::spec::EngineChoice;
+use crate::{Medium, Reel};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use thiserror::Error;
@@ -115,6 +115,8 @@ pub(crate) struct LightResult {
     /// Mean and standard deviation of the energy's distance from the centre, after each step (index 0: before the first);
     /// empty unless asked for.
     pub(crate) radii: Vec<(f64, f64)>,
+    /// Steps for an animation, where one is asked for.
+    pub(crate) reel: Option<Reel>,
     pub(crate) stop: StopReason,
     pub(crate) work: Work,
 }
@@ -178,6 +180,10 @@ fn run_light(
     let mut frames = BTreeMap::new();
     let mut energies = vec![start.total_energy()];
     let mut radii = if settings.trace_radius { vec![energy_radius(&start.energy())] } else { Vec::new() };
+    let mut reel = settings.reel_every.map(|every| Reel::new(medium.grid().cells(), every));
+    if let Some(reel) = &mut reel {
+        reel.add(&start);
+    }
     if settings.frames.contains(&0) {
         frames.insert(0, start);
     }
@@ -186,6 +192,9 @@ fn run_light(
         energies.push(view.energy());
         if settings.trace_radius {
             radii.push(energy_radius(&view.distribution().energy()));
+        }
+        if let Some(reel) = &mut reel {
+            reel.add(&view.distribution());
         }
         if settings.frames.binary_search(&view.step()).is_ok() {
             frames.insert(view.step(), view.distribution());
@@ -212,6 +221,7 @@ fn run_light(
         frames,
         energies,
         radii,
+        reel,
         stop: outcome.stop,
         work: outcome.work,
         transmission,

@@ -120,6 +120,8 @@ pub struct LightSettings {
     pub frames: Vec<usize>,
     /// Whether the energy's radius is wanted for every step.
     pub trace_radius: bool,
+    /// Every how many steps energies are kept for an animation; `None`: never.
+    pub reel_every: Option<usize>,
 }
 
 /// A sweep, ready to start.
@@ -190,6 +192,7 @@ pub fn resolve(
     if resolver.problems.is_empty() {
         for figure in &mut experiment.figures {
             figure.panels.retain(|p| uses::of_panel(p).iter().all(|(r, _)| runs_now.contains(r)));
+            figure.animation = figure.animation.take().filter(|a| runs_now.contains(&a.run.as_str()));
         }
         experiment.figures.retain(|f| !f.panels.is_empty());
         experiment
@@ -395,7 +398,8 @@ impl Resolver<'_> {
             self.fault(name, format!("run \"{name}\" keeps step {late} but ends after {n} steps"));
         }
         let trace_radius = uses::wants_radius(experiment, name);
-        Some(RunSettings::Light(LightSettings { scene, lights, engine, frames, trace_radius }))
+        let reel_every = uses::wants_reel(experiment, name);
+        Some(RunSettings::Light(LightSettings { scene, lights, engine, frames, trace_radius, reel_every }))
     }
 
     fn gradient(
@@ -492,6 +496,7 @@ impl Resolver<'_> {
                 runs.extend(uses::of_panel(panel).into_iter().map(|(run, kind)| (user, run, kind)));
                 fields.extend(uses::fields_of_panel(panel).into_iter().map(|f| (user, f)));
             }
+            runs.extend(figure.animation.iter().map(|a| (user, a.run.as_str(), RunKind::Light)));
         }
         for check in &experiment.checks {
             let user = User { kind: "check", name: &check.name };

@@ -168,12 +168,15 @@ pub(crate) fn of_quantity(quantity: &Quantity) -> Vec<(&str, RunKind)> {
         | Q::NetFluxRatio { run, .. }
         | Q::LobeRatio { run, .. }
         | Q::EnergyRatio { run, .. }
+        | Q::WayLength { run, .. }
+        | Q::WayDifference { run, .. }
         | Q::RingShare { run, .. }
         | Q::BoxShare { run, .. }
         | Q::LightSymmetry { run, .. }
         | Q::RadiusMean { run, .. }
         | Q::RadiusSpread { run, .. }
         | Q::FrontRoundness { run, .. } => vec![(run, RunKind::Light)],
+        Q::EnergyOver { run, over, .. } => vec![(run, RunKind::Light), (over, RunKind::Light)],
         Q::LightDifference { run, from } => vec![(run, RunKind::Light), (from, RunKind::Light)],
         Q::GradientAt { run, .. }
         | Q::GradientMax { run }
@@ -204,6 +207,12 @@ pub(crate) fn field_of_quantity(quantity: &Quantity) -> Option<&str> {
         | Q::LargestAxis { field } => Some(field),
         _ => None,
     }
+}
+
+/// Every how many steps a run's energies are kept for an animation.
+pub(crate) fn wants_reel(experiment: &Experiment, run: &str) -> Option<usize> {
+    let animations = experiment.figures.iter().filter_map(|f| f.animation.as_ref());
+    animations.filter(|a| a.run == run).map(|a| a.every).min()
 }
 
 /// Whether anything asks for the radius of the energy of `run` at every step.

@@ -5,13 +5,13 @@ use crate::commands::{command_line, counted, print_json, print_text};
 use crate::error::CliError;
 use crate::input::insert_reading;
 use crate::medium::Lit;
-use crate::reel::Reel;
 use crate::{files, interrupt, system};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tigereye_core::{Cell, Field, LightDistribution, PolarProfile, StopReason, Surface};
+use tigereye_experiments::Reel;
 use tigereye_experiments::provenance::provenance;
 use tigereye_experiments::settings::profile_of_expression;
 use tigereye_io::{npy, pvd, vti};
@@ -22,6 +22,8 @@ use tigereye_transport::{
     EightLobe, Emission, Engine, Light, Outcome, Problem, Scheme, SharedWeights, Stopping, StoppingRule,
 };
 
+/// Decades of energy that pictures show.
+const DECADES: f64 = 4.0;
 /// Resolution of PNG pictures.
 pub(super) const PNG_SCALE: f64 = 2.0;
 
@@ -53,7 +55,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
         .any(|o| is_collection(o))
         .then(|| Frames { story: story.clone(), images: Vec::new() });
     problem.check().map_err(|e| CliError::input("--light", e))?;
-    let mut reel = args.outputs.iter().any(|o| is_animation(o)).then(|| Reel::new(input.grid().cells()));
+    let mut reel = args.outputs.iter().any(|o| is_animation(o)).then(|| Reel::new(input.grid().cells(), 1));
     if let Some(frames) = &mut frames {
         frames.add(&problem.before_first_step())?;
     }
@@ -270,7 +272,7 @@ fn encoded(output: &Path, args: &PropagateArgs, drawn: &Drawn<'_>, story: &str) 
         }
         "apng" => {
             let reel = drawn.reel.ok_or_else(|| CliError::input(&name, "no step was kept"))?;
-            reel.encoded(&name, &args.input, &drawn.sources(), drawn.walls)
+            reel.encoded(&drawn.energy_options(args), DECADES).map_err(|e| CliError::input(&name, e))
         }
         "png" => drawn.picture(args).to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
         _ => drawn.picture(args).to_svg().map(String::into_bytes).map_err(|e| CliError::input(&name, e)),
@@ -291,30 +293,30 @@ impl Drawn<'_> {
         self.problem.lights.iter().map(|l| l.cell).collect()
     }
 
+    fn energy_options(&self, args: &PropagateArgs) -> HeatOptions {
+        HeatOptions {
+            title: args.input.clone(),
+            sources: self.sources(),
+            walls: self.walls.cloned(),
+            quantity: "energy of a cell / W".to_owned(),
+            scale: HeatScale::Logarithmic { decades: DECADES },
+            ..HeatOptions::default()
+        }
+    }
+
     fn picture(&self, args: &PropagateArgs) -> Scene {
-        let (sources, walls, title) = (self.sources(), self.walls.cloned(), args.input.clone());
         match args.picture {
             Picture::Overlay => {
                 let options = PolarOptions {
-                    title,
-                    sources,
-                    walls,
+                    title: args.input.clone(),
+                    sources: self.sources(),
+                    walls: self.walls.cloned(),
                     transmission: TransmissionScale::Rate,
                     ..PolarOptions::default()
                 };
                 polar_overlay(Some(self.problem.transmission), Some(&self.outcome.distribution), &options)
             }
-            Picture::Energy => {
-                let options = HeatOptions {
-                    title,
-                    sources,
-                    walls,
-                    quantity: "energy of a cell / W".to_owned(),
-                    scale: HeatScale::Logarithmic { decades: 4.0 },
-                    ..HeatOptions::default()
-                };
-                heat_map(&self.outcome.distribution.energy(), &options)
-            }
+            Picture::Energy => heat_map(&self.outcome.distribution.energy(), &self.energy_options(args)),
         }
     }
 }

@@ -45,6 +45,12 @@ pub(super) fn energy_ratio(result: &LightResult, cell: (usize, usize), over: (us
     Some(at(cell)? / at(over)?)
 }
 
+pub(super) fn energy_over(a: &LightResult, b: &LightResult, cell: (usize, usize)) -> Option<f64> {
+    let cell = Cell::new(cell.0, cell.1);
+    let at = |r: &LightResult| r.last.grid().contains(cell).then(|| *r.last.energy().at(cell));
+    Some(at(a)? / at(b)?)
+}
+
 /// Energies with the lights' own cells dark.
 fn without_sources(result: &LightResult) -> Field<f64> {
     let energy = result.last.energy();

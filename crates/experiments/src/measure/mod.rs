@@ -15,6 +15,7 @@ use crate::outcome::{CheckOutcome, Expected};
 use crate::runs::{LightResult, Results, RunError};
 use crate::settings::Settings;
 use crate::spec::{Check, Expectation, Quantity, SchemeConstant};
+use crate::ways::Ways;
 use tigereye_core::{Directions, Field, StopReason, Tensor2, math};
 use tigereye_ltg::LtgOutcome;
 use tigereye_transport::{Scheme, SharedWeights, emitter, half_core_alpha_rad};
@@ -56,6 +57,9 @@ impl Measure<'_> {
     }
     fn gradient(&self, run: &str) -> Option<&LtgOutcome> {
         self.results.gradients.get(run)
+    }
+    fn ways(&self, run: &str, to: (usize, usize)) -> Option<Ways> {
+        Ways::of(self.settings, self.results, run, to)
     }
     fn field(&self, name: &str) -> Option<&Field<Tensor2>> {
         self.settings.fields.get(name)
@@ -99,6 +103,12 @@ impl Measure<'_> {
             Q::EnergyDrift { run } => self.light(run).and_then(lights::energy_drift),
             Q::NetFluxRatio { run, distance } => self.light(run).and_then(|r| net_flux_ratio(r, *distance)),
             Q::LobeRatio { run, distance } => self.light(run).and_then(|r| lobe_ratio(r, *distance)),
+            Q::EnergyOver { run, over, cell } => {
+                let (a, b) = (self.light(run), self.light(over));
+                a.zip(b).and_then(|(a, b)| lights::energy_over(a, b, *cell))
+            }
+            Q::WayLength { run, to } => self.ways(run, *to).map(|w| w.shortest.len() as f64),
+            Q::WayDifference { run, to } => self.ways(run, *to).map(|w| w.difference() as f64),
             Q::EnergyRatio { run, cell, over } => {
                 self.light(run).and_then(|r| lights::energy_ratio(r, *cell, *over))
             }

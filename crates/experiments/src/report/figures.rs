@@ -39,6 +39,17 @@ fn figure(slug: &str, figure: &Figure) -> Markup {
                     a href=(address_of("svg")) { "SVG" }
                     ", "
                     a href=(address_of("png")) { "PNG" }
+                    @if figure.frames > 0 {
+                        ", "
+                        a href=(address_of("apng")) { "animation" }
+                    }
+                }
+            }
+            @if figure.frames > 0 {
+                // Moves only for those who ask, and is fetched only then.
+                details.animation {
+                    summary { "Watch " (figure.frames) " steps" }
+                    img src=(address_of("apng")) loading="lazy" alt={ "Animation. " (figure.caption) };
                 }
             }
         }

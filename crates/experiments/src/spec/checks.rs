@@ -188,6 +188,30 @@ pub enum Quantity {
         /// Column and row.
         over: (usize, usize),
     },
+    /// Energy of a cell over that in another run.
+    EnergyOver {
+        /// Name of the light run.
+        run: String,
+        /// Name of the light run it is divided by.
+        over: String,
+        /// Column and row.
+        cell: (usize, usize),
+    },
+    /// Cells of the shortest way through a scene from its first light to a cell, both ends included.
+    WayLength {
+        /// Name of the light run.
+        run: String,
+        /// Column and row of its end.
+        to: (usize, usize),
+    },
+    /// Cells that lie on one only of the shortest and the brightest way: the one that leads from a cell always to its brightest
+    /// neighbour, up to the light.
+    WayDifference {
+        /// Name of the light run.
+        run: String,
+        /// Column and row of their end.
+        to: (usize, usize),
+    },
     /// Share of the energy at distances from the centre in a range, cells; lights excluded.
     RingShare {
         /// Name of the light run.

@@ -16,6 +16,27 @@ pub struct Figure {
     /// Panels per row.
     #[serde(default = "three")]
     pub columns: usize,
+    /// The steps of a light run, to be watched beside the picture.
+    #[serde(default)]
+    pub animation: Option<Animation>,
+}
+
+/// Energies after the steps of a light run, one scale for all, as an animated PNG of the figure's name.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Animation {
+    /// Name of the light run.
+    pub run: String,
+    /// Every how many steps there is a frame; more where there would be too many.
+    #[serde(default = "one")]
+    pub every: usize,
+    /// Decades below the brightest cell that is no light.
+    #[serde(default)]
+    pub decades: Option<Positive>,
+}
+
+fn one() -> usize {
+    1
 }
 
 fn three() -> usize {
@@ -117,6 +138,9 @@ pub enum Panel {
         /// Decades below the brightest cell; linear when left out.
         #[serde(default)]
         decades: Option<Positive>,
+        /// Draws, in a scene, the shortest way from the first light to this column and row, and the brightest one.
+        #[serde(default)]
+        way_to: Option<(usize, usize)>,
         /// Heading of the panel.
         title: String,
     },

@@ -14,7 +14,9 @@ mod tables;
 
 pub use checks::{Check, Expectation, Mirror, PulseNumber, Quantity, SchemeConstant, Summary};
 pub use classical::{AxesChoice, DistanceNumber, FamilyChoice, MapSource, RidgeSource};
-pub use figures::{Axis, Curve, Figure, FlatView, GlyphColour, Panel, ProfileSource, Scale, SeriesSource};
+pub use figures::{
+    Animation, Axis, Curve, Figure, FlatView, GlyphColour, Panel, ProfileSource, Scale, SeriesSource,
+};
 pub use load::{SpecError, load, load_field, load_scene};
 pub(crate) use load::{place_after, place_in_list};
 pub use named::Named;

@@ -115,7 +115,9 @@ impl Known<'_> {
             Q::EnergyOver { run, over, cell } => {
                 self.cell_of(run, *cell).or_else(|| self.cell_of(over, *cell))
             }
-            Q::WayLength { run, to } | Q::WayDifference { run, to } => self.way(run, *to),
+            Q::WayLength { run, to } | Q::WayExcess { run, to } | Q::WayDifference { run, to } => {
+                self.way(run, *to)
+            }
             Q::EnergyRatio { run, cell, over } => {
                 self.cell_of(run, *cell).or_else(|| self.cell_of(run, *over))
             }
@@ -127,6 +129,10 @@ impl Known<'_> {
                 problem: format!("the range from {} to {} is empty", range.0.get(), range.1.get()),
             }),
             Q::FrontRoundness { run, step } => self.step(run, Some(*step)),
+            Q::GradientRatio { run, deg, cell, over } => self
+                .slice(run, deg.get())
+                .or_else(|| self.cell_of(run, *cell))
+                .or_else(|| self.cell_of(run, *over)),
             Q::GradientAt { run, cell, sample } => {
                 self.cell_of(run, *cell).or_else(|| self.sample(run, *sample, || format!("sample {sample}")))
             }

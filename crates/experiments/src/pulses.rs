@@ -189,7 +189,7 @@ pub(crate) fn comma_separated(records: &[PulseRecord]) -> String {
 mod tests {
     use super::*;
     use crate::settings::Scene;
-    use tigereye_core::{Directions, Grid, Normalization, Svd};
+    use tigereye_core::{Directions, Grid, Normalization, Svd, Tensor2};
     use tigereye_transport::SharedWeights;
 
     struct Nothing;

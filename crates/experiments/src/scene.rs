@@ -226,7 +226,7 @@ impl Reader<'_> {
                 angle_deg: angle_deg.map(spec::Finite::get),
             },
             MaterialSource::Crystal { field, at, normalization } => {
-                let mut field = field.clone();
+                let mut field = (**field).clone();
                 name_files_beside(&mut field, self.path, self.host);
                 let field = make_field(&field, self.host)?;
                 self.hashes += &hash_of_field(&field);

@@ -169,6 +169,7 @@ pub(crate) fn of_quantity(quantity: &Quantity) -> Vec<(&str, RunKind)> {
         | Q::LobeRatio { run, .. }
         | Q::EnergyRatio { run, .. }
         | Q::WayLength { run, .. }
+        | Q::WayExcess { run, .. }
         | Q::WayDifference { run, .. }
         | Q::RingShare { run, .. }
         | Q::BoxShare { run, .. }
@@ -179,6 +180,7 @@ pub(crate) fn of_quantity(quantity: &Quantity) -> Vec<(&str, RunKind)> {
         Q::EnergyOver { run, over, .. } => vec![(run, RunKind::Light), (over, RunKind::Light)],
         Q::LightDifference { run, from } => vec![(run, RunKind::Light), (from, RunKind::Light)],
         Q::GradientAt { run, .. }
+        | Q::GradientRatio { run, .. }
         | Q::GradientMax { run }
         | Q::GradientMean { run }
         | Q::GradientLimited { run }

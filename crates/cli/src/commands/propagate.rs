@@ -84,7 +84,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
             _ => files::write(output, &encoded(output, args, &drawn, &story)?)?,
         }
     }
-    report(args, &input, &outcome, start.elapsed().as_secs_f64())?;
+    report(args, &input, lights.len(), &outcome, start.elapsed().as_secs_f64())?;
     Ok(0)
 }
 
@@ -321,7 +321,13 @@ impl Drawn<'_> {
     }
 }
 
-fn report(args: &PropagateArgs, input: &Lit, outcome: &Outcome, seconds: f64) -> Result<(), CliError> {
+fn report(
+    args: &PropagateArgs,
+    input: &Lit,
+    lights: usize,
+    outcome: &Outcome,
+    seconds: f64,
+) -> Result<(), CliError> {
     let grid = input.grid();
     let energy = outcome.distribution.energy();
     let largest = energy.values().iter().fold(0.0, |m: f64, &e| m.max(e));
@@ -334,7 +340,7 @@ fn report(args: &PropagateArgs, input: &Lit, outcome: &Outcome, seconds: f64) ->
             "width": grid.width(),
             "height": grid.height(),
             "directions": args.scheme.directions.count(),
-            "sources": args.lights.len(),
+            "sources": lights,
             "iterations_total": outcome.work.steps,
             "iterations_max": outcome.work.steps,
             "cell_updates": outcome.work.cell_updates,

@@ -14,6 +14,7 @@ mod parts;
 mod reading;
 mod results;
 mod review;
+mod scenes;
 mod streams;
 mod support;
 mod volumes;

@@ -14,6 +14,7 @@ use crate::comparison;
 use crate::outcome::{CheckOutcome, Expected};
 use crate::runs::{LightResult, Results, RunError};
 use crate::settings::Settings;
+use crate::settings::sample_of;
 use crate::spec::{Check, Expectation, Quantity, SchemeConstant};
 use crate::ways::Ways;
 use tigereye_core::{Directions, Field, StopReason, Tensor2, math};
@@ -108,6 +109,9 @@ impl Measure<'_> {
                 a.zip(b).and_then(|(a, b)| lights::energy_over(a, b, *cell))
             }
             Q::WayLength { run, to } => self.ways(run, *to).map(|w| w.shortest.len() as f64),
+            Q::WayExcess { run, to } => {
+                self.ways(run, *to).map(|w| w.brightest.len() as f64 - w.shortest.len() as f64)
+            }
             Q::WayDifference { run, to } => self.ways(run, *to).map(|w| w.difference() as f64),
             Q::EnergyRatio { run, cell, over } => {
                 self.light(run).and_then(|r| lights::energy_ratio(r, *cell, *over))
@@ -132,6 +136,12 @@ impl Measure<'_> {
     fn gradient_quantity(&self, quantity: &Quantity) -> Option<f64> {
         use Quantity as Q;
         match quantity {
+            Q::GradientRatio { run, deg, cell, over } => {
+                let volume = &self.gradient(run)?.volume;
+                let sample = sample_of(deg.get(), volume.directions()).ok()?;
+                let at = |(x, y)| volume.value(tigereye_core::Cell::new(x, y), sample);
+                Some(at(*cell)? / at(*over)?)
+            }
             Q::GradientAt { run, cell, sample } => {
                 self.gradient(run)?.volume.value(tigereye_core::Cell::new(cell.0, cell.1), *sample)
             }

@@ -23,6 +23,7 @@ fn check(name: &str, value: f64, expected: Expected) -> CheckOutcome {
 fn outcome(slug: &str, section: &str, checks: Vec<CheckOutcome>) -> ExperimentOutcome {
     let figure = Figure {
         timed: false,
+        frames: 0,
         name: "light map".into(),
         caption: "Light after ten steps.".into(),
         alt: "A bright spot".into(),
@@ -184,6 +185,21 @@ fn figures_have_alternative_text_and_size() {
     let page = html(&mixed(), &about());
     assert!(page.contains("alt=\"A bright spot\" width=\"300\" height=\"200\""));
     assert!(page.contains("data:image/png;base64,AQID"));
+}
+
+#[test]
+fn animations_move_only_for_those_who_ask() {
+    let still = html(&mixed(), &about());
+    assert!(!still.contains("apng"));
+    let mut outcomes = mixed();
+    outcomes[0].figures[0].frames = 12;
+    let slug = outcomes[0].slug.clone();
+    let page = html(&outcomes, &about());
+    let image = format!("<img src=\"./{slug}/light%20map.apng\" loading=\"lazy\"");
+    let details = page.find("<details class=\"animation\"").expect("a closed part of the page");
+    assert!(page[details..].contains("Watch 12 steps"));
+    assert!(page[details..].contains(&image), "{image}");
+    assert!(page[details..].contains("alt=\"Animation. Light after ten steps.\""));
 }
 
 #[test]

@@ -204,8 +204,15 @@ pub enum Quantity {
         /// Column and row of its end.
         to: (usize, usize),
     },
-    /// Cells that lie on one only of the shortest and the brightest way: the one that leads from a cell always to its brightest
+    /// By how many cells the brightest way is longer than the shortest: the one that leads from a cell always to its brightest
     /// neighbour, up to the light.
+    WayExcess {
+        /// Name of the light run.
+        run: String,
+        /// Column and row of their end.
+        to: (usize, usize),
+    },
+    /// Cells that lie on one only of the shortest and the brightest way.
     WayDifference {
         /// Name of the light run.
         run: String,
@@ -271,6 +278,17 @@ pub enum Quantity {
         cell: (usize, usize),
         /// Sample index.
         sample: usize,
+    },
+    /// Value of a gradient over that at another cell.
+    GradientRatio {
+        /// Name of the gradient run.
+        run: String,
+        /// Direction, degrees.
+        deg: Finite,
+        /// Column and row.
+        cell: (usize, usize),
+        /// Column and row of the cell it is divided by.
+        over: (usize, usize),
     },
     /// Largest value of a gradient.
     GradientMax {

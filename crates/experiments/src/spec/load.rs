@@ -128,7 +128,7 @@ fn line_and_column(code: &str, place: usize) -> (usize, usize) {
 fn without_strings(code: &str) -> String {
     let (mut in_string, mut escaped) = (false, false);
     let blanked = code.chars().map(|c| {
-        let inside = in_string && !(c == '"' && !escaped);
+        let inside = in_string && (c != '"' || escaped);
         if c == '"' && !escaped {
             in_string = !in_string;
         }

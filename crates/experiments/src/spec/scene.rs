@@ -124,7 +124,7 @@ pub enum MaterialSource {
     /// Passes light on as tensors do.
     Crystal {
         /// The tensors; the field must reach all of the shape.
-        field: FieldSource,
+        field: Box<FieldSource>,
         /// Column and row at which the field's upper left cell lies.
         #[serde(default)]
         at: (usize, usize),

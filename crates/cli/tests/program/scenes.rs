@@ -1,0 +1,118 @@
+//! Scenes: light and gradients of files with walls, and what is said of bad ones.
+
+use crate::support::Place;
+use serde_json::Value;
+use tigereye_io::{FieldValues, ImageData};
+
+const ROOM: &str = r#"(
+    format: 1,
+    title: "A room",
+    width: 15,
+    height: 11,
+    parts: [
+        (shape: Outline(of: Rectangle(from: (0, 0), to: (14, 10))), material: Diffuse(reflectance: 0.5)),
+        (shape: Segment(from: (7, 0), to: (7, 7)), material: Absorber),
+        (shape: Disc(centre: (11, 5), radius: 1), material: Mirror()),
+    ],
+    lights: [(cell: (3, 5))],
+)"#;
+
+fn story(image: &ImageData) -> Value {
+    let entry = image.field_data.iter().find(|e| e.name == "tigereye").expect("a story");
+    let FieldValues::Text(texts) = &entry.values else { panic!("text") };
+    serde_json::from_str(&texts[0]).expect("JSON")
+}
+
+#[test]
+fn light_and_gradients_of_a_scene_are_written_in_every_format() {
+    let place = Place::new();
+    place.write("room.scene.ron", ROOM);
+    let run = place.succeeds(&[
+        "propagate",
+        "room.scene.ron",
+        "--steps",
+        "30",
+        "--json",
+        "-o",
+        "l.vti",
+        "l.npy",
+        "l.png",
+        "l.svg",
+        "l.apng",
+    ]);
+    let summary = run.json();
+    assert_eq!((&summary["width"], &summary["sources"]), (&15.into(), &1.into()));
+    let image = place.image("l.vti");
+    let told = story(&image);
+    assert_eq!(told["parameters"]["normalization"], "scene");
+    assert_eq!(told["input_blake3"].as_str().map(str::len), Some(64));
+    let svg = String::from_utf8(place.read("l.svg")).expect("text");
+    assert!(svg.contains("<svg"));
+    // An animation is a PNG with a chunk that says so, and a frame for every step and the beginning.
+    let apng = place.read("l.apng");
+    let control = apng.windows(4).position(|w| w == b"acTL").expect("an animation");
+    assert_eq!(u32::from_be_bytes(apng[control + 4..control + 8].try_into().expect("four bytes")), 31);
+    place.succeeds(&["ltg", "room.scene.ron", "--directions", "16", "-o", "g.vti", "g.png"]);
+    let threads =
+        place.succeeds(&["ltg", "room.scene.ron", "--directions", "16", "--threads", "1", "-o", "h.vti"]);
+    assert_eq!(threads.code, 0);
+    place.succeeds(&["compare", "g.vti", "h.vti", "--tolerance", "0"]);
+}
+
+#[test]
+fn lights_given_take_the_place_of_the_scenes_own() {
+    let place = Place::new();
+    place.write("scene.ron", ROOM);
+    let energy = |more: &[&str]| {
+        let args = [&["propagate", "scene.ron", "--steps", "9", "--json", "-o", "l.npy"], more].concat();
+        place.succeeds(&args).json()["energy"].as_f64().expect("a number")
+    };
+    assert_eq!(energy(&[]), energy(&["--light", "3,5"]));
+    assert_ne!(energy(&[]), energy(&["--light", "3,5,2"]));
+    assert!(energy(&["--impulse"]) < energy(&[]));
+}
+
+#[test]
+fn bad_scenes_are_refused_with_their_place() {
+    let place = Place::new();
+    let refuses = |from: &str, to: &str, words: &[&str]| {
+        assert!(ROOM.contains(from), "{from}");
+        place.write("bad.scene.ron", ROOM.replacen(from, to, 1));
+        place.refuses(&["propagate", "bad.scene.ron", "-o", "l.npy"], words);
+        place.refuses(&["ltg", "bad.scene.ron", "-o", "g.npy"], words);
+    };
+    refuses("centre: (11, 5)", "centre: (110, 5)", &["bad.scene.ron:9:10", "covers no cell"]);
+    refuses("cell: (3, 5)", "cell: (7, 5)", &["bad.scene.ron:11:15", "inside a wall of part 2"]);
+    refuses("material: Absorber", "material: Glass", &["bad.scene.ron:8:", "Glass", "Absorber"]);
+    refuses(
+        "Disc(centre: (11, 5), radius: 1)",
+        "Bitmap(path: \"no.png\")",
+        &["bad.scene.ron:9:10", "no.png"],
+    );
+    place.write("room.scene.ron", ROOM);
+    place.refuses(
+        &["propagate", "room.scene.ron", "--light", "7,3", "-o", "l.npy"],
+        &["--light", "inside a wall"],
+    );
+    place.refuses(
+        &["propagate", "room.scene.ron", "--slice", "z=1", "-o", "l.npy"],
+        &["room.scene.ron", "without options"],
+    );
+    place.refuses(
+        &["ltg", "room.scene.ron", "--normalization", "global", "-o", "l.npy"],
+        &["--normalization", "crystals"],
+    );
+    place.refuses(&["info", "room.scene.ron"], &["a scene has no tensors"]);
+    place.refuses(&["lines", "room.scene.ron", "-o", "l.vtp"], &["a scene has no tensors"]);
+    place.refuses(&["propagate", "room.scene.ron", "-o", "room.scene.ron"], &["ending"]);
+    place.refuses(&["propagate", "rings", "-o", "l.npy"], &["rings", "--light"]);
+    place.refuses(&["propagate", "none.scene.ron", "-o", "l.npy"], &["none.scene.ron"]);
+}
+
+#[test]
+fn gaps_in_walls_are_told() {
+    let place = Place::new();
+    place.write("gap.scene.ron", ROOM.replace("from: (7, 0), to: (7, 7)", "from: (4, 2), to: (9, 7)"));
+    let run = place.tigereye(&["propagate", "gap.scene.ron", "--steps", "2", "-o", "l.npy"]);
+    assert!(run.code == 0 && run.stderr.contains("touch at a corner only"), "{}", run.stderr);
+}

@@ -15,7 +15,6 @@ use tigereye_transport::Light;
 
 /// INPUT of commands that propagate.
 #[derive(Debug)]
-#[expect(clippy::large_enum_variant, reason = "there is one at a time")]
 pub(crate) enum Lit {
     /// Tensors of a file or a generator.
     Tensors(Input),

@@ -87,7 +87,7 @@ impl Scene {
     /// Most cells: a thousand by a thousand.
     pub const MAX_CELLS: usize = 1 << 20;
     /// Most tests of a cell against a side of a shape.
-    pub const MAX_WORK: f64 = 4e9;
+    pub const MAX_WORK: f64 = 1e8;
 
     /// The cells with their transmission in `directions`.
     ///

@@ -48,7 +48,7 @@ fn figure(slug: &str, figure: &Figure) -> Markup {
             @if figure.frames > 0 {
                 // Moves only for those who ask, and is fetched only then.
                 details.animation {
-                    summary { "Watch " (figure.frames) " steps" }
+                    summary { "Watch the " (figure.frames) " frames" }
                     img src=(address_of("apng")) loading="lazy" alt={ "Animation. " (figure.caption) };
                 }
             }

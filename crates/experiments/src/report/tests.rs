@@ -197,7 +197,7 @@ fn animations_move_only_for_those_who_ask() {
     let page = html(&outcomes, &about());
     let image = format!("<img src=\"./{slug}/light%20map.apng\" loading=\"lazy\"");
     let details = page.find("<details class=\"animation\"").expect("a closed part of the page");
-    assert!(page[details..].contains("Watch 12 steps"));
+    assert!(page[details..].contains("Watch the 12 frames"));
     assert!(page[details..].contains(&image), "{image}");
     assert!(page[details..].contains("alt=\"Animation. Light after ten steps.\""));
 }

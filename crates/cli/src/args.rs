@@ -150,7 +150,7 @@ pub(crate) struct RunArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// Experiment files.
+    /// Experiment files, or scenes.
     #[arg(required = true, value_name = "FILE.ron")]
     pub(crate) files: Vec<PathBuf>,
 }

@@ -13,6 +13,20 @@ use tigereye_experiments::settings::lights_of;
 use tigereye_experiments::{Medium, normalization_name};
 use tigereye_transport::Light;
 
+/// The scene of a file, and the names of all files it was read from.
+pub(crate) fn read_scene(name: &str) -> Result<(PreparedScene, Vec<String>), CliError> {
+    let text = files::read_text(Path::new(name))?;
+    // Names in it are made relative to its folder, which leads from here.
+    let host = FileHost::new(Some(PathBuf::from(".")), name.to_owned());
+    let made = prepare(name, &text, &host);
+    host.finish();
+    let scene =
+        made.map_err(|problems| CliError::Inputs(problems.iter().map(ToString::to_string).collect()))?;
+    let mut opened = host.opened();
+    opened.push(name.to_owned());
+    Ok((scene, opened))
+}
+
 /// INPUT of commands that propagate.
 #[derive(Debug)]
 pub(crate) enum Lit {
@@ -32,19 +46,11 @@ impl Lit {
             let problem = "is a scene and has no tensors to read: expected it without options for reading";
             return Err(CliError::input(text, problem));
         }
-        let words = files::read_text(Path::new(text))?;
-        let host = FileHost::new(Some(PathBuf::from(".")), text.to_owned());
-        let made = prepare(text, &words, &host);
-        host.finish();
-        let scene = made.map_err(|problems| {
-            CliError::Input(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
-        })?;
+        let (scene, files) = read_scene(text)?;
         for line in scene.remarks() {
             eprintln!("{text}: {line}");
         }
-        let mut names = host.opened();
-        names.push(text.to_owned());
-        Ok(Self::Scene(text.to_owned(), scene, names))
+        Ok(Self::Scene(text.to_owned(), scene, files))
     }
 
     fn medium(&self) -> Medium<'_> {

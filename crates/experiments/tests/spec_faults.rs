@@ -638,7 +638,7 @@ fn experiment_files() -> Vec<PathBuf> {
             let path = entry.unwrap().path();
             if path.is_dir() {
                 folders.push(path);
-            } else if path.extension().is_some_and(|e| e == "ron") {
+            } else if library::is_experiment(&path.to_string_lossy()) {
                 found.push(path);
             }
         }

@@ -116,3 +116,22 @@ fn gaps_in_walls_are_told() {
     let run = place.tigereye(&["propagate", "gap.scene.ron", "--steps", "2", "-o", "l.npy"]);
     assert!(run.code == 0 && run.stderr.contains("touch at a corner only"), "{}", run.stderr);
 }
+
+#[test]
+fn scenes_are_checked_like_experiments() {
+    let place = Place::new();
+    place.write("room.scene.ron", ROOM);
+    let told = place.succeeds(&["check", "room.scene.ron"]).stdout;
+    assert_eq!(told, "room.scene.ron: ok, 3 parts, 1 light\n");
+    place.write("bad.scene.ron", ROOM.replace("radius: 1)", "radius: -1)"));
+    place.refuses(&["check", "bad.scene.ron"], &["bad.scene.ron:9:", "above 0"]);
+    // Pictures are looked up beside the scene, from wherever the program runs.
+    std::fs::create_dir(place.path("sub")).expect("a folder");
+    place.write("sub/walls.png", place.read("room.scene.ron"));
+    place.write(
+        "sub/a.scene.ron",
+        ROOM.replace("Disc(centre: (11, 5), radius: 1)", "Bitmap(path: \"walls.png\")"),
+    );
+    place.refuses(&["check", "sub/a.scene.ron"], &["sub/a.scene.ron:9:10", "walls.png"]);
+    place.refuses(&["run", "room.scene.ron", "--out", "r"], &["room.scene.ron"]);
+}

@@ -527,8 +527,8 @@ impl Draw<'_> {
 
     fn pulses_over_column(&self, run: &str, number: spec::PulseNumber, deg: f64) -> Option<Vec<(f64, f64)>> {
         let (_, settings) = self.settings.runs.iter().find(|(name, _)| name == run)?;
-        let RunSettings::Pulses(PulsesSettings { scene, .. }) = settings else { return None };
-        let sample = sample_of(deg, scene.directions).ok()?;
+        let RunSettings::Pulses(PulsesSettings { setup, .. }) = settings else { return None };
+        let sample = sample_of(deg, setup.directions).ok()?;
         let pulses = self.results.pulses.get(run)?.iter().filter(|p| p.sample == sample);
         Some(pulses.map(|p| (p.cell.x as f64, p.number(number))).collect())
     }

@@ -180,7 +180,7 @@ pub(crate) fn file_name(run: &str) -> String {
 
 fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
     let hash = settings.medium(run.field()).map(Medium::blake3).unwrap_or_default();
-    let (scene, own) = match run {
+    let (setup, own) = match run {
         RunSettings::Ftle(f) => {
             let parameters = json!({
                 "field": f.field,
@@ -193,25 +193,29 @@ fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
         }
         RunSettings::Light(l) => {
             let lights: Vec<_> = l.lights.iter().map(|l| (l.cell.x, l.cell.y)).collect();
-            (&l.scene, json!({ "lights": lights, "engine": format!("{:?}", l.engine) }))
+            (&l.setup, json!({ "lights": lights, "engine": format!("{:?}", l.engine) }))
         }
-        RunSettings::Gradient(g) => (&g.scene, json!({ "omega_step": g.omega_step, "slices": g.slices })),
-        RunSettings::Pulses(p) => (&p.scene, json!({ "pulses": p.pulses.len() })),
+        RunSettings::Gradient(g) => (&g.setup, json!({ "omega_step": g.omega_step, "slices": g.slices })),
+        RunSettings::Pulses(p) => (&p.setup, json!({ "pulses": p.pulses.len() })),
     };
-    let stop = match scene.stopping.rule {
+    let stop = match setup.stopping.rule {
         StoppingRule::FluxChange { .. } => "flux",
         StoppingRule::DistributionChange { .. } => "distribution",
         StoppingRule::Converged { .. } => "stationary",
         StoppingRule::Steps(_) => "steps",
     };
+    let normalization = match settings.medium(&setup.field) {
+        Some(Medium::Scene(_)) => "scene".to_owned(),
+        _ => normalization_name(setup.normalization),
+    };
     let mut parameters = json!({
-        "field": scene.field,
-        "directions": scene.directions.count(),
-        "normalization": normalization_name(scene.normalization),
+        "field": setup.field,
+        "directions": setup.directions.count(),
+        "normalization": normalization,
         "stop": stop,
-        "threshold": scene.stopping.rule.threshold(),
-        "max_iterations": scene.stopping.max_iterations,
-        "weights": format!("{:?}", scene.weights),
+        "threshold": setup.stopping.rule.threshold(),
+        "max_iterations": setup.stopping.max_iterations,
+        "weights": format!("{:?}", setup.weights),
     });
     if let (Some(all), Value::Object(own)) = (parameters.as_object_mut(), own) {
         all.extend(own);

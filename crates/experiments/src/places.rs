@@ -178,9 +178,9 @@ impl Known<'_> {
     }
 
     fn step(&self, run: &str, step: Option<usize>) -> Option<Misplaced> {
-        let RunSettings::Light(LightSettings { frames, scene, .. }) = (self.run)(run)? else { return None };
+        let RunSettings::Light(LightSettings { frames, setup, .. }) = (self.run)(run)? else { return None };
         let step = step?;
-        let is_last = scene.stopping.rule == StoppingRule::Steps(step);
+        let is_last = setup.stopping.rule == StoppingRule::Steps(step);
         let problem = || format!("step {step} of \"{run}\" is not kept: add it to the run's `frames`");
         let missing = !is_last && frames.binary_search(&step).is_err();
         missing.then(|| Misplaced { word: format!("step: {step}"), problem: problem() })
@@ -189,7 +189,7 @@ impl Known<'_> {
     fn slice(&self, run: &str, deg: f64) -> Option<Misplaced> {
         let RunSettings::Gradient(g) = (self.run)(run)? else { return None };
         let word = format!("deg: {deg}");
-        match sample_of(deg, g.scene.directions) {
+        match sample_of(deg, g.setup.directions) {
             Ok(sample) => {
                 let missing = self.sample(run, sample, || format!("the slice at {deg} degrees"))?;
                 Some(Misplaced { word, ..missing })
@@ -200,7 +200,7 @@ impl Known<'_> {
 
     fn pulse(&self, run: &str, deg: f64) -> Option<Misplaced> {
         let RunSettings::Pulses(p) = (self.run)(run)? else { return None };
-        let found = sample_of(deg, p.scene.directions);
+        let found = sample_of(deg, p.setup.directions);
         let missing = match found {
             Ok(sample) => p.pulses.iter().all(|(_, t)| *t != sample),
             Err(_) => true,
@@ -221,9 +221,9 @@ impl Known<'_> {
         else {
             return None;
         };
-        let grid = |g: &GradientSettings| (self.medium)(&g.scene.field).map(Medium::grid);
+        let grid = |g: &GradientSettings| (self.medium)(&g.setup.field).map(Medium::grid);
         let slices = |g: &GradientSettings| g.slices.clone().map(sorted);
-        let same = grid(a)? == grid(b)? && a.scene.directions == b.scene.directions && slices(a) == slices(b);
+        let same = grid(a)? == grid(b)? && a.setup.directions == b.setup.directions && slices(a) == slices(b);
         let problem = || format!("\"{run}\" and \"{from}\" differ in cells, directions or slices");
         (!same).then(|| Misplaced { word: format!("\"{from}\""), problem: problem() })
     }
@@ -232,7 +232,7 @@ impl Known<'_> {
         let RunSettings::Gradient(g) = (self.run)(run)? else { return None };
         let missing = match &g.slices {
             Some(slices) => !slices.contains(&sample),
-            None => sample >= g.scene.directions.count(),
+            None => sample >= g.setup.directions.count(),
         };
         let problem = || format!("{} is not among the slices of \"{run}\"", what());
         missing.then(|| Misplaced { word: format!("sample: {sample}"), problem: problem() })

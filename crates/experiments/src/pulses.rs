@@ -65,13 +65,13 @@ pub(crate) fn run_pulses(
     medium: Medium<'_>,
     host: &dyn Host,
 ) -> Result<Vec<PulseRecord>, RunError> {
-    let scene = &settings.scene;
+    let setup = &settings.setup;
     let transmission = medium
-        .transmission(scene.directions, scene.normalization)
+        .transmission(setup.directions, setup.normalization)
         .map_err(|source| RunError::Field { run: name.to_owned(), source })?;
-    let scheme = Scheme::new(scene.directions, scene.weights);
+    let scheme = Scheme::new(setup.directions, setup.weights);
     let scattering = Scattering::new(&scheme, &transmission);
-    let study = Study { scheme: &scheme, transmission: &transmission, stopping: scene.stopping };
+    let study = Study { scheme: &scheme, transmission: &transmission, stopping: setup.stopping };
     let (done, total) = (AtomicU64::new(0), settings.pulses.len() as u64);
     let solver = || PulseSolver::<f64>::new(&scattering, Level::detect());
     let follow = |solver: &mut PulseSolver<'_, f64>, &(cell, sample): &(Cell, usize)| {
@@ -188,7 +188,7 @@ pub(crate) fn comma_separated(records: &[PulseRecord]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::Scene;
+    use crate::settings::Setup;
     use tigereye_core::{Directions, Grid, Normalization, Svd, Tensor2};
     use tigereye_transport::SharedWeights;
 
@@ -201,7 +201,7 @@ mod tests {
     }
 
     fn records(field: &Field<Tensor2>, pulses: &[(Cell, usize)]) -> Vec<PulseRecord> {
-        let scene = Scene {
+        let setup = Setup {
             field: String::new(),
             directions: Directions::new(16).expect("a multiple of 8"),
             normalization: Normalization::Local,
@@ -210,7 +210,7 @@ mod tests {
         };
         run_pulses(
             "run",
-            &PulsesSettings { scene, pulses: pulses.to_vec() },
+            &PulsesSettings { setup, pulses: pulses.to_vec() },
             Medium::Tensors(field),
             &Nothing,
         )

@@ -165,16 +165,16 @@ fn run_light(
     medium: Medium<'_>,
     host: &dyn Host,
 ) -> Result<LightResult, RunError> {
-    let scene = &settings.scene;
+    let setup = &settings.setup;
     let transmission = medium
-        .transmission(scene.directions, scene.normalization)
+        .transmission(setup.directions, setup.normalization)
         .map_err(|source| RunError::Field { run: name.to_owned(), source })?;
-    let scheme = Scheme::new(scene.directions, scene.weights);
+    let scheme = Scheme::new(setup.directions, setup.weights);
     let problem = Problem {
         scheme: &scheme,
         transmission: &transmission,
         lights: &settings.lights,
-        stopping: scene.stopping,
+        stopping: setup.stopping,
     };
     let start = problem.before_first_step();
     let mut frames = BTreeMap::new();
@@ -261,10 +261,10 @@ fn run_gradient(
     memory_bytes: u64,
     host: &dyn Host,
 ) -> Result<LtgOutcome, RunError> {
-    let scene = &settings.scene;
+    let setup = &settings.setup;
     let failed = |source| RunError::Sweep { run: name.to_owned(), source };
     let ltg = LtgSettings {
-        stopping: scene.stopping,
+        stopping: setup.stopping,
         omega_step: settings.omega_step,
         slices: settings.slices.clone(),
         memory_bytes,
@@ -272,11 +272,11 @@ fn run_gradient(
         precision: Precision::F64,
     };
     // Before anything large is made.
-    check_fit(medium.grid(), scene.directions, &ltg).map_err(failed)?;
+    check_fit(medium.grid(), setup.directions, &ltg).map_err(failed)?;
     let transmission = medium
-        .transmission(scene.directions, scene.normalization)
+        .transmission(setup.directions, setup.normalization)
         .map_err(|source| RunError::Field { run: name.to_owned(), source })?;
-    let scheme = Scheme::new(scene.directions, scene.weights);
+    let scheme = Scheme::new(setup.directions, setup.weights);
     let scattering = Scattering::new(&scheme, &transmission);
     sweep(&scattering, &ltg, &Watch { name, host }).map_err(|source| match source {
         LtgError::Interrupted { .. } => RunError::Interrupted,

@@ -69,9 +69,9 @@ impl RunSettings {
     #[must_use]
     pub fn field(&self) -> &str {
         match self {
-            Self::Light(l) => &l.scene.field,
-            Self::Gradient(g) => &g.scene.field,
-            Self::Pulses(p) => &p.scene.field,
+            Self::Light(l) => &l.setup.field,
+            Self::Gradient(g) => &g.setup.field,
+            Self::Pulses(p) => &p.setup.field,
             Self::Ftle(f) => &f.field,
         }
     }
@@ -94,7 +94,7 @@ pub struct FtleSettings {
 
 /// What runs of all kinds share.
 #[derive(Clone, Debug)]
-pub struct Scene {
+pub struct Setup {
     /// Name of the field.
     pub field: String,
     /// Angular sampling.
@@ -111,7 +111,7 @@ pub struct Scene {
 #[derive(Clone, Debug)]
 pub struct LightSettings {
     /// Field and scheme.
-    pub scene: Scene,
+    pub setup: Setup,
     /// The lights.
     pub lights: Vec<Light>,
     /// What computes it.
@@ -128,7 +128,7 @@ pub struct LightSettings {
 #[derive(Clone, Debug)]
 pub struct GradientSettings {
     /// Field and scheme.
-    pub scene: Scene,
+    pub setup: Setup,
     /// Half-width of the angular difference, samples.
     pub omega_step: usize,
     /// Sample indices; `None`: all.
@@ -139,7 +139,7 @@ pub struct GradientSettings {
 #[derive(Clone, Debug)]
 pub struct PulsesSettings {
     /// Field and scheme; its rule is the one compared with the stationary state.
-    pub scene: Scene,
+    pub setup: Setup,
     /// Cell and sample of each pulse, in the order of the file: a cell's samples follow each other.
     pub pulses: Vec<(Cell, usize)>,
 }
@@ -307,7 +307,7 @@ impl Resolver<'_> {
             self.fault(name, format!("run \"{name}\": {problem}"));
             return None;
         }
-        let scene = |directions: spec::DirectionCount, normalization, weights, stop| Scene {
+        let setup = |directions: spec::DirectionCount, normalization, weights, stop| Setup {
             field: field_name.clone(),
             directions: directions.0,
             normalization: normalization_of(normalization),
@@ -319,16 +319,16 @@ impl Resolver<'_> {
         };
         match run {
             Run::Light { directions, normalization, weights, stop, lights, engine, frames, .. } => {
-                let scene = scene(*directions, *normalization, *weights, *stop);
-                self.light(name, scene, medium, lights, *engine, frames, experiment)
+                let setup = setup(*directions, *normalization, *weights, *stop);
+                self.light(name, setup, medium, lights, *engine, frames, experiment)
             }
             Run::Gradient { directions, normalization, weights, stop, omega_step, slices_deg, .. } => {
-                let scene = scene(*directions, *normalization, *weights, *stop);
-                self.gradient(name, scene, *omega_step, slices_deg.as_deref())
+                let setup = setup(*directions, *normalization, *weights, *stop);
+                self.gradient(name, setup, *omega_step, slices_deg.as_deref())
             }
             Run::Pulses { directions, normalization, weights, stop, cells, angles_deg, .. } => {
-                let scene = scene(*directions, *normalization, *weights, *stop);
-                self.pulses(name, scene, medium.grid(), cells, angles_deg)
+                let setup = setup(*directions, *normalization, *weights, *stop);
+                self.pulses(name, setup, medium.grid(), cells, angles_deg)
             }
             Run::Ftle { axes, family, length, samples, .. } => {
                 self.ftle(name, (field_name, medium.tensors()?), *axes, *family, length.get(), *samples)
@@ -360,7 +360,7 @@ impl Resolver<'_> {
     fn light(
         &mut self,
         name: &str,
-        scene: Scene,
+        setup: Setup,
         medium: Medium<'_>,
         sources: &[spec::LightSource],
         engine: spec::EngineChoice,
@@ -372,7 +372,7 @@ impl Resolver<'_> {
             Some(scene) if sources.is_empty() => &scene.lights,
             _ => sources,
         };
-        let (lights, faults) = lights_of(sources, grid, scene.directions);
+        let (lights, faults) = lights_of(sources, grid, setup.directions);
         for problem in faults {
             self.fault(name, format!("run \"{name}\", {problem}"));
         }
@@ -380,7 +380,7 @@ impl Resolver<'_> {
         if lights.len() < sources.len() {
             return None;
         }
-        if let Err(e) = tigereye_transport::check_lights(&lights, grid, scene.directions) {
+        if let Err(e) = tigereye_transport::check_lights(&lights, grid, setup.directions) {
             self.fault(name, format!("run \"{name}\": {e}"));
             return None;
         }
@@ -392,27 +392,27 @@ impl Resolver<'_> {
         let mut frames = frames.to_vec();
         frames.sort_unstable();
         frames.dedup();
-        if let StoppingRule::Steps(n) = scene.stopping.rule
+        if let StoppingRule::Steps(n) = setup.stopping.rule
             && let Some(&late) = frames.iter().find(|&&f| f > n)
         {
             self.fault(name, format!("run \"{name}\" keeps step {late} but ends after {n} steps"));
         }
         let trace_radius = uses::wants_radius(experiment, name);
         let reel_every = uses::wants_reel(experiment, name);
-        Some(RunSettings::Light(LightSettings { scene, lights, engine, frames, trace_radius, reel_every }))
+        Some(RunSettings::Light(LightSettings { setup, lights, engine, frames, trace_radius, reel_every }))
     }
 
     fn gradient(
         &mut self,
         name: &str,
-        scene: Scene,
+        setup: Setup,
         omega_step: spec::OmegaStep,
         slices_deg: Option<&[spec::Finite]>,
     ) -> Option<RunSettings> {
-        let s = scene.directions.count();
+        let s = setup.directions.count();
         let omega_step = match omega_step {
-            spec::OmegaStep::Volumes => omega_step_of_volumes(scene.directions),
-            spec::OmegaStep::Slices => omega_step_of_slices(scene.directions),
+            spec::OmegaStep::Volumes => omega_step_of_volumes(setup.directions),
+            spec::OmegaStep::Slices => omega_step_of_slices(setup.directions),
             spec::OmegaStep::Samples(k) => k,
         };
         if !(1..=s / 2).contains(&omega_step) {
@@ -421,23 +421,23 @@ impl Resolver<'_> {
         }
         let mut slices = Vec::new();
         for deg in slices_deg.unwrap_or_default() {
-            match sample_of(deg.get(), scene.directions) {
+            match sample_of(deg.get(), setup.directions) {
                 Ok(t) => slices.push(t),
                 Err(problem) => self.fault(name, format!("run \"{name}\": {problem}")),
             }
         }
-        if scene.stopping.rule == StoppingRule::Steps(0) {
+        if setup.stopping.rule == StoppingRule::Steps(0) {
             self.fault(name, format!("run \"{name}\": a gradient of 0 steps: expected 1 or more"));
             return None;
         }
         let slices = slices_deg.is_some().then_some(slices);
-        Some(RunSettings::Gradient(GradientSettings { scene, omega_step, slices }))
+        Some(RunSettings::Gradient(GradientSettings { setup, omega_step, slices }))
     }
 
     fn pulses(
         &mut self,
         name: &str,
-        scene: Scene,
+        setup: Setup,
         grid: Grid,
         cells: &[(usize, usize)],
         angles_deg: &[spec::Finite],
@@ -445,7 +445,7 @@ impl Resolver<'_> {
         let before = self.problems.len();
         let mut samples = Vec::new();
         for deg in angles_deg {
-            match sample_of(deg.get(), scene.directions) {
+            match sample_of(deg.get(), setup.directions) {
                 Ok(t) if samples.contains(&t) => {
                     self.fault(name, format!("run \"{name}\": {} degrees stand twice", deg.get()));
                 }
@@ -469,7 +469,7 @@ impl Resolver<'_> {
         }
         let of_cell = |&(x, y): &(usize, usize)| samples.iter().map(move |&t| (Cell::new(x, y), t));
         let pulses = cells.iter().flat_map(of_cell).collect();
-        (self.problems.len() == before).then_some(RunSettings::Pulses(PulsesSettings { scene, pulses }))
+        (self.problems.len() == before).then_some(RunSettings::Pulses(PulsesSettings { setup, pulses }))
     }
 
     /// Reports a problem with the `word` that a figure, table or check mentions.

@@ -149,7 +149,12 @@ fn draw_grounds(
     legend: &mut Vec<Entry>,
 ) {
     if let Some(t) = transmission {
-        let dark = page.squares(t.grid().iter().filter(|c| t.rate(*c) == 0.0));
+        // A scene's walls are drawn for what they are.
+        let hidden = |cell| {
+            let walls = options.walls.as_ref().filter(|walls| walls.grid() == t.grid());
+            walls.is_some_and(|w| w.at(cell).as_ref().is_some_and(walls::hides))
+        };
+        let dark = page.squares(t.grid().iter().filter(|c| t.rate(*c) == 0.0 && !hidden(*c)));
         if !dark.is_empty() {
             page.scene.fill(dark.finish(), ABSORBING);
             legend.push(Entry::of(Mark::Swatch(ABSORBING), "absorbs all light"));

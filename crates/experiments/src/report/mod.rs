@@ -7,6 +7,7 @@ mod glossary;
 mod introduction;
 mod links;
 pub(crate) mod numbers;
+mod overview;
 mod page;
 mod summary;
 mod tables;

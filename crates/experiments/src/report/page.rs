@@ -8,6 +8,7 @@ use super::gallery::article;
 use super::glossary::glossary;
 use super::introduction::{about_tensor_lines, introduction};
 use super::numbers::counted;
+use super::overview::overview;
 use super::verdict::Tally;
 use crate::ExperimentOutcome;
 
@@ -86,6 +87,7 @@ fn gallery(sections: &Sections<'_>) -> Markup {
         @for (i, (section, outcomes)) in sections.iter().enumerate() {
             section.experiments aria-labelledby=(section_id(i)) {
                 h2 #(section_id(i)) { (section) }
+                (overview(outcomes))
                 @for outcome in outcomes { (article(outcome)) }
                 p.back { a href="#page--contents" { "Back to the contents" } }
             }

@@ -10,14 +10,20 @@ pub(super) fn tables(tables: &[Table]) -> Markup {
 }
 
 /// Numbers stand on the right.
-fn class_of(column: &Column) -> Option<&'static str> {
+pub(super) fn class_of(column: &Column) -> Option<&'static str> {
     (!column.words).then_some("number")
 }
 
-fn table(table: &Table) -> Markup {
+/// What may be wider than the page.
+pub(super) fn scrolled(label: &str, content: &Markup) -> Markup {
     // Without a tab stop the keyboard could not scroll it.
-    html! {
-        div.scroll tabindex="0" role="region" aria-label=(table.title) {
+    html! { div.scroll tabindex="0" role="region" aria-label=(label) { (content) } }
+}
+
+fn table(table: &Table) -> Markup {
+    scrolled(
+        &table.title,
+        &html! {
             table.results {
                 caption { b { (table.title) "." } " " (table.caption) }
                 thead {
@@ -38,6 +44,6 @@ fn table(table: &Table) -> Markup {
                     }
                 }
             }
-        }
-    }
+        },
+    )
 }

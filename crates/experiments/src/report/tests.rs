@@ -215,6 +215,35 @@ fn tables_have_headings_of_rows_and_columns() {
 }
 
 #[test]
+fn tables_that_three_experiments_share_stand_side_by_side() {
+    let named = |slug: &str, title: &str, steps: &str| {
+        let mut o = outcome(slug, "6 Comparison", Vec::new());
+        o.title = format!("Steps of: {title}");
+        o.tables[0].rows[0].1[0] = steps.to_owned();
+        o
+    };
+    let two = [named("a", "drain", "11"), named("b", "gyre", "22")];
+    assert!(!html(&two, &about()).contains("Side by side"));
+    let [a, b] = two;
+    let mut other = named("c", "star", "33");
+    other.tables[0].rows.push(("more".into(), vec!["44".into()]));
+    let page = html(&[a, b, other], &about());
+    let overview = page.find("Side by side").expect("an overview");
+    let articles = page.find("<article").expect("experiments");
+    assert!(overview < articles);
+    let overview = &page[overview..articles];
+    assert!(overview.contains("Steps by field, all 3 experiments"));
+    for row in [
+        "<th scope=\"row\"><a href=\"#a\">drain</a></th><td class=\"number\">11</td>",
+        "<th scope=\"row\"><a href=\"#b\">gyre</a></th><td class=\"number\">22</td>",
+        "<th scope=\"row\"><a href=\"#c\">star</a>, rings</th><td class=\"number\">33</td>",
+        "<th scope=\"row\"><a href=\"#c\">star</a>, more</th><td class=\"number\">44</td>",
+    ] {
+        assert!(overview.contains(row), "{row} in {overview}");
+    }
+}
+
+#[test]
 fn nothing_run_is_still_a_page() {
     let page = html(&[], &about());
     assert!(page.contains("No experiment was run") && page.contains("Glossary") && page.ends_with("</html>"));

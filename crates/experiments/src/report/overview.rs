@@ -1,0 +1,101 @@
+//! Tables that several experiments of a section have in common, side by side.
+
+use maud::{Markup, html};
+
+use super::links::place;
+use super::tables::{class_of, scrolled};
+use crate::{ExperimentOutcome, Table};
+
+/// Fewer experiments need no overview.
+const LEAST: usize = 3;
+
+/// The tables of the same title and columns in three experiments or more, their rows below each other.
+pub(super) fn overview(outcomes: &[&ExperimentOutcome]) -> Markup {
+    let shared: Vec<Vec<Part<'_>>> = shared(outcomes);
+    html! {
+        @if !shared.is_empty() {
+            div.overview {
+                h3 { "Side by side" }
+                @for parts in &shared { (joined(parts)) }
+            }
+        }
+    }
+}
+
+/// An experiment with one of its tables.
+type Part<'a> = (&'a ExperimentOutcome, &'a Table);
+
+fn shared<'a>(outcomes: &[&'a ExperimentOutcome]) -> Vec<Vec<Part<'a>>> {
+    let mut found: Vec<Vec<Part<'a>>> = Vec::new();
+    for outcome in outcomes {
+        for table in outcome.tables.iter().filter(|t| !t.rows.is_empty()) {
+            let like = |(_, t): &Part<'_>| t.title == table.title && t.columns == table.columns;
+            match found.iter_mut().find(|parts| parts.first().is_some_and(like)) {
+                Some(parts) => parts.push((outcome, table)),
+                None => found.push(vec![(outcome, table)]),
+            }
+        }
+    }
+    found.retain(|parts| parts.len() >= LEAST);
+    found
+}
+
+fn joined(parts: &[Part<'_>]) -> Markup {
+    let Some((_, first)) = parts.first() else { return html! {} };
+    let titles: Vec<&str> = parts.iter().map(|(outcome, _)| outcome.title.as_str()).collect();
+    let common = common_words(&titles);
+    let title = format!("{}, all {} experiments", first.title, parts.len());
+    scrolled(
+        &title,
+        &html! {
+            table.results {
+                caption { b { (title) "." } " " (first.caption) }
+                thead {
+                    tr {
+                        @for column in &first.columns {
+                            th class=[class_of(column)] scope="col" { (column.heading) }
+                        }
+                    }
+                }
+                tbody {
+                    @for (outcome, table) in parts {
+                        @for (name, entries) in &table.rows {
+                            tr {
+                                th scope="row" {
+                                    a href=(place(&outcome.slug)) { (&outcome.title[common..]) }
+                                    @if table.rows.len() > 1 { ", " (name) }
+                                }
+                                @for (entry, column) in entries.iter().zip(first.columns.iter().skip(1)) {
+                                    td class=[class_of(column)] { (entry) }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        },
+    )
+}
+
+/// Bytes of the words that all titles begin with; none where a title would be left empty.
+fn common_words(titles: &[&str]) -> usize {
+    let Some((first, others)) = titles.split_first() else { return 0 };
+    let ends = first.char_indices().filter(|(_, c)| *c == ' ').map(|(i, _)| i + 1);
+    let is_common = |end: &usize| {
+        others.iter().all(|t| t.len() > *end && t.as_bytes()[..*end] == first.as_bytes()[..*end])
+    };
+    ends.take_while(is_common).last().unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_lose_the_words_they_share() {
+        assert_eq!(common_words(&["Light and gradient: drain", "Light and gradient: the plate"]), 20);
+        assert_eq!(common_words(&["Drain", "Drain of light"]), 0);
+        assert_eq!(common_words(&["A b", "A b"]), 2);
+        assert_eq!(common_words(&["Ä b c", "Ä b d"]), 5);
+    }
+}

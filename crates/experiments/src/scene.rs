@@ -15,6 +15,9 @@ use tigereye_scenes::{BuiltScene, Fault, Mask, Material, Part, Scene, SceneError
 /// Ending of files that hold a scene; other `.ron` files below `experiments/` are experiments, or fields.
 pub const ENDING: &str = ".scene.ron";
 
+/// Most cells of all crystals' fields together.
+const MAX_CRYSTAL_CELLS: usize = 4 * Scene::MAX_CELLS;
+
 /// Whether a file's name says that it holds a scene: it is or ends like `scene.ron`.
 #[must_use]
 pub fn is_scene_file(name: &str) -> bool {
@@ -74,8 +77,14 @@ impl PreparedScene {
 /// Every problem found, with line and column.
 pub fn prepare(path: &str, text: &str, host: &dyn Host) -> Result<PreparedScene, Vec<SpecError>> {
     let file = spec::load_scene(path, text).map_err(|e| vec![e])?;
-    let mut reader =
-        Reader { path, text, host, problems: Vec::new(), hashes: hash_of_bytes(text.as_bytes()) };
+    let mut reader = Reader {
+        path,
+        text,
+        host,
+        problems: Vec::new(),
+        hashes: hash_of_bytes(text.as_bytes()),
+        crystal_cells: 0,
+    };
     let grid = match Grid::new(file.width, file.height) {
         Ok(grid) if grid.cells() <= Scene::MAX_CELLS => grid,
         Ok(_) => {
@@ -118,6 +127,8 @@ struct Reader<'a> {
     problems: Vec<SpecError>,
     /// Hashes of all that was read.
     hashes: String,
+    /// Cells of the crystals' fields so far.
+    crystal_cells: usize,
 }
 
 impl Reader<'_> {
@@ -229,6 +240,13 @@ impl Reader<'_> {
                 let mut field = (**field).clone();
                 name_files_beside(&mut field, self.path, self.host);
                 let field = make_field(&field, self.host)?;
+                // All of them are kept, with their transmission, until the scene is built.
+                self.crystal_cells += field.grid().cells();
+                if self.crystal_cells > MAX_CRYSTAL_CELLS {
+                    return Err(format!(
+                        "the fields of the crystals have more than {MAX_CRYSTAL_CELLS} cells together: expected smaller ones, put in place with `at`"
+                    ));
+                }
                 self.hashes += &hash_of_field(&field);
                 Material::Crystal {
                     field,

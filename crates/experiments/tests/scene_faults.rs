@@ -182,6 +182,17 @@ fn scenes_that_are_too_large_are_refused() {
 }
 
 #[test]
+fn crystals_without_end_are_refused() {
+    let part = "(shape: Disc(centre: (1, 1), radius: 1), material: Crystal(field: Axes(width: 1200, height: 1000, phi: \"0\", s1: \"1\", s2: \"1\"))),\n";
+    let text =
+        |n: usize| format!("(format: 1, title: \"t\", width: 9, height: 9, parts: [\n{}])", part.repeat(n));
+    assert!(read(&text(2)).is_ok());
+    let problems = read(&text(5)).unwrap_err();
+    assert_eq!((problems.len(), problems[0].line), (2, 5), "{}", problems[0]);
+    assert!(problems[0].problem.contains("4194304 cells together"), "{}", problems[0]);
+}
+
+#[test]
 fn all_faults_of_a_scene_are_told_at_once() {
     let text = GOOD.replace("centre: (6, 6)", "centre: (-60, 6)").replace("to: (18, 9)", "to: (15, 3)");
     assert_eq!(read(&text).unwrap_err().len(), 2);

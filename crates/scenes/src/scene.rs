@@ -108,16 +108,19 @@ impl Scene {
             .map(|(i, p)| of_crystal(p).map_err(|e| SceneError { part: Some(i), fault: e.into() }))
             .collect::<Result<_, _>>()?;
         let surfaces = Field::from_fn(self.grid, |cell| self.surface(cell, *parts.at(cell)));
-        let reflections = Field::from_fn(self.grid, |cell| reflection(self, &parts, &surfaces, cell));
         let whole = |fault: tigereye_core::CoreError| SceneError { part: None, fault: fault.into() };
-        let mut made = Vec::with_capacity(self.grid.cells());
-        for parts in reflections.values() {
-            made.push(parts.map(Reflection::new).transpose().map_err(whole)?);
+        let mut walls = Vec::new();
+        for cell in self.grid.iter() {
+            if let Some(parts) = reflection(self, &parts, &surfaces, cell) {
+                walls.push((cell, Reflection::new(parts).map_err(whole)?));
+            }
         }
+        // Both go row by row.
+        let mut walls = walls.iter().peekable();
         let transmission = TransmissionField::assembled(self.grid, directions, |cell| {
             let material = parts.at(cell).map(|i| (i, &self.parts[i].material));
-            match (&made[self.grid.index(cell)], material) {
-                (Some(reflection), _) => CellTransmission::Reflecting(reflection),
+            match (walls.next_if(|(wall, _)| *wall == cell), material) {
+                (Some((_, reflection)), _) => CellTransmission::Reflecting(reflection),
                 (None, Some((i, Material::Crystal { at, .. }))) => match &crystals[i] {
                     Some(crystal) => CellTransmission::Of(crystal, Cell::new(cell.x - at.x, cell.y - at.y)),
                     None => CellTransmission::Isotropic(0.0),

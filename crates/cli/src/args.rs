@@ -366,7 +366,7 @@ pub(crate) struct PropagateArgs {
     #[arg(long, value_name = "N", value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) steps: Option<usize>,
     /// Outputs by their endings: .vti, .npy, .png, .svg; .pvd has a frame for every step, in the folder NAME beside NAME.pvd;
-    /// .apng is an animation of the steps.
+    /// .apng is an animation of the energy, a frame for every step or every n-th.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// What pictures show.

@@ -350,7 +350,7 @@ impl Draw<'_> {
     /// Frames of a light run and their number.
     fn animation(&self, animation: &spec::Animation) -> Option<(Result<Vec<u8>, RenderError>, usize)> {
         let r = self.light(&animation.run)?;
-        let reel = r.reel.as_ref()?;
+        let reel = r.reel.clone()?.thinned(animation.every.get());
         let options = HeatOptions {
             quantity: "energy of a cell / W".to_owned(),
             sources: r.sources.clone(),

@@ -53,6 +53,16 @@ impl Reel {
         self.seen += 1;
     }
 
+    /// Leaves out frames whose step is no multiple of `every`, and so those that another animation of the same steps wants.
+    #[must_use]
+    pub fn thinned(mut self, every: usize) -> Self {
+        let every = every.max(1);
+        if self.frames.iter().filter(|(step, _)| step.is_multiple_of(every)).count() > 1 {
+            self.frames.retain(|(step, _)| step.is_multiple_of(every));
+        }
+        self
+    }
+
     /// The frames as pictures of one scale: `options` with a range of `decades` below the brightest cell that is no light.
     #[must_use]
     pub fn pictures(&self, options: &HeatOptions, decades: f64) -> Vec<Scene> {
@@ -103,6 +113,15 @@ mod tests {
         assert!(reel.len() <= MAX_FRAMES && reel.len() > MAX_FRAMES / 2);
         assert!(steps.windows(2).all(|w| w[1] - w[0] == reel.every), "{:?}", &steps[..4]);
         assert_eq!((steps[0], reel.every % 3), (0, 0));
+    }
+
+    #[test]
+    fn animations_of_the_same_steps_take_their_own_frames() {
+        let mut reel = Reel::new(6, 2);
+        (0..25).for_each(|step| reel.add(&light(f64::from(step))));
+        let steps = |every| reel.clone().thinned(every).frames.iter().map(|f| f.0).collect::<Vec<_>>();
+        assert_eq!((reel.len(), steps(6)), (13, vec![0, 6, 12, 18, 24]));
+        assert_eq!(steps(1000).len(), 13, "one frame alone is no animation");
     }
 
     #[test]

@@ -214,7 +214,13 @@ pub(crate) fn field_of_quantity(quantity: &Quantity) -> Option<&str> {
 /// Every how many steps a run's energies are kept for an animation.
 pub(crate) fn wants_reel(experiment: &Experiment, run: &str) -> Option<usize> {
     let animations = experiment.figures.iter().filter_map(|f| f.animation.as_ref());
-    animations.filter(|a| a.run == run).map(|a| a.every).min()
+    let every = animations.filter(|a| a.run == run).map(|a| a.every.get());
+    // So often that every animation finds its frames.
+    every.reduce(common_divisor)
+}
+
+fn common_divisor(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { common_divisor(b, a % b) }
 }
 
 /// Whether anything asks for the radius of the energy of `run` at every step.

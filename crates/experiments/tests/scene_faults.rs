@@ -267,6 +267,8 @@ fn experiments_take_scenes_where_light_runs_and_nowhere_else() {
     assert!(outside.contains("outside"), "{outside}");
     let animation = problems("animation: (run: \"glow\")", "animation: (run: \"glare\")");
     assert!(animation.contains("names a run \"glare\""), "{animation}");
+    let never = problems("animation: (run: \"glow\")", "animation: (run: \"glow\", every: 0)");
+    assert!(never.starts_with("e.ron:9:"), "{never}");
     let way = problems("Steps(run: \"glow\")", "WayLength(run: \"glow\", to: (30, 2))");
     assert!(way.contains("(30, 2)"), "{way}");
     let no_scene = problems("field: \"room\",", "field: \"plain\", lights: [(cell: (2, 2))],");

@@ -51,7 +51,14 @@ impl<'a> Experiment<'a> {
             source: &outcome.source,
             seconds: outcome.seconds,
             passed: outcome.passed(),
-            figures: outcome.figures.iter().flat_map(|f| files(&f.name)).collect(),
+            figures: outcome
+                .figures
+                .iter()
+                .flat_map(|f| {
+                    let moving = (f.frames > 0).then(|| path(&outcome.slug, &format!("{}.apng", f.name)));
+                    files(&f.name).into_iter().chain(moving)
+                })
+                .collect(),
             timed_figures: outcome.figures.iter().filter(|f| f.timed).flat_map(|f| files(&f.name)).collect(),
             checks: outcome.checks.iter().map(Check::of).collect(),
             command: &outcome.command,

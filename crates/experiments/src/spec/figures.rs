@@ -2,6 +2,7 @@
 
 use super::{AxesChoice, FamilyChoice, Finite, MapSource, NonNegative, Positive, PulseNumber, RidgeSource};
 use serde::Deserialize;
+use std::num::NonZeroUsize;
 
 /// A picture with its caption.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -29,14 +30,14 @@ pub struct Animation {
     pub run: String,
     /// Every how many steps there is a frame; more where there would be too many.
     #[serde(default = "one")]
-    pub every: usize,
+    pub every: NonZeroUsize,
     /// Decades below the brightest cell that is no light.
     #[serde(default)]
     pub decades: Option<Positive>,
 }
 
-fn one() -> usize {
-    1
+const fn one() -> NonZeroUsize {
+    NonZeroUsize::MIN
 }
 
 fn three() -> usize {

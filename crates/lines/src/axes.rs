@@ -75,6 +75,9 @@ pub struct Frame {
     /// Their half-lengths: for [`Axes::Eigenvectors`] the eigenvalues with their signs, or their real part where they are
     /// complex; for dual eigenvectors the half-axes of the stretching and turning part.
     pub values: [f64; 2],
+    /// What tells the axes apart, in the unit of the tensor: the difference of the half-axes; for the others that of the stretching, or
+    /// for dual eigenvectors of the turning where it is smaller. It grows in proportion to the distance from a degenerate point.
+    pub contrast: f64,
 }
 
 struct Numbers {
@@ -89,8 +92,8 @@ impl Numbers {
 }
 
 impl Axes {
-    /// The axes of a tensor. `None` where it is not finite, and where it has none: the part of the larger half-axis by which
-    /// they differ (or, for the others, by which the tensor stretches, and turns) is not more than `least`.
+    /// The axes of a tensor. `None` where it is not finite, and where it has none: its [`Frame::contrast`] is not more than the part
+    /// `least` of the larger half-axis.
     #[must_use]
     pub fn of(self, t: &Tensor2, least: f64) -> Option<Frame> {
         let largest = t.max_abs();
@@ -109,6 +112,7 @@ impl Axes {
             Self::DualEigenvectors => dual_eigenvectors(&numbers, least),
         }?;
         frame.values = frame.values.map(|v| v / scale);
+        frame.contrast /= scale;
         Some(frame)
     }
 }
@@ -122,12 +126,13 @@ fn half_axes(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
     }
     let major = half_angle([f[0] * e[0] - f[1] * e[1], f[0] * e[1] + f[1] * e[0]]);
     let values = [longer, 0.5 * (stretch - rest).abs()];
-    Some(Frame { axes: [major, quarter_turned(major)], values })
+    Some(Frame { axes: [major, quarter_turned(major)], values, contrast: stretch.min(rest) })
 }
 
 fn eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
     let (stretch, rest) = (size(*f), size(*e));
-    if stretch <= least * 0.5 * (stretch + rest) {
+    let whole = 0.5 * (stretch + rest);
+    if stretch <= least * whole {
         return None;
     }
     let (stretching, turning) = (0.5 * stretch, 0.5 * e[1].abs());
@@ -144,7 +149,8 @@ fn eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
     let major = about(diagonal * (c + s), diagonal * (c - s));
     let minor = about(diagonal * (c - s), diagonal * (c + s));
     let root = if difference > 0.0 { (sum * difference).sqrt() } else { 0.0 };
-    Some(Frame { axes: [major, minor], values: [0.5 * e[0] + root, 0.5 * e[0] - root] })
+    let values = [0.5 * e[0] + root, 0.5 * e[0] - root];
+    Some(Frame { axes: [major, minor], values, contrast: stretch })
 }
 
 fn dual_eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
@@ -157,7 +163,7 @@ fn dual_eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
     let turned = if e[1] < 0.0 { [f[1], -f[0]] } else { [-f[1], f[0]] };
     let major = half_angle(turned);
     let values = [0.5 * (stretch + e[1].abs()), 0.5 * (stretch - e[1].abs()).abs()];
-    Some(Frame { axes: [major, quarter_turned(major)], values })
+    Some(Frame { axes: [major, quarter_turned(major)], values, contrast: stretch.min(e[1].abs()) })
 }
 
 /// Components are scaled: their squares neither overflow nor vanish beside each other.

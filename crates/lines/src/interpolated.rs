@@ -14,6 +14,10 @@ pub fn ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     })
 }
 
+/// How far outside a point still counts as one of the border, cells: a line along the border leaves it by the rounding of its
+/// steps, which is some 1e-16 of the coordinate each.
+const ROUNDING: f64 = 1e-9;
+
 /// A field between its cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Interpolated<'a> {
@@ -53,14 +57,15 @@ impl<'a> Interpolated<'a> {
         [(grid.width() - 1) as f64, (grid.height() - 1) as f64]
     }
 
-    /// The tensor at a point, bilinear in every component; `None` outside of the centres of the outermost cells, and where
-    /// one of the four cells is not finite.
+    /// The tensor at a point, bilinear in every component; `None` outside of the centres of the outermost cells (by more than
+    /// rounding, a billionth of a cell), and where one of the four cells is not finite.
     #[must_use]
     pub fn at(&self, [x, y]: [f64; 2]) -> Option<Tensor2> {
         let [right, bottom] = self.extent();
-        if !((0.0..=right).contains(&x) && (0.0..=bottom).contains(&y)) {
+        if !((-ROUNDING..=right + ROUNDING).contains(&x) && (-ROUNDING..=bottom + ROUNDING).contains(&y)) {
             return None;
         }
+        let (x, y) = (x.clamp(0.0, right), y.clamp(0.0, bottom));
         let before = |v: f64, last: f64| (v.floor()).min((last - 1.0).max(0.0)) as usize;
         let (i, j) = (before(x, right), before(y, bottom));
         let (u, v) = (x - i as f64, y - j as f64);
@@ -109,7 +114,8 @@ mod tests {
                 (between.at(p).expect("inside").components(), linear(p[0], p[1]).components());
             assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{p:?}");
         }
-        for p in [[-0.01, 1.0], [4.01, 1.0], [1.0, 3.2], [f64::NAN, 1.0]] {
+        assert_eq!(between.at([-1e-15, 3.0 + 1e-15]), between.at([0.0, 3.0]));
+        for p in [[-1e-8, 1.0], [4.01, 1.0], [1.0, 3.2], [f64::NAN, 1.0]] {
             assert_eq!(between.at(p), None, "{p:?}");
         }
     }

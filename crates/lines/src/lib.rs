@@ -26,6 +26,7 @@ mod tensor_line;
 mod tetrahedra;
 mod topology;
 mod volume;
+mod walk;
 
 pub use axes::{Axes, Decomposition, Domain, Family, Frame};
 pub use contours::{isolines, isosurface};

@@ -1,5 +1,6 @@
 //! Lines whose tangent is an axis of the tensor.
 
+use crate::walk::{MAX_STEPS, Walk};
 use crate::{Family, Interpolated};
 
 /// How a line is integrated.
@@ -20,7 +21,8 @@ pub enum Method {
 pub struct LineOptions {
     /// How steps are made.
     pub method: Method,
-    /// Length of a step, cells; the longest one of [`Method::DormandPrince`].
+    /// Length of a step, cells; the longest one of [`Method::DormandPrince`]. Steps are shorter before degenerate points, borders and sharp
+    /// turns; those of more than a cell may lead across a degenerate point.
     pub step: f64,
     /// Longest line in each direction, cells.
     pub length: f64,
@@ -52,7 +54,7 @@ impl Default for LineOptions {
 pub enum LineEnd {
     /// It reaches the centres of the outermost cells, or cells without numbers.
     Border,
-    /// The tensor has no axis there, or the axis turns by more than 60 degrees within a step.
+    /// It comes to a point where the tensor has no axis, or turns around one in more steps than can be made.
     Degenerate,
     /// It is as long as it may be.
     Length,
@@ -87,13 +89,6 @@ impl TensorLine {
     }
 }
 
-/// Cosine of the largest turn within a step, 60 degrees.
-const LARGEST_TURN: f64 = 0.5;
-/// Longest line, in steps.
-const MAX_STEPS: f64 = 1e7;
-/// A step that would leave the field, or is not exact enough, is halved down to this part of the longest one, so that lines end at
-/// the border.
-const SHORTEST: f64 = 1.0 / 65536.0;
 /// A line that passes its seed at this distance or nearer, in its first direction, is closed; cells.
 const CLOSING: f64 = 0.05;
 
@@ -116,12 +111,12 @@ pub fn tensor_line(
         return TensorLine::alone(seed, end);
     };
     let walk = Walk { field, family, options };
-    let mut forth = walk.from(seed, start, keep);
+    let mut forth = follow(&walk, seed, start, keep);
     if forth.end == LineEnd::Closed {
         forth.points.insert(0, seed);
         return TensorLine { points: forth.points, seed: 0, ends: [LineEnd::Closed; 2], gap: forth.gap };
     }
-    let back = walk.from(seed, [-start[0], -start[1]], keep);
+    let back = follow(&walk, seed, [-start[0], -start[1]], keep);
     let mut points = back.points;
     points.reverse();
     let seed_at = points.len();
@@ -145,14 +140,13 @@ pub fn half_line(
         return TensorLine::alone(start, LineEnd::Length);
     }
     let walk = Walk { field, family, options };
-    match walk.slope(start, towards.map(|v| v / size)) {
-        Err(end) => TensorLine::alone(start, end),
-        Ok(direction) => {
-            let mut line = walk.from(start, direction, &mut |_| true);
-            line.points.insert(0, start);
-            TensorLine { points: line.points, seed: 0, ends: [LineEnd::Stopped, line.end], gap: line.gap }
-        }
+    let towards = towards.map(|v| v / size);
+    if let Err(end) = walk.begin(start, towards) {
+        return TensorLine::alone(start, end);
     }
+    let mut line = follow(&walk, start, towards, &mut |_| true);
+    line.points.insert(0, start);
+    TensorLine { points: line.points, seed: 0, ends: [LineEnd::Stopped, line.end], gap: line.gap }
 }
 
 /// Where [`half_line`] ends, and why. Nothing of the way is kept, so that a line that comes back to its start goes on.
@@ -165,33 +159,18 @@ pub fn half_line_end(
     options: &LineOptions,
 ) -> ([f64; 2], LineEnd) {
     let walk = Walk { field, family, options };
-    let (mut at, mut towards, mut gone, mut step) = (start, direction, 0.0, options.step);
-    while options.are_possible() && options.length - gone > 1e-9 * options.step {
-        let (made, length) = match walk.fitting(at, towards, step.min(options.length - gone)) {
-            Ok(made) => made,
-            Err(end) => return (at, end),
-        };
-        gone += length;
-        (at, towards, step) = (made.to, made.direction, walk.longer(length, made.error));
+    if !options.are_possible() {
+        return (start, LineEnd::Length);
     }
-    (at, LineEnd::Length)
-}
-
-impl LineOptions {
-    /// Neither steps that lead nowhere, nor so many that they do not end.
-    fn are_possible(&self) -> bool {
-        let tolerance = match self.method {
-            Method::RungeKutta4 => true,
-            Method::DormandPrince { tolerance } => tolerance > 0.0,
-        };
-        tolerance && self.step > 0.0 && self.step.is_finite() && self.length / self.step <= MAX_STEPS
+    let mut line = match walk.begin(start, direction) {
+        Ok(line) => line,
+        Err(end) => return (start, end),
+    };
+    loop {
+        if let Err(end) = walk.advance(&mut line) {
+            return (line.pose().at, end);
+        }
     }
-}
-
-struct Walk<'a> {
-    field: &'a Interpolated<'a>,
-    family: Family,
-    options: &'a LineOptions,
 }
 
 /// What is behind a seed in one direction.
@@ -201,150 +180,29 @@ struct Way {
     gap: f64,
 }
 
-/// Where a step leads, the direction there, and by how much two orders differ.
-struct Step {
-    to: [f64; 2],
-    direction: [f64; 2],
-    error: f64,
-}
-
-/// Coefficients of Dormand and Prince: of the slopes before each stage, and the difference of both orders.
-const STAGES: [&[f64]; 6] = [
-    &[1.0 / 5.0],
-    &[3.0 / 40.0, 9.0 / 40.0],
-    &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
-    &[19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0],
-    &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
-    &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
-];
-const ERROR: [f64; 7] =
-    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
-
-impl Walk<'_> {
-    /// The points behind `seed` in a direction.
-    fn from(&self, seed: [f64; 2], start: [f64; 2], keep: &mut dyn FnMut([f64; 2]) -> bool) -> Way {
-        let (mut points, mut at, mut towards, mut gone) = (Vec::new(), seed, start, 0.0);
-        let mut step = self.options.step;
-        let end = |points, end| Way { points, end, gap: 0.0 };
-        // Rounding of the sum is no step of its own. Not a number is no length either.
-        while self.options.length - gone > 1e-9 * self.options.step && points.len() as f64 <= MAX_STEPS {
-            let (made, length) = match self.fitting(at, towards, step.min(self.options.length - gone)) {
-                Ok(made) => made,
-                Err(why) => return end(points, why),
-            };
-            if let Some(gap) = passes(seed, start, at, made.to).filter(|_| !points.is_empty()) {
-                points.push(seed);
-                return Way { points, end: LineEnd::Closed, gap };
-            }
-            if !keep(made.to) {
-                return end(points, LineEnd::Stopped);
-            }
-            gone += length;
-            points.push(made.to);
-            (at, towards, step) = (made.to, made.direction, self.longer(length, made.error));
+/// The points behind `seed` in a direction.
+fn follow(walk: &Walk<'_>, seed: [f64; 2], towards: [f64; 2], keep: &mut dyn FnMut([f64; 2]) -> bool) -> Way {
+    let mut points = Vec::new();
+    let end = |points, end| Way { points, end, gap: 0.0 };
+    let mut line = match walk.begin(seed, towards) {
+        Ok(line) => line,
+        Err(why) => return end(points, why),
+    };
+    let start = line.pose().towards;
+    loop {
+        let before = line.pose().at;
+        if let Err(why) = walk.advance(&mut line) {
+            return end(points, why);
         }
-        end(points, LineEnd::Length)
-    }
-
-    /// The longest step up to `length` that stays inside and is exact enough, and its length.
-    fn fitting(&self, at: [f64; 2], towards: [f64; 2], mut length: f64) -> Result<(Step, f64), LineEnd> {
-        let adaptive = matches!(self.options.method, Method::DormandPrince { .. });
-        loop {
-            let is_shortest = 0.5 * length < self.shortest();
-            match self.step(at, towards, length) {
-                // What the tolerance asks beyond the shortest step is rounding, or a kink between cells.
-                Ok(step) if step.error <= 1.0 || is_shortest => return Ok((step, length)),
-                Err(LineEnd::Degenerate) if !adaptive => return Err(LineEnd::Degenerate),
-                Err(end) if is_shortest => return Err(end),
-                _ => length *= 0.5,
-            }
+        let at = line.pose().at;
+        if let Some(gap) = passes(seed, start, before, at).filter(|_| !points.is_empty()) {
+            points.push(seed);
+            return Way { points, end: LineEnd::Closed, gap };
         }
-    }
-
-    fn shortest(&self) -> f64 {
-        self.options.step * SHORTEST
-    }
-
-    /// The step to try next: by the error of the last one, relative to the tolerance.
-    fn longer(&self, length: f64, error: f64) -> f64 {
-        match self.options.method {
-            Method::RungeKutta4 => self.options.step,
-            Method::DormandPrince { .. } => {
-                let factor = 0.9 * tigereye_core::math::pow(error.max(1e-10), -0.2);
-                (length * factor.clamp(0.2, 5.0)).clamp(self.shortest(), self.options.step)
-            }
+        if !keep(at) {
+            return end(points, LineEnd::Stopped);
         }
-    }
-
-    /// The direction at a point, coming from `towards`.
-    fn slope(&self, at: [f64; 2], towards: [f64; 2]) -> Result<[f64; 2], LineEnd> {
-        let least = if self.options.inertia.is_some() { 0.0 } else { self.options.least_anisotropy };
-        let Some(frame) = self.field.frame(at, least) else {
-            return match (self.field.at(at), self.options.inertia) {
-                // A tensor without axes lets a line with inertia pass, unless it is zero.
-                (Some(t), Some(_)) if !t.is_zero() => Ok(towards),
-                (Some(_), _) => Err(LineEnd::Degenerate),
-                (None, _) => Err(LineEnd::Border),
-            };
-        };
-        let downwards = |[x, y]: [f64; 2]| [x, -y];
-        let along = downwards(frame.axes[self.family as usize]);
-        let cosine = along[0] * towards[0] + along[1] * towards[1];
-        let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
-        let along = along.map(|v| sign * v);
-        let Some(inertia) = self.options.inertia else {
-            return if cosine.abs() < LARGEST_TURN { Err(LineEnd::Degenerate) } else { Ok(along) };
-        };
-        let across = downwards(frame.axes[1 - self.family as usize]);
-        let [longer, shorter] = {
-            let [a, b] = frame.values.map(f64::abs);
-            [a.max(b), a.min(b)]
-        };
-        let ratio = if longer > 0.0 { shorter / longer } else { 1.0 };
-        let other = across[0] * towards[0] + across[1] * towards[1];
-        // The component along the line's own axis stays, the other one shrinks.
-        let turned = unit([0, 1].map(|i| cosine.abs() * along[i] + ratio * other * across[i]));
-        let w = inertia.puncture;
-        let mixed =
-            [0, 1].map(|i| (1.0 - ratio) * along[i] + ratio * ((1.0 - w) * towards[i] + w * turned[i]));
-        Ok(unit(mixed))
-    }
-
-    fn step(&self, at: [f64; 2], towards: [f64; 2], h: f64) -> Result<Step, LineEnd> {
-        match self.options.method {
-            Method::RungeKutta4 => self.runge_kutta(at, towards, h),
-            Method::DormandPrince { tolerance } => self.dormand_prince(at, towards, h, tolerance),
-        }
-    }
-
-    fn runge_kutta(&self, at: [f64; 2], towards: [f64; 2], h: f64) -> Result<Step, LineEnd> {
-        let ahead = |k: [f64; 2], h: f64| [at[0] + h * k[0], at[1] + h * k[1]];
-        // The step before ended with the slope that this one begins with.
-        let a = towards;
-        let b = self.slope(ahead(a, 0.5 * h), a)?;
-        let c = self.slope(ahead(b, 0.5 * h), b)?;
-        let d = self.slope(ahead(c, h), c)?;
-        let mean = [0, 1].map(|i| (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]) / 6.0);
-        let to = ahead(mean, h);
-        Ok(Step { to, direction: self.slope(to, d)?, error: 0.0 })
-    }
-
-    fn dormand_prince(
-        &self,
-        at: [f64; 2],
-        towards: [f64; 2],
-        h: f64,
-        tolerance: f64,
-    ) -> Result<Step, LineEnd> {
-        let mut slopes = [[0.0; 2]; 7];
-        slopes[0] = towards;
-        let mut to = at;
-        for (i, weights) in STAGES.iter().enumerate() {
-            to = [0, 1].map(|k| at[k] + h * weights.iter().zip(&slopes).map(|(w, s)| w * s[k]).sum::<f64>());
-            slopes[i + 1] = self.slope(to, slopes[i])?;
-        }
-        let off = [0, 1].map(|k| h * ERROR.iter().zip(&slopes).map(|(w, s)| w * s[k]).sum::<f64>());
-        Ok(Step { to, direction: slopes[6], error: distance(off, [0.0; 2]) / tolerance })
+        points.push(at);
     }
 }
 
@@ -360,9 +218,15 @@ fn passes(seed: [f64; 2], start: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Option<f
     (gap <= CLOSING).then_some(gap)
 }
 
-fn unit(v: [f64; 2]) -> [f64; 2] {
-    let size = distance(v, [0.0; 2]);
-    if size > 0.0 { v.map(|c| c / size) } else { v }
+impl LineOptions {
+    /// Neither steps that lead nowhere, nor so many that they do not end.
+    fn are_possible(&self) -> bool {
+        let tolerance = match self.method {
+            Method::RungeKutta4 => true,
+            Method::DormandPrince { tolerance } => tolerance > 0.0,
+        };
+        tolerance && self.step > 0.0 && self.step.is_finite() && self.length / self.step <= MAX_STEPS
+    }
 }
 
 pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -542,6 +406,26 @@ mod tests {
         assert_eq!((line.points.len(), line.ends), (1, [LineEnd::Border; 2]));
         let thin = Field::from_fn(Grid::new(1, 5).expect("a size"), |_| Tensor2::from_axes(0.0, 2.0, 1.0));
         assert_eq!(follow(&thin, [0.0, 2.0], Family::Major, &LineOptions::default()).points.len(), 1);
+    }
+
+    /// Steps along the border leave it by their rounding, which is not the end of the field.
+    #[test]
+    fn lines_run_along_the_border() {
+        let grid = Grid::new(60, 50).expect("a size");
+        for (phi, seed, family) in [
+            (0.0, [30.3, 0.0], Family::Major),
+            (0.0, [0.0, 20.7], Family::Minor),
+            (core::f64::consts::PI, [30.3, 49.0], Family::Major),
+            (core::f64::consts::FRAC_PI_2, [59.0, 20.7], Family::Major),
+            (core::f64::consts::FRAC_PI_2, [30.3, 0.0], Family::Minor),
+        ] {
+            let field = Field::from_fn(grid, |_| Tensor2::from_axes(phi, 2.0, 1.0));
+            let line = follow(&field, seed, family, &LineOptions::default());
+            let [width, height] = Interpolated::new(&field).extent();
+            let whole = if seed[0] == 0.0 || seed[0] == width { height } else { width };
+            assert_eq!(line.ends, [LineEnd::Border; 2], "{phi} {seed:?}");
+            assert!((line.length() - whole).abs() < 1e-4, "{phi} {seed:?}: {}", line.length());
+        }
     }
 
     #[test]

@@ -59,6 +59,32 @@ fn rays_and_circles_have_their_formulas() {
     }
 }
 
+/// The same formula wherever rays do not leave, the diagonals included, on which lines inwards meet the middle: none leads across.
+#[test]
+fn rays_end_in_the_middle_of_a_star() {
+    let length = 10.0;
+    // In a cell and between cells. Elsewhere interpolation makes two wedges of the middle, and lines lead between them.
+    for middle in [[30.0, 30.0], [29.5, 30.5]] {
+        let field = Field::from_fn(Grid::new(61, 61).expect("a size"), |c| {
+            let (x, y) = (c.x as f64 - middle[0], middle[1] - c.y as f64);
+            let is_round = x == 0.0 && y == 0.0;
+            if is_round { Tensor2::IDENTITY } else { Tensor2::from_eigen(math::atan2(y, x), 2.0, 0.5) }
+        });
+        let options = FtleOptions { length, ..FtleOptions::default() };
+        let found = ftle(&Interpolated::new(&field), Family::Major, &options).expect("samples").larger;
+        let mut worst = (0.0, 0.0);
+        for (cell, value) in found.iter() {
+            let r = math::hypot(0.5 * cell.x as f64 - middle[0], 0.5 * cell.y as f64 - middle[1]);
+            if (3.0..18.0).contains(&r) {
+                // Differences over half a cell to either side are off by their square over that of the distance.
+                let off = (value - math::ln(1.0 + length / r) / length).abs() * r * r;
+                worst = if off <= worst.0 { worst } else { (off, r) };
+            }
+        }
+        assert!(worst.0 < 0.02, "{middle:?}: {worst:?}");
+    }
+}
+
 /// The axis along (x, -y): hyperbolas. A map along them by arc length has no formula; its gradient is taken of the formula of the
 /// axis, in steps and differences so small that they are exact.
 #[test]

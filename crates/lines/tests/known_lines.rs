@@ -4,7 +4,8 @@ use core::f64::consts::TAU;
 use tigereye_core::{Field, Tensor2, math};
 use tigereye_fields::{generate, parse_spec};
 use tigereye_lines::{
-    Axes, Family, Interpolated, LineEnd, LineOptions, Method, TensorLine, ellipse_tensors, tensor_line,
+    Axes, Family, Interpolated, LineEnd, LineOptions, Method, TensorLine, ellipse_tensors, half_line_end,
+    tensor_line,
 };
 
 fn field(spec: &str) -> Field<Tensor2> {
@@ -70,6 +71,31 @@ fn stars_have_rays_and_circles() {
             circle.gap
         );
         assert!((circle.length() - TAU * 20.0).abs() < 0.05);
+    }
+}
+
+/// No step of a cell or less leads across the middle, where the tensor is round.
+#[test]
+fn rays_end_at_the_middle_of_a_star() {
+    let field = ellipse_tensors(&field("star:size=61"));
+    let between = Interpolated::new(&field);
+    let dormand_prince = Method::DormandPrince { tolerance: 1e-6 };
+    for method in [Method::RungeKutta4, dormand_prince] {
+        for step in [0.05, 0.25, 0.7, 1.0] {
+            let options = LineOptions { method, step, length: 25.0, ..LineOptions::default() };
+            for seed in [[40.0, 40.0], [19.0, 41.0], [30.0, 44.5], [41.3, 30.0]] {
+                let (end, why) = half_line_end(
+                    &between,
+                    seed,
+                    [0, 1].map(|i| (30.0 - seed[i]) / distance(seed, [30.0; 2])),
+                    Family::Major,
+                    &options,
+                );
+                // Lines end at a thousandth, and on diagonals the anisotropy grows with the square of the distance.
+                let off = distance(end, [30.0; 2]);
+                assert!(why == LineEnd::Degenerate && off < 0.04, "{step} {seed:?}: {end:?} {why:?}");
+            }
+        }
     }
 }
 

@@ -117,8 +117,8 @@ impl Draw<'_> {
                 shown(scene, title, figure)
             }
             Panel::Lines { field, axes, family, title } => {
-                let scene =
-                    self.settings.fields.get(field).map(|f| self.lines(f, *axes, *family, own_title(title)));
+                let field = self.settings.fields.get(field);
+                let scene = field.and_then(|f| self.lines(f, *axes, *family, own_title(title)));
                 shown(scene, title, figure)
             }
             Panel::Texture { field, axes, family, hyper, title } => {
@@ -208,7 +208,7 @@ impl Draw<'_> {
         axes: spec::AxesChoice,
         family: Option<spec::FamilyChoice>,
         title: String,
-    ) -> Scene {
+    ) -> Option<Scene> {
         let axes = axes_of(axes, field);
         let families = family.map_or(vec![Family::Major, Family::Minor], |f| vec![family_of(f)]);
         let longest = field.grid().width().max(field.grid().height()) as f64;
@@ -220,7 +220,8 @@ impl Draw<'_> {
             ribbon: None,
         };
         let points = topology(field, axes, &[], &LineOptions::default()).points;
-        lines(field, &request).picture(field, &title, point_overlays(&points), self.cell_px(field.grid()))
+        let found = lines(field, &request).ok()?;
+        Some(found.picture(field, &title, point_overlays(&points), self.cell_px(field.grid())))
     }
 
     fn texture(

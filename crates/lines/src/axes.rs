@@ -89,6 +89,18 @@ impl Numbers {
     fn of(t: &Tensor2) -> Self {
         Self { f: [t.xx() - t.yy(), t.xy() + t.yx()], e: [t.xx() + t.yy(), t.yx() - t.xy()] }
     }
+
+    /// The numbers of a tensor times a power of two, which is the second result, so that squares stay in range; most tensors need
+    /// none. `None` where the tensor is zero or not finite.
+    fn scaled(t: &Tensor2) -> Option<(Self, f64)> {
+        let largest = t.max_abs();
+        let scale = match largest {
+            1e-60..=1e60 => 1.0,
+            _ => math::scale_by_power_of_two(1.0, -math::binary_exponent(largest)),
+        };
+        let is_possible = t.is_finite() && largest > 0.0 && scale.is_finite() && scale > 0.0;
+        is_possible.then(|| (Self::of(&t.scaled(scale)), scale))
+    }
 }
 
 impl Axes {
@@ -96,49 +108,65 @@ impl Axes {
     /// `least` of the larger half-axis.
     #[must_use]
     pub fn of(self, t: &Tensor2, least: f64) -> Option<Frame> {
-        let largest = t.max_abs();
-        // A power of two keeps squares in range and every direction as it is; most tensors need none.
-        let scale = match largest {
-            1e-60..=1e60 => 1.0,
-            _ => math::scale_by_power_of_two(1.0, -math::binary_exponent(largest)),
-        };
-        if !(t.is_finite() && largest > 0.0 && scale.is_finite() && scale > 0.0) {
-            return None;
-        }
-        let numbers = Numbers::of(&t.scaled(scale));
-        let mut frame = match self {
+        let (numbers, scale) = Numbers::scaled(t)?;
+        let (axes, contrast) = match self {
             Self::HalfAxes => half_axes(&numbers, least),
             Self::Eigenvectors => eigenvectors(&numbers, least),
             Self::DualEigenvectors => dual_eigenvectors(&numbers, least),
         }?;
-        frame.values = frame.values.map(|v| v / scale);
-        frame.contrast /= scale;
-        Some(frame)
+        let values = self.values_of(&numbers);
+        Some(Frame { axes, values: values.map(|v| v / scale), contrast: contrast / scale })
+    }
+
+    /// The [`Frame::values`] of a tensor, which there are without axes, too: both the same then. `None` where it is not finite.
+    #[must_use]
+    pub fn values(self, t: &Tensor2) -> Option<[f64; 2]> {
+        if t.is_zero() {
+            return Some([0.0; 2]);
+        }
+        let (numbers, scale) = Numbers::scaled(t)?;
+        Some(self.values_of(&numbers).map(|v| v / scale))
+    }
+
+    fn values_of(self, Numbers { f, e }: &Numbers) -> [f64; 2] {
+        let stretch = size(*f);
+        let (middle, off) = match self {
+            Self::HalfAxes => return longer_and_shorter(stretch, size(*e)),
+            Self::DualEigenvectors => return longer_and_shorter(stretch, e[1].abs()),
+            Self::Eigenvectors => {
+                (0.5 * e[0], 0.25 * ((stretch + e[1].abs()) * (stretch - e[1].abs())).max(0.0))
+            }
+        };
+        [middle + off.sqrt(), middle - off.sqrt()]
     }
 }
 
-fn half_axes(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
+fn longer_and_shorter(a: f64, b: f64) -> [f64; 2] {
+    [0.5 * (a + b), 0.5 * (a - b).abs()]
+}
+
+/// Axes, and what tells them apart.
+type AxesAndContrast = ([[f64; 2]; 2], f64);
+
+fn half_axes(Numbers { f, e }: &Numbers, least: f64) -> Option<AxesAndContrast> {
     let (stretch, rest) = (size(*f), size(*e));
-    let longer = 0.5 * (stretch + rest);
+    let contrast = stretch.min(rest);
     // What vanishes beside the rest has no direction, nor has its product with it.
-    if stretch.min(rest) <= least.max(f64::EPSILON * f64::EPSILON) * longer {
+    if contrast <= least.max(f64::EPSILON * f64::EPSILON) * 0.5 * (stretch + rest) {
         return None;
     }
     let major = half_angle([f[0] * e[0] - f[1] * e[1], f[0] * e[1] + f[1] * e[0]]);
-    let values = [longer, 0.5 * (stretch - rest).abs()];
-    Some(Frame { axes: [major, quarter_turned(major)], values, contrast: stretch.min(rest) })
+    Some(([major, quarter_turned(major)], contrast))
 }
 
-fn eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
+fn eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<AxesAndContrast> {
     let (stretch, rest) = (size(*f), size(*e));
-    let whole = 0.5 * (stretch + rest);
-    if stretch <= least * whole {
+    if stretch <= least * 0.5 * (stretch + rest) {
         return None;
     }
     let (stretching, turning) = (0.5 * stretch, 0.5 * e[1].abs());
-    let (sum, difference) = (stretching + turning, stretching - turning);
     // Rotated from the bisector by 45 degrees less, and more, the angle whose tangent is sqrt(|difference| / sum).
-    let (c, s) = (sum.sqrt(), difference.abs().sqrt());
+    let (c, s) = ((stretching + turning).sqrt(), (stretching - turning).abs().sqrt());
     let (c, s) = (c / size([c, s]), s / size([c, s]));
     let side = if e[1] < 0.0 { -1.0 } else { 1.0 };
     let bisector = half_angle(*f);
@@ -148,22 +176,19 @@ fn eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
     };
     let major = about(diagonal * (c + s), diagonal * (c - s));
     let minor = about(diagonal * (c - s), diagonal * (c + s));
-    let root = if difference > 0.0 { (sum * difference).sqrt() } else { 0.0 };
-    let values = [0.5 * e[0] + root, 0.5 * e[0] - root];
-    Some(Frame { axes: [major, minor], values, contrast: stretch })
+    Some(([major, minor], stretch))
 }
 
-fn dual_eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<Frame> {
+fn dual_eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<AxesAndContrast> {
     let (stretch, rest) = (size(*f), size(*e));
-    let whole = 0.5 * (stretch + rest);
-    if stretch <= least * whole || e[1].abs() <= least * whole {
+    let contrast = stretch.min(e[1].abs());
+    if contrast <= least * 0.5 * (stretch + rest) {
         return None;
     }
     // A quarter turn of F is an eighth turn of its axis.
     let turned = if e[1] < 0.0 { [f[1], -f[0]] } else { [-f[1], f[0]] };
     let major = half_angle(turned);
-    let values = [0.5 * (stretch + e[1].abs()), 0.5 * (stretch - e[1].abs()).abs()];
-    Some(Frame { axes: [major, quarter_turned(major)], values, contrast: stretch.min(e[1].abs()) })
+    Some(([major, quarter_turned(major)], contrast))
 }
 
 /// Components are scaled: their squares neither overflow nor vanish beside each other.
@@ -307,6 +332,25 @@ mod tests {
             }
             assert!(sine_between(inside.axes[0], inside.axes[1]) < 3e-3);
         }
+    }
+
+    /// Values are those of the axes, and there where these are none.
+    #[test]
+    fn values_do_not_need_axes() {
+        let all = [Axes::HalfAxes, Axes::Eigenvectors, Axes::DualEigenvectors];
+        for axes in all {
+            for t in tensors() {
+                let Some(frame) = axes.of(&t, 0.0) else { continue };
+                assert_eq!(axes.values(&t), Some(frame.values));
+            }
+            assert_eq!(axes.values(&Tensor2::ZERO), Some([0.0; 2]));
+            assert_eq!(axes.values(&Tensor2::isotropic(f64::NAN)), None);
+        }
+        // Scaling by 3 and a turn of size 4: half-axes of 5, real parts of 3, and an ellipse of flow that is a circle.
+        let turning = Tensor2::new(3.0, -4.0, 4.0, 3.0);
+        assert!(all.iter().all(|axes| axes.of(&turning, 0.0).is_none()));
+        assert_eq!(all.map(|axes| axes.values(&turning)), [[5.0; 2], [3.0; 2], [4.0; 2]].map(Some));
+        assert_eq!(Axes::HalfAxes.values(&Tensor2::symmetric(2.0, 0.0, -2.0)), Some([2.0; 2]));
     }
 
     #[test]

@@ -5,14 +5,12 @@ use crate::{Family, Interpolated, TensorLine};
 /// Half of a hyperstreamline's width at every point of its line, cells: `scale` times the half-length of the other axis, or the
 /// magnitude of the other eigenvalue (Delmarcelle and Hesselink, Visualizing second-order tensor fields with hyperstreamlines,
 /// 1993, where the line is a tube with the two other ones as its cross section). 0 where the tensor is zero, not a number where it
-/// is none; where both axes are equally long, what they have in common.
+/// is none.
 #[must_use]
 pub fn half_widths(field: &Interpolated<'_>, line: &TensorLine, family: Family, scale: f64) -> Vec<f64> {
     let width = |p: &[f64; 2]| {
-        let Some(t) = field.at(*p) else { return f64::NAN };
-        // Without axes, every direction is as long as the tensor's mean.
-        let other = field.axes().of(&t, 0.0).map(|f| f.values[1 - family as usize].abs());
-        scale * other.unwrap_or_else(|| t.determinant().abs().sqrt())
+        let values = field.at(*p).and_then(|t| field.axes().values(&t));
+        values.map_or(f64::NAN, |v| scale * v[1 - family as usize].abs())
     };
     line.points.iter().map(width).collect()
 }

@@ -41,7 +41,7 @@ pub use nearest::NearestSegment;
 pub use ridges::{
     RidgeBounds, RidgeLines, RidgeOptions, RidgeSurface, Threshold, ridge_lines, ridge_surface,
 };
-pub use seeding::evenly_spaced;
+pub use seeding::{MAX_POINTS, evenly_spaced};
 pub use shapes::{Polyline, Polylines, Surface};
 pub use tensor_line::{
     Inertia, LineEnd, LineOptions, Method, TensorLine, half_line, half_line_end, tensor_line,

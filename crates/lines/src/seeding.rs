@@ -9,10 +9,13 @@ const CLOSEST: f64 = 0.5;
 /// Lines shorter than this many distances are left out.
 const SHORTEST: f64 = 0.5;
 
+/// So many points of lines are enough: drawn, written and held in memory they are gigabytes.
+pub const MAX_POINTS: usize = 1 << 24;
+
 /// Lines about `separation` cells apart (at least 0.1), in an order that only depends on the field: seeds are tried beside the
 /// lines that are there, then all over the field (Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density,
 /// 1997). A line keeps away from the others, not from itself: one that winds inwards does so to its longest length. Fields
-/// without axes give no lines.
+/// without axes give no lines. After the line that makes them more than [`MAX_POINTS`] points together no further one follows.
 #[must_use]
 pub fn evenly_spaced(
     field: &Interpolated<'_>,
@@ -25,6 +28,7 @@ pub fn evenly_spaced(
     let mut covered = Covered::new([right, bottom], separation);
     let mut lines: Vec<TensorLine> = Vec::new();
     let mut queue = VecDeque::new();
+    let mut points = 0;
     let middle = [0.5 * right, 0.5 * bottom];
     // Half a distance leaves no gap that a line would fit into.
     let stride = (0.5 * separation).max(1.0);
@@ -43,7 +47,11 @@ pub fn evenly_spaced(
             }
             covered.add(&line.points);
             queue.extend(beside(&line, separation));
+            points += line.points.len();
             lines.push(line);
+            if points > MAX_POINTS {
+                return lines;
+            }
         }
     }
     lines

@@ -3,6 +3,8 @@
 use super::ReadingArgs;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+use tigereye_core::{Field, Tensor2};
+use tigereye_experiments::classical::usual_axes;
 use tigereye_lines::{Axes, Family};
 
 /// The axes that lines follow.
@@ -56,19 +58,36 @@ pub(crate) enum MethodName {
     Rk45,
 }
 
+/// Tensors, and which of their axes.
 #[derive(Debug, Args)]
-pub(crate) struct LinesArgs {
+pub(crate) struct AxesArgs {
     /// A data file, a field file or a generator.
     pub(crate) input: String,
+    /// The axes to follow; by default eigen where all tensors are symmetric, half otherwise.
+    #[arg(long, value_enum)]
+    axes: Option<AxesName>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+    /// Summary as JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+impl AxesArgs {
+    /// The axes asked for, or those that are usual for such a field.
+    pub(crate) fn axes(&self, field: &Field<Tensor2>) -> Axes {
+        self.axes.map_or_else(|| usual_axes(field), Axes::from)
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LinesArgs {
     /// Outputs by their endings: .vtp, .png, .svg.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Which lines.
     #[arg(long, value_enum, default_value_t = FamilyName::Major)]
     pub(crate) family: FamilyName,
-    /// The axes to follow; by default eigen where all tensors are symmetric, half otherwise.
-    #[arg(long, value_enum)]
-    pub(crate) axes: Option<AxesName>,
     /// Distance of the lines, cells, from 0.1; by default a fortieth of the longer side.
     #[arg(long, value_name = "CELLS", value_parser = parse_separation, conflicts_with = "seeds")]
     pub(crate) separation: Option<f64>,
@@ -97,25 +116,17 @@ pub(crate) struct LinesArgs {
     #[arg(long, value_name = "CELLS", num_args = 0..=1, default_missing_value = "1", value_parser = parse_step)]
     pub(crate) ribbon: Option<f64>,
     #[command(flatten)]
-    pub(crate) reading: ReadingArgs,
-    /// Summary as JSON on standard output.
-    #[arg(long)]
-    pub(crate) json: bool,
+    pub(crate) of: AxesArgs,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct TopologyArgs {
-    /// A data file, a field file or a generator.
-    pub(crate) input: String,
     /// Outputs by their endings: .vtp, .png, .svg.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Whose separatrices.
     #[arg(long, value_enum, default_value_t = FamilyName::Major)]
     pub(crate) family: FamilyName,
-    /// The axes; by default eigen where all tensors are symmetric, half otherwise.
-    #[arg(long, value_enum)]
-    pub(crate) axes: Option<AxesName>,
     /// Step of the separatrices, cells.
     #[arg(long, value_name = "CELLS", default_value = "0.1", value_parser = parse_step)]
     pub(crate) step: f64,
@@ -123,16 +134,11 @@ pub(crate) struct TopologyArgs {
     #[arg(long, value_name = "CELLS", value_parser = parse_length)]
     pub(crate) length: Option<f64>,
     #[command(flatten)]
-    pub(crate) reading: ReadingArgs,
-    /// Points and separatrices as JSON on standard output.
-    #[arg(long)]
-    pub(crate) json: bool,
+    pub(crate) of: AxesArgs,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct LicArgs {
-    /// A data file, a field file or a generator.
-    pub(crate) input: String,
     /// Outputs by their endings: .png, .svg, .vti.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
@@ -142,9 +148,6 @@ pub(crate) struct LicArgs {
     /// Along which axis.
     #[arg(long, value_enum, default_value_t = OneFamily::Major)]
     pub(crate) family: OneFamily,
-    /// The axes to follow; by default eigen where all tensors are symmetric, half otherwise.
-    #[arg(long, value_enum)]
-    pub(crate) axes: Option<AxesName>,
     /// How far noise is smeared to each side, cells; with --hyper along the longer axis.
     #[arg(long, value_name = "CELLS", default_value = "5", value_parser = parse_smear)]
     pub(crate) half_length: f64,
@@ -158,25 +161,17 @@ pub(crate) struct LicArgs {
     #[arg(long)]
     pub(crate) tint: bool,
     #[command(flatten)]
-    pub(crate) reading: ReadingArgs,
-    /// Summary as JSON on standard output.
-    #[arg(long)]
-    pub(crate) json: bool,
+    pub(crate) of: AxesArgs,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct FtleArgs {
-    /// A data file, a field file or a generator.
-    pub(crate) input: String,
     /// Outputs by their endings: .vti, .png, .svg.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Which lines.
     #[arg(long, value_enum, default_value_t = OneFamily::Major)]
     pub(crate) family: OneFamily,
-    /// The axes to follow; by default eigen where all tensors are symmetric, half otherwise.
-    #[arg(long, value_enum)]
-    pub(crate) axes: Option<AxesName>,
     /// Length of the lines to each side, cells.
     #[arg(long, value_name = "CELLS", default_value = "10", value_parser = parse_reach)]
     pub(crate) length: f64,
@@ -187,10 +182,7 @@ pub(crate) struct FtleArgs {
     #[arg(long, value_name = "CELLS", default_value = "0.25", value_parser = parse_coarse_step)]
     pub(crate) step: f64,
     #[command(flatten)]
-    pub(crate) reading: ReadingArgs,
-    /// Summary as JSON on standard output.
-    #[arg(long)]
-    pub(crate) json: bool,
+    pub(crate) of: AxesArgs,
 }
 
 #[derive(Debug, Args)]

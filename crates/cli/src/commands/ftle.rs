@@ -5,19 +5,19 @@ use crate::commands::{drawing, print_json, print_text};
 use crate::error::CliError;
 use serde_json::json;
 use tigereye_experiments::classical::fine::{exponents, exponents_picture, image};
-use tigereye_experiments::classical::{axes_name, family_name, usual_axes};
+use tigereye_experiments::classical::{axes_name, family_name};
 use tigereye_io::vti;
-use tigereye_lines::{Axes, Family, FtleOptions};
+use tigereye_lines::{Family, FtleOptions};
 
 pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vti", "png", "svg"])?;
-    let input = drawing::open_input(&args.input, &args.reading, &args.outputs)?;
-    let axes = args.axes.map_or_else(|| usual_axes(&input.field), Axes::from);
+    let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
+    let axes = args.of.axes(&input.field);
     let family = Family::from(args.family);
     let (length, step, samples) = (args.length, args.step, args.samples);
     let options = FtleOptions { length, step, samples, ..FtleOptions::default() };
     let found =
-        exponents(&input.field, axes, family, &options).map_err(|e| CliError::input(&args.input, e))?;
+        exponents(&input.field, axes, family, &options).map_err(|e| CliError::input(&args.of.input, e))?;
     let parameters = json!({
         "axes": axes_name(axes),
         "family": family_name(family),
@@ -25,17 +25,21 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
         "step": step,
         "samples": samples,
     });
-    let story = drawing::story(&input, parameters, &args.reading);
-    drawing::write(&args.outputs, &|| Ok(exponents_picture(&found, &args.input, Vec::new(), None)), &|| {
-        let arrays = [("FTLE", &found.larger), ("FTLE_smaller", &found.smaller)];
-        vti::write(&image(&arrays, samples, &drawing::placement(&input), &story))
-    })?;
+    let story = drawing::story(&input, parameters, &args.of.reading);
+    drawing::write(
+        &args.outputs,
+        &|| Ok(exponents_picture(&found, &args.of.input, Vec::new(), None)),
+        &|| {
+            let arrays = [("FTLE", &found.larger), ("FTLE_smaller", &found.smaller)];
+            vti::write(&image(&arrays, samples, &drawing::placement(&input), &story))
+        },
+    )?;
     let finite = || found.larger.values().iter().copied().filter(|v| v.is_finite());
     let count = finite().count();
     let largest = finite().fold(f64::NEG_INFINITY, f64::max);
     let mean = finite().sum::<f64>() / count.max(1) as f64;
     let (width, height) = (found.larger.grid().width(), found.larger.grid().height());
-    if args.json {
+    if args.of.json {
         print_json(&json!({
             "width": width,
             "height": height,

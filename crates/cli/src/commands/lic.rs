@@ -7,28 +7,27 @@ use serde_json::json;
 use tigereye_experiments::classical::fine::{
     TextureRequest, image, texture, texture_parameters, texture_picture,
 };
-use tigereye_experiments::classical::usual_axes;
 use tigereye_io::vti;
-use tigereye_lines::{Axes, ConvolutionOptions};
+use tigereye_lines::ConvolutionOptions;
 
 pub(crate) fn run(args: &LicArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["png", "svg", "vti"])?;
-    let input = drawing::open_input(&args.input, &args.reading, &args.outputs)?;
+    let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
     let (samples, half_length, seed) = (args.samples, args.half_length, args.seed);
     let request = TextureRequest {
-        axes: args.axes.map_or_else(|| usual_axes(&input.field), Axes::from),
+        axes: args.of.axes(&input.field),
         family: args.family.into(),
         hyper: args.hyper,
         options: ConvolutionOptions { samples, half_length, seed },
     };
-    let found = texture(&input.field, &request).map_err(|e| CliError::input(&args.input, e))?;
-    let story = drawing::story(&input, texture_parameters(&request), &args.reading);
-    let picture = || texture_picture(&found, &input.field, samples, args.tint, &args.input, None);
+    let found = texture(&input.field, &request).map_err(|e| CliError::input(&args.of.input, e))?;
+    let story = drawing::story(&input, texture_parameters(&request), &args.of.reading);
+    let picture = || texture_picture(&found, &input.field, samples, args.tint, &args.of.input, None);
     drawing::write(&args.outputs, &picture, &|| {
         vti::write(&image(&[("LIC", &found)], samples, &drawing::placement(&input), &story))
     })?;
     let (width, height) = (found.grid().width(), found.grid().height());
-    if args.json {
+    if args.of.json {
         print_json(&json!({ "width": width, "height": height, "samples": samples }))?;
     } else {
         print_text(&format!("{width} x {height} samples\n"))?;

@@ -5,10 +5,10 @@ use crate::commands::{counted, drawing, print_json, print_text};
 use crate::error::CliError;
 use crate::input::Input;
 use serde_json::json;
+use tigereye_experiments::classical::axes_name;
 use tigereye_experiments::classical::lines::{LinesRequest, Seeds, axes_words, lines, parameters};
-use tigereye_experiments::classical::{axes_name, usual_axes};
 use tigereye_io::vtp;
-use tigereye_lines::{Axes, Inertia, LineOptions, Method};
+use tigereye_lines::{Inertia, LineOptions, Method};
 
 /// Distance of lines in parts of the longer side.
 const LINES_A_SIDE: f64 = 40.0;
@@ -19,23 +19,23 @@ const SIDES: f64 = 4.0;
 
 pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
-    let input = drawing::open_input(&args.input, &args.reading, &args.outputs)?;
+    let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
     if args.tolerance.is_some() && args.method != MethodName::Rk45 {
         return Err(CliError::input("--tolerance", "is that of adaptive steps: expected --method rk45"));
     }
     let request = request(args, &input);
     drawing::check_steps(request.options.length, request.options.step)?;
     check_seeds(args, &input)?;
-    let found = lines(&input.field, &request);
-    let story = drawing::story(&input, parameters(&request), &args.reading);
+    let found = lines(&input.field, &request).map_err(|e| CliError::input(&args.of.input, e))?;
+    let story = drawing::story(&input, parameters(&request), &args.of.reading);
     drawing::write(
         &args.outputs,
-        &|| Ok(found.picture(&input.field, &args.input, Vec::new(), None)),
+        &|| Ok(found.picture(&input.field, &args.of.input, Vec::new(), None)),
         &|| vtp::write(&found.poly_data(&drawing::placement(&input), &story)),
     )?;
     // The sum of nothing is -0.
     let length = found.lines.iter().map(|l| l.line.length()).sum::<f64>() + 0.0;
-    if args.json {
+    if args.of.json {
         print_json(&json!({
             "width": input.field.grid().width(),
             "height": input.field.grid().height(),
@@ -83,7 +83,7 @@ fn request(args: &LinesArgs, input: &Input) -> LinesRequest {
         MethodName::Rk45 => Method::DormandPrince { tolerance: args.tolerance.unwrap_or(TOLERANCE) },
     };
     LinesRequest {
-        axes: args.axes.map_or_else(|| usual_axes(&input.field), Axes::from),
+        axes: args.of.axes(&input.field),
         families: args.family.families().to_vec(),
         seeds,
         options: LineOptions {

@@ -4,14 +4,14 @@ use crate::args::classical::TopologyArgs;
 use crate::commands::{counted, drawing, print_json, print_text};
 use crate::error::CliError;
 use serde_json::json;
-use tigereye_experiments::classical::{axes_name, family_name, topology, usual_axes};
+use tigereye_experiments::classical::{axes_name, family_name, topology};
 use tigereye_io::vtp;
-use tigereye_lines::{Axes, LineOptions};
+use tigereye_lines::LineOptions;
 
 pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
-    let input = drawing::open_input(&args.input, &args.reading, &args.outputs)?;
-    let axes = args.axes.map_or_else(|| usual_axes(&input.field), Axes::from);
+    let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
+    let axes = args.of.axes(&input.field);
     let length = args.length.unwrap_or(4.0 * drawing::longer_side(&input));
     let options = LineOptions { step: args.step, length, ..LineOptions::default() };
     drawing::check_steps(length, args.step)?;
@@ -19,14 +19,14 @@ pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
     let found = topology::topology(&input.field, axes, families, &options);
     let names: Vec<&str> = families.iter().map(|f| family_name(*f)).collect();
     let parameters = json!({ "axes": axes_name(axes), "family": names, "step": args.step, "length": length });
-    let story = drawing::story(&input, parameters, &args.reading);
+    let story = drawing::story(&input, parameters, &args.of.reading);
     drawing::write(
         &args.outputs,
-        &|| Ok(topology::picture(&found, &input.field, axes, families, &args.input)),
+        &|| Ok(topology::picture(&found, &input.field, axes, families, &args.of.input)),
         &|| vtp::write(&topology::poly_data(&found, &drawing::placement(&input), &story)),
     )?;
     let summary = topology::summary(&found);
-    if args.json {
+    if args.of.json {
         print_json(&summary)?;
     } else {
         print_text(&format!(

@@ -3,10 +3,11 @@
 use super::{
     Followed, Placement, axes_name, counts, family_name, line_overlay, plain_options, push_line, push_story,
 };
+use thiserror::Error;
 use tigereye_core::{Field, Tensor2};
 use tigereye_io::{DataArray, PolyData};
 use tigereye_lines::{
-    Axes, Family, LineEnd, LineOptions, TensorLine, evenly_spaced, half_widths, tensor_line,
+    Axes, Family, LineEnd, LineOptions, MAX_POINTS, TensorLine, evenly_spaced, half_widths, tensor_line,
 };
 use tigereye_render::{Overlay, PlainOptions, Rgba, Ribbon, Scene, plain_map};
 
@@ -56,32 +57,48 @@ pub struct FieldLine {
     pub half_widths: Vec<f64>,
 }
 
+/// Lines of more points together than can be drawn and written.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error(
+    "the lines have more than {MAX_POINTS} points together: expected fewer or shorter lines, or longer steps"
+)]
+pub struct TooManyPoints;
+
 /// Follows the lines that are asked for. Seeds where there is no axis give none.
-#[must_use]
-pub fn lines(field: &Field<Tensor2>, request: &LinesRequest) -> FieldLines {
+///
+/// # Errors
+/// [`TooManyPoints`] for more than [`MAX_POINTS`].
+pub fn lines(field: &Field<Tensor2>, request: &LinesRequest) -> Result<FieldLines, TooManyPoints> {
     let followed = Followed::new(field, request.axes);
     let between = followed.interpolated();
     let scale = request.ribbon.map(|widest| {
-        let largest = field.values().iter().filter_map(|t| request.axes.of(t, 0.0));
-        let largest = largest.map(|f| f.values[0].abs().max(f.values[1].abs())).fold(0.0, f64::max);
+        let values = field.values().iter().filter_map(|t| request.axes.values(t)).flatten();
+        let largest = values.map(f64::abs).fold(0.0, f64::max);
         if largest > 0.0 { widest / largest } else { 0.0 }
     });
-    let mut lines = Vec::new();
+    let (mut lines, mut points) = (Vec::new(), 0);
     for &family in &request.families {
-        let found = match &request.seeds {
-            Seeds::Even(separation) => evenly_spaced(&between, family, *separation, &request.options),
-            Seeds::At(seeds) => seeds
-                .iter()
-                .map(|&seed| tensor_line(&between, seed, family, &request.options, &mut |_| true))
-                .filter(|line| line.points.len() > 1)
-                .collect(),
+        let found: Box<dyn Iterator<Item = TensorLine>> = match &request.seeds {
+            Seeds::Even(separation) => {
+                Box::new(evenly_spaced(&between, family, *separation, &request.options).into_iter())
+            }
+            Seeds::At(seeds) => Box::new(
+                seeds
+                    .iter()
+                    .map(|&seed| tensor_line(&between, seed, family, &request.options, &mut |_| true))
+                    .filter(|line| line.points.len() > 1),
+            ),
         };
-        lines.extend(found.into_iter().map(|line| {
+        for line in found {
+            points += line.points.len();
+            if points > MAX_POINTS {
+                return Err(TooManyPoints);
+            }
             let half_widths = scale.map(|s| half_widths(&between, &line, family, s)).unwrap_or_default();
-            FieldLine { family, line, half_widths }
-        }));
+            lines.push(FieldLine { family, line, half_widths });
+        }
     }
-    FieldLines { lines, followed }
+    Ok(FieldLines { lines, followed })
 }
 
 impl FieldLines {
@@ -133,7 +150,8 @@ impl FieldLines {
         for line in &self.lines {
             push_line(&mut data, line.line.points.iter().map(|p| placement.place(*p)));
             for p in &line.line.points {
-                values.extend(between.frame(*p, 0.0).map_or([f64::NAN; 2], |f| f.values));
+                let found = between.at(*p).and_then(|t| between.axes().values(&t));
+                values.extend(found.unwrap_or([f64::NAN; 2]));
             }
             widths.extend(line.half_widths.iter().map(|w| w * unit));
         }

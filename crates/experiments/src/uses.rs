@@ -160,6 +160,7 @@ pub(crate) fn of_quantity(quantity: &Quantity) -> Vec<(&str, RunKind)> {
         | Q::IsotropicShare { .. }
         | Q::ZeroShare { .. }
         | Q::TotalAnisotropyShare { .. }
+        | Q::ComplexShare { .. }
         | Q::LargestAxis { .. } => Vec::new(),
         Q::Steps { run }
         | Q::Stopped { run }
@@ -206,6 +207,7 @@ pub(crate) fn field_of_quantity(quantity: &Quantity) -> Option<&str> {
         | Q::IsotropicShare { field }
         | Q::ZeroShare { field }
         | Q::TotalAnisotropyShare { field }
+        | Q::ComplexShare { field }
         | Q::LargestAxis { field } => Some(field),
         _ => None,
     }

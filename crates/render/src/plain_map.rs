@@ -25,7 +25,14 @@ pub struct PlainOptions {
     pub missing: Vec<Cell>,
     /// What the legend calls them.
     pub missing_label: String,
+    /// Cells with a light ground.
+    pub shaded: Vec<Cell>,
+    /// What the legend calls them.
+    pub shaded_label: String,
 }
+
+/// Light enough for lines of every colour.
+const SHADE: Rgba = Rgba::hex(0xe4ebf5);
 
 /// Overlays on white.
 #[must_use]
@@ -33,17 +40,22 @@ pub fn plain_map(grid: Grid, options: &PlainOptions) -> Scene {
     let cell = map_frame::cell_px(grid, options.cell_px, 480, 40);
     let mut page = MapFrame::begin(grid, &options.title, cell, 0.0);
     let mut legend = Vec::new();
-    let mut squares = PathBuilder::default();
-    for c in &options.missing {
-        let [x, y] = page.centre(*c);
-        squares.rect(x - 0.5 * cell, y - 0.5 * cell, cell, cell);
-    }
-    if !squares.is_empty() {
-        page.scene.fill(squares.finish(), Rgba::NOT_FINITE);
+    for (cells, colour) in [(&options.shaded, SHADE), (&options.missing, Rgba::NOT_FINITE)] {
+        let mut squares = PathBuilder::default();
+        for c in cells {
+            let [x, y] = page.centre(*c);
+            squares.rect(x - 0.5 * cell, y - 0.5 * cell, cell, cell);
+        }
+        if !squares.is_empty() {
+            page.scene.fill(squares.finish(), colour);
+        }
     }
     page.hatch(&options.missing);
     if !options.missing.is_empty() {
         legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), options.missing_label.clone()));
+    }
+    if !options.shaded.is_empty() {
+        legend.push(Entry::of(Mark::Swatch(SHADE), options.shaded_label.clone()));
     }
     ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
@@ -70,13 +82,15 @@ mod tests {
             overlays: vec![overlay("a line", &[[0.0, 0.0], [3.0, 2.0]])],
             missing: vec![Cell::new(1, 1)],
             missing_label: "no tensor".to_owned(),
+            shaded: vec![Cell::new(2, 1)],
+            shaded_label: "a part".to_owned(),
             ..PlainOptions::default()
         };
         let scene = plain_map(Grid::new(30, 20).expect("a size"), &options);
         assert!(scene.description.contains("Lines on 30 x 20 cells"));
         let mut words = Vec::new();
         collect(&scene.items, &mut words);
-        for text in ["a field", "a line", "no tensor"] {
+        for text in ["a field", "a line", "no tensor", "a part"] {
             assert!(words.iter().any(|w| w == text), "{text}: {words:?}");
         }
     }

@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
 use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Tensor2, is_totally_anisotropic};
+use tigereye_experiments::classical::is_complex;
 use tigereye_experiments::input::{Content, Reading, TensorFile, suggested_local_above};
 use tigereye_io::volume::lattice_from_image;
 use tigereye_io::{DataArray, IoError, PROVENANCE, Wanted, vti};
@@ -150,6 +151,7 @@ fn facts(input: &Input) -> Value {
             "zero": share(&Tensor2::is_zero),
             "degenerate": share(&is_degenerate),
             "asymmetric": share(&|t| t.asymmetry() > ASYMMETRIC_ABOVE * t.max_abs()),
+            "complex": share(&is_complex),
             "indefinite": share(&|t| Eigenvalues::of(t).is_indefinite()),
             "negative": share(&|t| Eigenvalues::of(t).real_parts()[1] < 0.0),
             "total_anisotropy": share(&|t| !t.is_zero() && is_totally_anisotropic(t)),

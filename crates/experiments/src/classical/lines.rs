@@ -118,7 +118,7 @@ impl FieldLines {
             (!lines.is_empty()).then(|| line_overlay(lines, family, &label))
         });
         let overlays = overlays.chain(more).collect();
-        let options = plain_options(field, title, "Tensor lines", overlays);
+        let options = plain_options(field, self.axes(), title, "Tensor lines", overlays);
         plain_map(field.grid(), &PlainOptions { ribbons: self.ribbons(), cell_px, ..options })
     }
 

@@ -11,7 +11,7 @@ pub use overlays::{line_overlay, point_overlays};
 
 use tigereye_core::{Field, Grid, Tensor2};
 use tigereye_io::{DataArray, FieldEntry, FieldValues, PROVENANCE, PolyData};
-use tigereye_lines::{Axes, Family, Interpolated, ellipse_tensors};
+use tigereye_lines::{Axes, Decomposition, Domain, Family, Interpolated, ellipse_tensors};
 use tigereye_render::{Overlay, PlainOptions};
 
 /// Part of its largest component by which a tensor's two shear components differ at most to count as symmetric.
@@ -23,6 +23,12 @@ pub fn usual_axes(field: &Field<Tensor2>) -> Axes {
     let symmetric =
         field.values().iter().all(|t| t.asymmetry() <= SYMMETRIC_BELOW * t.max_abs() || !t.is_finite());
     if symmetric { Axes::Eigenvectors } else { Axes::HalfAxes }
+}
+
+/// Whether the eigenvalues of a tensor are complex: it turns more than it stretches.
+#[must_use]
+pub fn is_complex(t: &Tensor2) -> bool {
+    t.is_finite() && Decomposition::of(t).domain() == Domain::Complex
 }
 
 /// The name of axes as the options and files spell it.
@@ -118,20 +124,25 @@ fn push_story(data: &mut PolyData, story: &str) {
     data.field_data.push(FieldEntry { name: PROVENANCE.to_owned(), values });
 }
 
-/// Lines and points over a field of which zero tensors and those that are not finite are hatched.
+/// Lines and points over a field of which zero tensors and those that are not finite are hatched, and, where lines follow eigenvectors,
+/// those with complex eigenvalues shaded.
 fn plain_options(
     field: &Field<Tensor2>,
+    axes: Axes,
     title: &str,
     description: &str,
     overlays: Vec<Overlay>,
 ) -> PlainOptions {
     let missing = field.iter().filter(|(_, t)| t.is_zero() || !t.is_finite()).map(|(cell, _)| cell);
+    let complex = field.iter().filter(|(_, t)| axes != Axes::HalfAxes && is_complex(t)).map(|(cell, _)| cell);
     PlainOptions {
         title: title.to_owned(),
         description: description.to_owned(),
         overlays,
         missing: missing.collect(),
         missing_label: "no tensor".to_owned(),
+        shaded: complex.collect(),
+        shaded_label: "complex eigenvalues".to_owned(),
         ..PlainOptions::default()
     }
 }

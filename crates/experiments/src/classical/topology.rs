@@ -46,7 +46,10 @@ pub fn picture(
         }
     }
     overlays.extend(point_overlays(&topology.points));
-    plain_map(field.grid(), &plain_options(field, title, "Degenerate points and separatrices", overlays))
+    plain_map(
+        field.grid(),
+        &plain_options(field, axes, title, "Degenerate points and separatrices", overlays),
+    )
 }
 
 /// Distance of the thin lines in parts of the longer side.

@@ -1,9 +1,11 @@
 //! Numbers of tensor fields.
 
 use super::worst;
+use crate::classical::is_complex;
 use crate::runs::RunError;
 use tigereye_core::{Anisotropy, Cell, Field, Svd, Tensor2, is_totally_anisotropic, math};
 use tigereye_fields::{Expression, ExpressionField, variables};
+use tigereye_lines::{Axes, Family};
 
 /// Half-axes that differ by less count as equal: their direction is arbitrary.
 const ISOTROPIC_BELOW: f64 = 0.01;
@@ -21,17 +23,22 @@ pub(super) fn major_axis_deg(field: &Field<Tensor2>, (x, y): (usize, usize)) -> 
     field.grid().contains(cell).then(|| math::degrees(Svd::of(field.at(cell)).phi_rad()).rem_euclid(180.0))
 }
 
-/// Largest angle between the major half-axis and `phi_deg`, degrees.
-pub(super) fn major_axis_error_deg(field: &Field<Tensor2>, phi_deg: &str) -> Result<f64, RunError> {
+/// Largest angle between the major axis and `phi_deg`, degrees; that of tensors without these axes is not counted.
+pub(super) fn major_axis_error_deg(
+    field: &Field<Tensor2>,
+    axes: Axes,
+    phi_deg: &str,
+) -> Result<f64, RunError> {
     let expression = Expression::parse(phi_deg, &ExpressionField::VARIABLES)
         .map_err(|e| RunError::Expression { expression: phi_deg.to_owned(), problem: e.to_string() })?;
     let grid = field.grid();
     let error = |(cell, t): (Cell, &Tensor2)| {
+        let [x, y] = axes.of(t, 0.0)?.axes[Family::Major as usize];
         let expected = expression.eval(&variables(grid, cell));
-        let off = (math::degrees(Svd::of(t).phi_rad()) - expected).rem_euclid(180.0);
-        off.min(180.0 - off)
+        let off = (math::degrees(math::atan2(y, x)) - expected).rem_euclid(180.0);
+        Some(off.min(180.0 - off))
     };
-    Ok(worst(field.iter().filter(|(_, t)| !is_isotropic(t)).map(error)))
+    Ok(worst(field.iter().filter(|(_, t)| !is_isotropic(t)).filter_map(error)))
 }
 
 pub(super) fn isotropic_share(field: &Field<Tensor2>) -> f64 {
@@ -40,6 +47,10 @@ pub(super) fn isotropic_share(field: &Field<Tensor2>) -> f64 {
 
 pub(super) fn total_anisotropy_share(field: &Field<Tensor2>) -> f64 {
     share(field, |t| !t.is_zero() && is_totally_anisotropic(t))
+}
+
+pub(super) fn complex_share(field: &Field<Tensor2>) -> f64 {
+    share(field, is_complex)
 }
 
 pub(super) fn zero_share(field: &Field<Tensor2>) -> f64 {

@@ -14,7 +14,7 @@ use crate::comparison;
 use crate::outcome::{CheckOutcome, Expected};
 use crate::runs::{LightResult, Results, RunError};
 use crate::settings::Settings;
-use crate::settings::sample_of;
+use crate::settings::{axes_of, sample_of};
 use crate::spec::{Check, Expectation, Quantity, SchemeConstant};
 use crate::ways::Ways;
 use tigereye_core::{Directions, Field, StopReason, Tensor2, math};
@@ -75,13 +75,14 @@ impl Measure<'_> {
             Q::MajorAxisDeg { field, cell } => {
                 self.field(field).and_then(|f| fields::major_axis_deg(f, *cell))
             }
-            Q::MajorAxisError { field, phi_deg } => match self.field(field) {
-                Some(f) => Some(fields::major_axis_error_deg(f, phi_deg)?),
+            Q::MajorAxisError { field, phi_deg, axes } => match self.field(field) {
+                Some(f) => Some(fields::major_axis_error_deg(f, axes_of(*axes, f), phi_deg)?),
                 None => None,
             },
             Q::IsotropicShare { field } => self.field(field).map(fields::isotropic_share),
             Q::ZeroShare { field } => self.field(field).map(fields::zero_share),
             Q::TotalAnisotropyShare { field } => self.field(field).map(fields::total_anisotropy_share),
+            Q::ComplexShare { field } => self.field(field).map(fields::complex_share),
             Q::LargestAxis { field } => self.field(field).map(fields::largest_axis),
             Q::OfPulses { runs, number, over } => {
                 let pulses: Option<Vec<_>> =

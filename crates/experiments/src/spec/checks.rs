@@ -1,6 +1,6 @@
 //! What an experiment may check.
 
-use super::{DistanceNumber, Finite, MapSource, NonNegative, RidgeSource};
+use super::{AxesChoice, DistanceNumber, Finite, MapSource, NonNegative, RidgeSource};
 use serde::Deserialize;
 
 /// A statement about a number of this run.
@@ -117,13 +117,16 @@ pub enum Quantity {
         /// Column and row.
         cell: (usize, usize),
     },
-    /// Largest angle (degrees) between the major half-axis and the expression `phi_deg` in the variables of a field, over
+    /// Largest angle (degrees) between the major axis and the expression `phi_deg` in the variables of a field, over
     /// the cells whose half-axes differ by more than 1 %.
     MajorAxisError {
         /// Name of the field.
         field: String,
         /// Direction expected, degrees.
         phi_deg: String,
+        /// Which axes.
+        #[serde(default = "half_axes")]
+        axes: AxesChoice,
     },
     /// Share of cells whose half-axes differ by at most 1 %, zero tensors included.
     IsotropicShare {
@@ -132,6 +135,11 @@ pub enum Quantity {
     },
     /// Share of cells whose tensor is 0.
     ZeroShare {
+        /// Name of the field.
+        field: String,
+    },
+    /// Share of cells whose tensor has complex eigenvalues.
+    ComplexShare {
         /// Name of the field.
         field: String,
     },
@@ -373,4 +381,9 @@ pub enum Quantity {
         /// Name of another.
         with: String,
     },
+}
+
+/// What light sees.
+const fn half_axes() -> AxesChoice {
+    AxesChoice::Half
 }

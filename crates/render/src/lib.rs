@@ -37,7 +37,9 @@ pub use chart::{Chart, ChartAxis, Reference, Series, line_chart};
 pub use colour::{ColourMap, Rgba, SERIES_PALETTE};
 pub use error::RenderError;
 pub use font::{has_glyph, text_width};
-pub use glyphs::{GlyphColour, GlyphKind, GlyphOptions, GlyphScale, glyphs};
+pub use glyphs::{
+    GlyphColour, GlyphKind, GlyphOptions, GlyphOutline, GlyphPart, GlyphScale, glyph_outlines, glyphs,
+};
 pub use heat_map::{Difference, HeatOptions, HeatScale, difference_map, heat_map};
 pub use multiples::small_multiples;
 pub use orientation::{OrientationOptions, orientation_map};

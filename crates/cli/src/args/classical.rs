@@ -189,7 +189,7 @@ pub(crate) struct FtleArgs {
 pub(crate) struct GlyphsArgs {
     /// A data file, a field file or a generator.
     pub(crate) input: String,
-    /// Outputs by their endings: .png, .svg.
+    /// Outputs by their endings: .vtp, .png, .svg.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// What stands for a tensor.
@@ -204,7 +204,7 @@ pub(crate) struct GlyphsArgs {
     /// What colours mean; by default the signs where all tensors are symmetric, the anisotropy otherwise.
     #[arg(long, value_enum)]
     pub(crate) colour: Option<ColourName>,
-    /// A glyph for every n-th cell; by default as many as stay readable.
+    /// A glyph for every n-th cell; by default as many as stay readable, and all in a .vtp.
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) every: Option<usize>,
     #[command(flatten)]

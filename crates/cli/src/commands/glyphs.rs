@@ -3,12 +3,17 @@
 use crate::args::classical::{ColourName, GlyphsArgs, KindName, ScaleName};
 use crate::commands::drawing;
 use crate::error::CliError;
+use crate::files;
+use clap::ValueEnum;
+use serde_json::json;
+use tigereye_experiments::classical::glyphs::poly_data;
 use tigereye_experiments::classical::usual_axes;
+use tigereye_io::vtp;
 use tigereye_lines::Axes;
 use tigereye_render::{GlyphColour, GlyphKind, GlyphOptions, GlyphScale, glyphs};
 
 pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
-    drawing::check_outputs(&args.outputs, &["png", "svg"])?;
+    drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
     let input = drawing::open_input(&args.input, &args.reading, &args.outputs)?;
     let kind = match args.kind {
         KindName::Ellipse => GlyphKind::Ellipse,
@@ -40,7 +45,22 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
         ));
     }
     let options = GlyphOptions { title, kind, scale, colour, every: args.every, ..GlyphOptions::default() };
-    // No ending is left for data.
-    drawing::write(&args.outputs, &|| Ok(glyphs(&input.field, &options)), &|| Ok(Vec::new()))?;
+    let parameters = json!({ "kind": name_of(args.kind), "scale": name_of(args.scale), "every": args.every });
+    let story = drawing::story(&input, parameters, &args.reading);
+    let data = args
+        .outputs
+        .iter()
+        .any(|o| files::extension(o) == "vtp")
+        .then(|| poly_data(&input.field, &options, &drawing::placement(&input), &story))
+        .transpose()
+        .map_err(|e| CliError::input(&args.input, e))?;
+    drawing::write(&args.outputs, &|| Ok(glyphs(&input.field, &options)), &|| {
+        data.as_ref().map_or(Ok(Vec::new()), vtp::write)
+    })?;
     Ok(0)
+}
+
+/// A choice as it is spelt on the command line.
+fn name_of(choice: impl ValueEnum) -> String {
+    choice.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
 }

@@ -220,8 +220,32 @@ fn glyphs_of_every_kind_are_drawn() {
         place.read("g.svg")
     });
     assert_ne!(field, own);
-    place.refuses(&["glyphs", "x:size=3", "-o", "g.vtp"], &["expected .png, .svg"]);
+    place.refuses(&["glyphs", "x:size=3", "-o", "g.vti"], &["expected .vtp, .png, .svg"]);
     place.refuses(&["glyphs", "x:size=3", "--kind", "blob", "-o", "g.png"], &["blob", "superquadric"]);
+}
+
+/// Outlines lie around their cells, rows upwards, and say which.
+#[test]
+fn glyphs_are_data_too() {
+    let place = Place::new();
+    place.succeeds(&["glyphs", "cantilever:width=9,height=5", "--kind", "signed", "-o", "g.vtp"]);
+    let data = poly_data(&place, "g.vtp");
+    let array = |name: &str| &data.cell_arrays.iter().find(|a| a.name == name).expect("the array").values;
+    assert!(data.polys.len() > 40 && data.lines.is_empty());
+    assert_eq!(story(&data)["parameters"]["kind"], "signed");
+    for (i, corners) in data.polys.iter().enumerate() {
+        let middle = [array("column")[i], 4.0 - array("row")[i]];
+        for &p in corners {
+            let at = data.points[p];
+            assert!((0..2).all(|d| (at[d] - middle[d]).abs() < 0.5), "{at:?} {middle:?}");
+        }
+        // Tension is filled, compression left white.
+        assert_eq!((array("part")[i], array("sign")[i].abs()), (0.5 - 0.5 * array("sign")[i], 1.0));
+    }
+    place.succeeds(&["glyphs", "random:size=20", "--every", "4", "-o", "g.vtp", "g.png"]);
+    let data = poly_data(&place, "g.vtp");
+    assert_eq!((data.polys.len(), data.lines.len()), (16, 16), "an ellipse and its major axis each");
+    place.refuses(&["glyphs", "x:size=600", "-o", "h.vtp"], &["360000 glyphs", "--every"]);
 }
 
 #[test]

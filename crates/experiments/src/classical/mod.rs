@@ -2,6 +2,7 @@
 
 pub mod agreement;
 pub mod fine;
+pub mod glyphs;
 pub mod lines;
 mod overlays;
 pub mod ridges;

@@ -3,6 +3,7 @@
 mod arrows;
 mod layers;
 mod legend;
+mod outlines;
 mod quadric;
 mod signed;
 #[cfg(test)]
@@ -18,6 +19,7 @@ use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
 use crate::scene::Scene;
 use layers::Layers;
+pub use outlines::{GlyphOutline, GlyphPart, glyph_outlines};
 use tigereye_core::{Field, PrincipalAxes, Svd, Tensor2};
 
 /// What stands for a tensor. Zero tensors are small hollow dots and tensors that are not finite small crosses in every
@@ -174,7 +176,7 @@ pub fn glyphs(field: &Field<Tensor2>, options: &GlyphOptions) -> Scene {
     let side = bar.as_ref().map_or(0.0, |b| b.width(200.0));
     let mut page = MapFrame::begin(grid, &options.title, cell, side);
     page.grid_lines(every, Rgba::hex(0xececec));
-    let largest = field.values().iter().map(|t| kind.size(t)).filter(|s| s.is_finite()).fold(0.0, f64::max);
+    let largest = largest(field, kind);
     let scaling = Scaling { kind: options.scale, largest, radius: kind.radius() * (cell * every as f64) };
     let mut layers = Layers::of(kind, options.colour);
     for cell in map_frame::sampled_cells(grid, every) {
@@ -195,6 +197,11 @@ pub fn glyphs(field: &Field<Tensor2>, options: &GlyphOptions) -> Scene {
         grid.height()
     );
     page.finish(&options.title, description, &legend)
+}
+
+/// The largest half-axis of a field that can be drawn.
+fn largest(field: &Field<Tensor2>, kind: GlyphKind) -> f64 {
+    field.values().iter().map(|t| kind.size(t)).filter(|s| s.is_finite()).fold(0.0, f64::max)
 }
 
 fn remarks(options: &GlyphOptions, every: usize, largest: f64) -> Vec<Entry> {

@@ -1,0 +1,193 @@
+//! What glyphs are made of, as lines instead of a picture.
+
+use super::layers::{Layer, Layers, Tone};
+use super::{GlyphColour, GlyphOptions, Scaling};
+use crate::map_frame;
+use crate::scene::{PathBuilder, Segment};
+use tigereye_core::{Cell, Field, Tensor2};
+
+/// What an outline is of a glyph.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GlyphPart {
+    /// An area: an ellipse, a box, a superellipse, a lobe of tension.
+    Area,
+    /// An area that pictures leave white: a lobe of compression.
+    Hollow,
+    /// A line: a glyph without width, the major axis within an area, the shaft of an arrow.
+    Line,
+    /// The head of an arrow.
+    Head,
+    /// A sector as wide as the angle by which a tensor turns.
+    Sector,
+    /// The line that a reflection keeps.
+    Mirror,
+}
+
+/// A line or the rim of an area of a glyph.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GlyphOutline {
+    /// The cell it stands for.
+    pub cell: Cell,
+    /// What it is.
+    pub part: GlyphPart,
+    /// 1 for tension and counter-clockwise turns, -1 for compression and clockwise ones, 0 for neither or both.
+    pub sign: i8,
+    /// Whether its last point is connected with its first.
+    pub closed: bool,
+    /// Its points in cells, (0, 0) the centre of the upper left one, y **downwards**; curves in straight pieces.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// Pixels a cell that glyphs are made at: lobes have as many points as a large picture wants.
+const CELL_PX: f64 = 64.0;
+/// Pieces of a cubic; those of an ellipse are a quarter of it.
+const PIECES: usize = 8;
+
+/// What [`super::glyphs`] draws, glyph by glyph, for every n-th cell (`every`, 1 by default) and the options `kind` and `scale`; the
+/// others are those of pictures. Zero tensors and those that are not finite have none.
+#[must_use]
+pub fn glyph_outlines(field: &Field<Tensor2>, options: &GlyphOptions) -> Vec<GlyphOutline> {
+    let (kind, every) = (options.kind, options.every.unwrap_or(1).max(1));
+    let largest = super::largest(field, kind);
+    let scaling = Scaling { kind: options.scale, largest, radius: kind.radius() * CELL_PX * every as f64 };
+    let mut outlines = Vec::new();
+    for cell in map_frame::sampled_cells(field.grid(), every) {
+        let mut layers = Layers::of(kind, GlyphColour::AxisSign);
+        layers.add([0.0; 2], field.at(cell), &scaling);
+        let middle = [cell.x as f64, cell.y as f64];
+        let mut push = |path: PathBuilder, part: GlyphPart, sign: i8| {
+            for (points, closed) in pieces(&path.finish()) {
+                let points = points.iter().map(|p| [0, 1].map(|i| middle[i] + p[i] / CELL_PX)).collect();
+                outlines.push(GlyphOutline { cell, part, sign, closed, points });
+            }
+        };
+        let signs = [Tone::Tension, Tone::Compression, Tone::Mixed, Tone::Plain].map(Tone::sign);
+        for (layer, sign) in layers.tones.into_iter().zip(signs) {
+            let Layer { areas, hollow, lines, segments, heads } = layer;
+            let parts = [
+                (areas, GlyphPart::Area),
+                (hollow, GlyphPart::Hollow),
+                (lines, GlyphPart::Line),
+                (segments, GlyphPart::Line),
+                (heads, GlyphPart::Head),
+            ];
+            parts.into_iter().for_each(|(path, part)| push(path, part, sign));
+        }
+        // The lines of indefinite tensors are drawn over those of the areas: they only add the sign of the major axis.
+        for (sector, sign) in layers.sectors.into_iter().zip([1, -1]) {
+            push(sector, GlyphPart::Sector, sign);
+        }
+        push(layers.mirrors, GlyphPart::Mirror, 0);
+    }
+    outlines
+}
+
+impl Tone {
+    const fn sign(self) -> i8 {
+        match self {
+            Self::Tension => 1,
+            Self::Compression => -1,
+            Self::Mixed | Self::Plain => 0,
+        }
+    }
+}
+
+/// The sub-paths of a path with curves in straight pieces, and which are closed.
+fn pieces(path: &[Segment]) -> Vec<(Vec<[f64; 2]>, bool)> {
+    let mut all: Vec<(Vec<[f64; 2]>, bool)> = Vec::new();
+    for segment in path {
+        let curve = |points: &mut Vec<[f64; 2]>, controls: &[[f64; 2]]| {
+            let Some(&from) = points.last() else { return };
+            points.extend((1..=PIECES).map(|i| bezier(from, controls, i as f64 / PIECES as f64)));
+        };
+        match (*segment, all.last_mut()) {
+            (Segment::Move(p), _) => all.push((vec![p], false)),
+            (Segment::Close, Some((points, closed))) => {
+                *closed = true;
+                // Curves that return to their beginning have it twice.
+                if points.len() > 1 && near(points[0], points[points.len() - 1]) {
+                    points.pop();
+                }
+            }
+            (Segment::Line(p), Some((points, _))) => points.push(p),
+            (Segment::Quad(c, p), Some((points, _))) => curve(points, &[c, p]),
+            (Segment::Cubic(c, d, p), Some((points, _))) => curve(points, &[c, d, p]),
+            (_, None) => {}
+        }
+    }
+    all
+}
+
+fn near(p: [f64; 2], q: [f64; 2]) -> bool {
+    (0..2).all(|i| (p[i] - q[i]).abs() < 1e-9 * CELL_PX)
+}
+
+/// A point of the curve from `from` with these control points, the last of which is its end (de Casteljau).
+fn bezier(from: [f64; 2], controls: &[[f64; 2]], t: f64) -> [f64; 2] {
+    let mut points = [[0.0; 2]; 4];
+    let count = controls.len() + 1;
+    points[0] = from;
+    points[1..count].copy_from_slice(controls);
+    for level in (1..count).rev() {
+        for i in 0..level {
+            points[i] = [0, 1].map(|d| points[i][d] + t * (points[i + 1][d] - points[i][d]));
+        }
+    }
+    points[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{GlyphKind, GlyphScale};
+    use super::*;
+    use tigereye_core::Grid;
+
+    fn outlines(kind: GlyphKind, tensors: &[Tensor2]) -> Vec<GlyphOutline> {
+        let field = Field::from_fn(Grid::new(tensors.len(), 1).expect("a size"), |c| tensors[c.x]);
+        glyph_outlines(&field, &GlyphOptions { kind, scale: GlyphScale::Glyph, ..GlyphOptions::default() })
+    }
+
+    #[test]
+    fn ellipses_have_their_axes_within_their_cell() {
+        let found = outlines(GlyphKind::Ellipse, &[Tensor2::ZERO, Tensor2::from_axes(0.5, 3.0, 1.0)]);
+        let [area, axis] = &found[..] else { panic!("{found:?}") };
+        assert_eq!((area.part, area.sign, area.closed), (GlyphPart::Area, 1, true));
+        assert_eq!((axis.part, axis.closed, axis.points.len()), (GlyphPart::Line, false, 2));
+        assert!(found.iter().all(|o| o.cell == Cell::new(1, 0)));
+        for p in &area.points {
+            // Half-axes 0.45 and 0.15 about (1, 0), y downwards, tilted up by 0.5.
+            let (x, y) = (p[0] - 1.0, -p[1]);
+            let (c, s) = (tigereye_core::math::cos(0.5), tigereye_core::math::sin(0.5));
+            let (u, v) = ((c * x + s * y) / 0.45, (c * y - s * x) / 0.15);
+            assert!((u * u + v * v - 1.0).abs() < 1e-3, "{p:?}");
+        }
+        assert_eq!(area.points.len(), 4 * PIECES, "the first point is not repeated");
+    }
+
+    #[test]
+    fn signs_and_parts_are_told_apart() {
+        let parts = |kind, t: Tensor2| {
+            let mut all: Vec<_> =
+                outlines(kind, &[t]).iter().map(|o| (o.part as usize, o.sign, o.closed)).collect();
+            all.sort_unstable();
+            all
+        };
+        let (area, hollow, line, head) = (0, 1, 2, 3);
+        let pulled = Tensor2::symmetric(2.0, 0.0, -1.0);
+        assert_eq!(
+            parts(GlyphKind::Signed, pulled),
+            [(area, 1, true), (area, 1, true), (hollow, -1, true), (hollow, -1, true)]
+        );
+        let arrows = [(-1, head), (1, head)].map(|(sign, part)| [(part, sign, true); 2]).concat();
+        let mut expected = [vec![(line, -1, false), (line, 1, false)], arrows].concat();
+        expected.sort_unstable();
+        assert_eq!(parts(GlyphKind::Arrows, pulled), expected);
+        let turned = Tensor2::new(1.0, -0.5, 0.5, 1.0);
+        let sectors = parts(GlyphKind::Asymmetric, turned);
+        assert_eq!(sectors.iter().filter(|p| **p == (4, 1, true)).count(), 2, "{sectors:?}");
+        let back = parts(GlyphKind::Asymmetric, turned.transposed());
+        assert_eq!(back.iter().filter(|p| **p == (4, -1, true)).count(), 2, "{back:?}");
+        let mirrored = parts(GlyphKind::Asymmetric, Tensor2::new(1.0, 0.0, 0.0, -1.0));
+        assert!(mirrored.contains(&(5, 0, false)), "{mirrored:?}");
+    }
+}

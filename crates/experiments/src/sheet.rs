@@ -1,6 +1,7 @@
 //! One page about a tensor field: ellipses, lines, anisotropy, determinant, one light, a gradient.
 
 use crate::classical::{line_overlay, point_overlays};
+use crate::scene::where_result;
 use thiserror::Error;
 use tigereye_core::{
     Anisotropy, Cell, CoreError, Directions, Field, Normalization, PolarProfile, Tensor2, TransmissionField,
@@ -237,10 +238,9 @@ fn gradient(
         ..LtgSettings::reference(directions)
     };
     let outcome = sweep(&Scattering::new(&scheme, &transmission), &settings, &Shared(observer))?;
-    let grid = field.grid();
     let slice = outcome.volume.slice(sample).unwrap_or_else(|| field.map(|_| 0.0));
-    // The border is 0 by definition and would stretch the scale.
-    let inner = Field::from_fn(grid, |c| if grid.is_border(c) { f64::NAN } else { *slice.at(c) });
+    // What is 0 by definition would stretch the scale.
+    let inner = where_result(&slice, None);
     let heat = HeatOptions {
         quantity: "LTG / (W/rad)".to_owned(),
         missing: Some("border, 0 by definition".to_owned()),

@@ -1,6 +1,6 @@
 //! Lines whose tangent is an axis of the tensor.
 
-use crate::walk::{MAX_STEPS, Walk};
+use crate::walk::Walk;
 use crate::{Family, Interpolated};
 
 /// How a line is integrated.
@@ -219,13 +219,16 @@ fn passes(seed: [f64; 2], start: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Option<f
 }
 
 impl LineOptions {
+    /// Most steps of a line to each side.
+    pub const MAX_STEPS: f64 = 1e7;
+
     /// Neither steps that lead nowhere, nor so many that they do not end.
     fn are_possible(&self) -> bool {
         let tolerance = match self.method {
             Method::RungeKutta4 => true,
             Method::DormandPrince { tolerance } => tolerance > 0.0,
         };
-        tolerance && self.step > 0.0 && self.step.is_finite() && self.length / self.step <= MAX_STEPS
+        tolerance && self.step > 0.0 && self.step.is_finite() && self.length / self.step <= Self::MAX_STEPS
     }
 }
 

@@ -11,8 +11,7 @@ const LEAST_LEFT: f64 = 0.5;
 /// A step that would leave the field, is not exact enough or too near to a degenerate point, is halved down to this part of the longest
 /// one.
 const SHORTEST: f64 = 1.0 / 65536.0;
-/// Most steps of a line; those of a fixed length are tried at most this often for every whole one, and so many times more.
-pub(crate) const MAX_STEPS: f64 = 1e7;
+/// Steps of a fixed length are tried at most this often for every whole one, and so many times more.
 const TRIES: [f64; 2] = [8.0, 1000.0];
 
 /// How lines of one family go on.
@@ -114,7 +113,7 @@ impl Walk<'_> {
         let LineOptions { method, length, step, .. } = *self.options;
         match method {
             Method::RungeKutta4 => TRIES[0] * length / step + TRIES[1],
-            Method::DormandPrince { .. } => MAX_STEPS,
+            Method::DormandPrince { .. } => LineOptions::MAX_STEPS,
         }
     }
 

@@ -11,6 +11,7 @@ use std::path::PathBuf;
 use tigereye_experiments::classical::Placement;
 use tigereye_experiments::provenance::provenance;
 use tigereye_io::IoError;
+use tigereye_lines::LineOptions;
 use tigereye_render::{RenderError, Scene};
 
 /// Refuses endings that are none of `endings`, and places where nothing can be written, before anything is computed.
@@ -33,12 +34,9 @@ pub(super) fn open_input(text: &str, reading: &ReadingArgs, outputs: &[PathBuf])
     Ok(input)
 }
 
-/// Most steps of a line.
-const MAX_STEPS: f64 = 1e7;
-
 /// Refuses lines of more steps than can be.
 pub(super) fn check_steps(length: f64, step: f64) -> Result<(), CliError> {
-    if length / step <= MAX_STEPS {
+    if length / step <= LineOptions::MAX_STEPS {
         return Ok(());
     }
     let problem = format!("{length} cells in steps of {step}: expected at most 10^7 steps (option --step)");

@@ -71,6 +71,14 @@ impl Lit {
         }
     }
 
+    /// What pictures are headed with: a scene's own title.
+    pub(crate) fn title(&self) -> &str {
+        match self {
+            Self::Tensors(input) => &input.name,
+            Self::Scene(_, scene, _) => &scene.title,
+        }
+    }
+
     pub(crate) fn files(&self) -> &[String] {
         match self {
             Self::Tensors(input) => &input.files,

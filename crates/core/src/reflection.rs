@@ -48,7 +48,7 @@ impl Reflection {
     }
 }
 
-/// What light meets in a cell of a scene that is neither empty nor a tensor's.
+/// What light meets in a cell of a scene that is not empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Surface {
     /// Passes nothing on.
@@ -58,6 +58,8 @@ pub enum Surface {
         /// That part, 0 to 1.
         transmittance: f64,
     },
+    /// Passes light on as a tensor does.
+    Crystal,
     /// Sends light back as a mirror does.
     Mirror {
         /// Direction of its line, degrees from 0 to 180.
@@ -68,6 +70,17 @@ pub enum Surface {
         /// Direction of its line, degrees from 0 to 180.
         angle_deg: f64,
     },
+}
+
+impl Surface {
+    /// Whether it is that of a wall: no light passes through, and none can be put in.
+    #[must_use]
+    pub const fn is_wall(&self) -> bool {
+        match self {
+            Self::Absorbing | Self::Mirror { .. } | Self::Diffuse { .. } => true,
+            Self::Filter { .. } | Self::Crystal => false,
+        }
+    }
 }
 
 /// Reflecting cells of a grid, by their row-major index.

@@ -9,6 +9,7 @@ use crate::comparison;
 use crate::measure::{self, at_step, inner_cells, lobe_ratio, net_flux_ratio, ridge_columns};
 use crate::outcome::{DataFile, Figure};
 use crate::runs::{LightResult, Results, RunError};
+use crate::scene::missing_label;
 use crate::settings::{PulsesSettings, RunSettings, Settings, axes_of, family_of, sample_of};
 use crate::spec::{self, FlatView, Panel, ProfileSource, RidgeSource, SeriesSource};
 use crate::ways::Ways;
@@ -392,7 +393,7 @@ impl Draw<'_> {
         let grid = field.grid();
         let inner = self.results.inner(run, field);
         let walls = self.results.surfaces.get(run).cloned();
-        let missing = if walls.is_some() { "border, or beside a wall" } else { "border, 0 by definition" };
+        let missing = missing_label(walls.as_ref());
         let options = HeatOptions {
             title,
             quantity: quantity.to_owned(),

@@ -283,18 +283,27 @@ pub fn light_fault(built: &BuiltScene, cell: Cell) -> Option<String> {
     })
 }
 
+/// What the legend of a gradient calls the cells that [`where_result`] leaves out.
+#[must_use]
+pub fn missing_label(surfaces: Option<&Field<Option<Surface>>>) -> &'static str {
+    match surfaces.is_some_and(|s| s.values().iter().flatten().any(Surface::is_wall)) {
+        true => "border, or beside a wall",
+        false => "border, 0 by definition",
+    }
+}
+
 /// A gradient's scalar where it is a result, not a number elsewhere: at the border, where it is 0 by definition, and in and beside
 /// the walls of a scene, where others are compared with a pulse that shines on nothing.
 #[must_use]
 pub fn where_result(field: &Field<f64>, surfaces: Option<&Field<Option<Surface>>>) -> Field<f64> {
     let grid = field.grid();
-    let is_wall = |cell: Cell| {
+    let is_wall_at = |cell: Cell| {
         let surface = surfaces.and_then(|s| *s.at(cell));
-        surface.is_some_and(|s| !matches!(s, Surface::Filter { .. }))
+        surface.is_some_and(|s| s.is_wall())
     };
-    let beside = |cell: Cell| [0, 2, 4, 6].iter().filter_map(|&k| grid.neighbour(cell, k)).any(is_wall);
+    let beside = |cell: Cell| [0, 2, 4, 6].iter().filter_map(|&k| grid.neighbour(cell, k)).any(is_wall_at);
     Field::from_fn(grid, |cell| {
-        let missing = grid.is_border(cell) || is_wall(cell) || beside(cell);
+        let missing = grid.is_border(cell) || is_wall_at(cell) || beside(cell);
         if missing { f64::NAN } else { *field.at(cell) }
     })
 }

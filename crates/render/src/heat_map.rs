@@ -128,7 +128,7 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
 
 /// The values that no wall hides.
 fn seen_values(field: &Field<f64>, walls: Option<&Field<Option<Surface>>>) -> Vec<f64> {
-    let hidden = |cell| walls.is_some_and(|w| w.at(cell).as_ref().is_some_and(walls::hides));
+    let hidden = |cell| walls.is_some_and(|w| w.at(cell).as_ref().is_some_and(Surface::is_wall));
     field.iter().filter(|(cell, _)| !hidden(*cell)).map(|(_, v)| *v).collect()
 }
 

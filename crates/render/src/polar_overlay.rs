@@ -152,7 +152,7 @@ fn draw_grounds(
         // A scene's walls are drawn for what they are.
         let hidden = |cell| {
             let walls = options.walls.as_ref().filter(|walls| walls.grid() == t.grid());
-            walls.is_some_and(|w| w.at(cell).as_ref().is_some_and(walls::hides))
+            walls.is_some_and(|w| w.at(cell).as_ref().is_some_and(Surface::is_wall))
         };
         let dark = page.squares(t.grid().iter().filter(|c| t.rate(*c) == 0.0 && !hidden(*c)));
         if !dark.is_empty() {

@@ -3,7 +3,7 @@
 use crate::colour::Rgba;
 use crate::legend::{Entry, Mark};
 use crate::map_frame::MapFrame;
-use crate::scene::{Item, PathBuilder, Scene};
+use crate::scene::{PathBuilder, Scene};
 use tigereye_core::{Cell, Field, Surface, math};
 
 const ABSORBING: Rgba = Rgba::hex(0x3b3b3b);
@@ -15,7 +15,7 @@ const MATT_DOT: Rgba = Rgba::hex(0x6d5c3f);
 const LEAST_CELL_PX: f64 = 5.0;
 
 /// The kinds, in the order of the legend.
-const KINDS: [Kind; 4] = [Kind::Absorbing, Kind::Mirror, Kind::Matt, Kind::Filter];
+const KINDS: [Kind; 5] = [Kind::Absorbing, Kind::Mirror, Kind::Matt, Kind::Filter, Kind::Crystal];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -23,6 +23,7 @@ enum Kind {
     Mirror,
     Matt,
     Filter,
+    Crystal,
 }
 
 impl Kind {
@@ -32,6 +33,7 @@ impl Kind {
             Surface::Mirror { .. } => Self::Mirror,
             Surface::Diffuse { .. } => Self::Matt,
             Surface::Filter { .. } => Self::Filter,
+            Surface::Crystal => Self::Crystal,
         }
     }
 
@@ -41,31 +43,27 @@ impl Kind {
             Self::Mirror => "mirror",
             Self::Matt => "matt wall",
             Self::Filter => "filter",
+            Self::Crystal => "crystal",
         }
     }
 
-    /// What covers the cell; a filter covers nothing.
+    /// What covers the cell; filters and crystals cover nothing.
     const fn fill(self) -> Option<Rgba> {
         match self {
             Self::Absorbing => Some(ABSORBING),
             Self::Mirror => Some(MIRROR),
             Self::Matt => Some(MATT),
-            Self::Filter => None,
+            Self::Filter | Self::Crystal => None,
         }
     }
 }
 
-/// Whether a surface hides what lies in its cell.
-pub(crate) const fn hides(surface: &Surface) -> bool {
-    Kind::of(surface).fill().is_some()
-}
-
 /// Draws the walls that lie on the map and names their kinds.
 pub(crate) fn draw(page: &mut MapFrame, walls: &Field<Option<Surface>>, legend: &mut Vec<Entry>) {
+    let grid = page.grid;
     for kind in KINDS {
-        let is_kind = |cell: Cell| {
-            page.grid.contains(cell) && walls.at(cell).as_ref().is_some_and(|s| Kind::of(s) == kind)
-        };
+        let is_kind =
+            |cell: Cell| grid.contains(cell) && walls.at(cell).as_ref().is_some_and(|s| Kind::of(s) == kind);
         let cells: Vec<Cell> = walls.grid().iter().filter(|c| is_kind(*c)).collect();
         if cells.is_empty() {
             continue;
@@ -79,7 +77,9 @@ pub(crate) fn draw(page: &mut MapFrame, walls: &Field<Option<Surface>>, legend: 
             }
             page.scene.fill(path.finish(), colour);
         }
-        if page.cell >= LEAST_CELL_PX {
+        if kind == Kind::Crystal {
+            outline(page, &cells, &is_kind);
+        } else if page.cell >= LEAST_CELL_PX {
             let mut marks = Marks::default();
             for cell in &cells {
                 if let Some(surface) = walls.at(*cell) {
@@ -90,6 +90,33 @@ pub(crate) fn draw(page: &mut MapFrame, walls: &Field<Option<Surface>>, legend: 
         }
         legend.push(Entry::of(swatch(kind), kind.name()));
     }
+}
+
+/// Draws the rim of a region: the sides of its cells that no other one of it shares.
+fn outline(page: &mut MapFrame, cells: &[Cell], belongs: &dyn Fn(Cell) -> bool) {
+    let mut rim = PathBuilder::default();
+    let r = 0.5 * page.cell;
+    for cell in cells {
+        let [x, y] = page.centre(*cell);
+        let beside = |dx: isize, dy: isize| {
+            let next = cell.x.checked_add_signed(dx).zip(cell.y.checked_add_signed(dy));
+            next.is_some_and(|(x, y)| belongs(Cell::new(x, y)))
+        };
+        for (dx, dy) in [(1, 0), (0, 1), (-1, 0), (0, -1)] {
+            if !beside(dx, dy) {
+                let (ux, uy) = (r * dx as f64, r * dy as f64);
+                rim.line([x + ux - uy, y + uy + ux], [x + ux + uy, y + uy - ux]);
+            }
+        }
+    }
+    draw_rim(&mut page.scene, rim);
+}
+
+/// Dark on white, seen over every colour.
+fn draw_rim(scene: &mut Scene, rim: PathBuilder) {
+    let rim = rim.finish();
+    scene.stroke(rim.clone(), Rgba::WHITE, 2.4);
+    scene.stroke(rim, Rgba::INK, 1.0);
 }
 
 /// Strokes and dots of many cells.
@@ -103,7 +130,7 @@ struct Marks {
 impl Marks {
     fn add(&mut self, surface: &Surface, [x, y]: [f64; 2], r: f64) {
         match surface {
-            Surface::Absorbing => {}
+            Surface::Absorbing | Surface::Crystal => {}
             Surface::Mirror { angle_deg } => {
                 let angle = math::radians(*angle_deg);
                 let (dx, dy) = (0.8 * r * math::cos(angle), -0.8 * r * math::sin(angle));
@@ -136,6 +163,11 @@ fn swatch(kind: Kind) -> Mark {
     let mut scene = Scene::sized(22.0, 11.0);
     let mut outline = PathBuilder::default();
     outline.rect(-11.0, -5.5, 22.0, 11.0);
+    if kind == Kind::Crystal {
+        // Neither colour nor marks: only its rim is drawn.
+        scene.stroke(outline.finish(), Rgba::INK, 1.0);
+        return Mark::Drawing(scene.items);
+    }
     scene.paint(outline.finish(), kind.fill().unwrap_or(Rgba::MUTED), Rgba::MUTED, 0.5);
     let mut marks = Marks::default();
     for x in [-5.5, 5.5] {
@@ -144,11 +176,12 @@ fn swatch(kind: Kind) -> Mark {
             Kind::Mirror => Surface::Mirror { angle_deg: 0.0 },
             Kind::Matt => Surface::Diffuse { angle_deg: 0.0 },
             Kind::Filter => Surface::Filter { transmittance: 0.5 },
+            Kind::Crystal => Surface::Crystal,
         };
         marks.add(&surface, [x, 0.0], 5.5);
     }
     marks.draw(&mut scene);
-    Mark::Drawing(scene.items.into_iter().collect::<Vec<Item>>())
+    Mark::Drawing(scene.items)
 }
 
 #[cfg(test)]
@@ -163,6 +196,7 @@ mod tests {
             (x, 4) => Some(Surface::Mirror { angle_deg: 15.0 * x as f64 }),
             (2..=4, 6) => Some(Surface::Diffuse { angle_deg: 0.0 }),
             (6..=9, 6..=7) => Some(Surface::Filter { transmittance: 0.5 }),
+            (3..=8, 1..=2) => Some(Surface::Crystal),
             _ => None,
         })
     }
@@ -187,7 +221,7 @@ mod tests {
             heat_map(&bright, &options)
         };
         let (plain, scene) = (with(None), with(Some(walls)));
-        for name in ["absorbing wall", "mirror", "matt wall", "filter"] {
+        for name in ["absorbing wall", "mirror", "matt wall", "filter", "crystal"] {
             assert!(texts(&scene.items).lines().any(|l| l == name), "{name}");
             assert!(!texts(&plain.items).contains(name), "{name}");
         }

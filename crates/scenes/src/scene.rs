@@ -66,7 +66,7 @@ pub struct Scene {
 pub struct BuiltScene {
     /// What each cell does to light.
     pub transmission: TransmissionField,
-    /// What each cell is; `None` for empty space and crystals.
+    /// What each cell is; `None` for empty space.
     pub surfaces: Field<Option<Surface>>,
     /// The part that each cell belongs to.
     pub parts: Field<Option<usize>>,
@@ -76,10 +76,7 @@ impl BuiltScene {
     /// Whether a cell is a wall: one that no light can be put into.
     #[must_use]
     pub fn is_wall(&self, cell: Cell) -> bool {
-        matches!(
-            self.surfaces.at(cell),
-            Some(Surface::Absorbing | Surface::Mirror { .. } | Surface::Diffuse { .. })
-        )
+        self.surfaces.at(cell).is_some_and(|s| s.is_wall())
     }
 }
 
@@ -193,7 +190,8 @@ impl Scene {
             given.map_or_else(|| part.shape.surface_deg(cell), |deg| deg.rem_euclid(180.0))
         };
         match part.material {
-            Material::Clear { transmittance: 1.0 } | Material::Crystal { .. } => None,
+            Material::Clear { transmittance: 1.0 } => None,
+            Material::Crystal { .. } => Some(Surface::Crystal),
             Material::Clear { transmittance: 0.0 } | Material::Absorber => Some(Surface::Absorbing),
             Material::Clear { transmittance } => Some(Surface::Filter { transmittance }),
             Material::Mirror { angle_deg, .. } => Some(Surface::Mirror { angle_deg: angle(angle_deg) }),

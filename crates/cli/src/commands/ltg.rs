@@ -41,7 +41,7 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
         _ => {
             let story = provenance(&command_line(), &parameters, input.blake3());
             let outcome = computed.into_outcome().map_err(fault)?;
-            volume::write(&args.outputs, &outcome.volume, input.surfaces(), &args.input, &story)?;
+            volume::write(&args.outputs, &outcome.volume, input.surfaces(), input.title(), &story)?;
             if args.view {
                 volume::write_scripts(&args.outputs)?;
             }

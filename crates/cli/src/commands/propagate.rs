@@ -77,7 +77,13 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
         .map_err(|e| CliError::input("--light", e))?;
     interrupt::check()?;
     fault.map_or(Ok(()), Err)?;
-    let drawn = Drawn { problem: &problem, outcome: &outcome, walls: input.surfaces(), reel: reel.as_ref() };
+    let drawn = Drawn {
+        problem: &problem,
+        outcome: &outcome,
+        title: input.title(),
+        walls: input.surfaces(),
+        reel: reel.as_ref(),
+    };
     for output in &args.outputs {
         match &frames {
             Some(frames) if is_collection(output) => frames.write(output)?,
@@ -272,7 +278,7 @@ fn encoded(output: &Path, args: &PropagateArgs, drawn: &Drawn<'_>, story: &str) 
         }
         "apng" => {
             let reel = drawn.reel.ok_or_else(|| CliError::input(&name, "no step was kept"))?;
-            reel.encoded(&drawn.energy_options(args), DECADES).map_err(|e| CliError::input(&name, e))
+            reel.encoded(&drawn.energy_options(), DECADES).map_err(|e| CliError::input(&name, e))
         }
         "png" => drawn.picture(args).to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
         _ => drawn.picture(args).to_svg().map(String::into_bytes).map_err(|e| CliError::input(&name, e)),
@@ -283,6 +289,7 @@ fn encoded(output: &Path, args: &PropagateArgs, drawn: &Drawn<'_>, story: &str) 
 struct Drawn<'a> {
     problem: &'a Problem<'a>,
     outcome: &'a Outcome,
+    title: &'a str,
     walls: Option<&'a Field<Option<Surface>>>,
     /// The steps, where an animation is asked for.
     reel: Option<&'a Reel>,
@@ -293,9 +300,9 @@ impl Drawn<'_> {
         self.problem.lights.iter().map(|l| l.cell).collect()
     }
 
-    fn energy_options(&self, args: &PropagateArgs) -> HeatOptions {
+    fn energy_options(&self) -> HeatOptions {
         HeatOptions {
-            title: args.input.clone(),
+            title: self.title.to_owned(),
             sources: self.sources(),
             walls: self.walls.cloned(),
             quantity: "energy of a cell / W".to_owned(),
@@ -308,7 +315,7 @@ impl Drawn<'_> {
         match args.picture {
             Picture::Overlay => {
                 let options = PolarOptions {
-                    title: args.input.clone(),
+                    title: self.title.to_owned(),
                     sources: self.sources(),
                     walls: self.walls.cloned(),
                     transmission: TransmissionScale::Rate,
@@ -316,7 +323,7 @@ impl Drawn<'_> {
                 };
                 polar_overlay(Some(self.problem.transmission), Some(&self.outcome.distribution), &options)
             }
-            Picture::Energy => heat_map(&self.outcome.distribution.energy(), &self.energy_options(args)),
+            Picture::Energy => heat_map(&self.outcome.distribution.energy(), &self.energy_options()),
         }
     }
 }

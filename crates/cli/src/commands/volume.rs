@@ -6,7 +6,7 @@ use crate::files;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use tigereye_core::{Field, LtgVolume, Surface};
-use tigereye_experiments::scene::where_result;
+use tigereye_experiments::scene::{missing_label, where_result};
 use tigereye_io::{npy, vti};
 use tigereye_render::{HeatOptions, Scene, heat_map};
 
@@ -76,11 +76,10 @@ fn picture(title: &str, volume: &LtgVolume, walls: Option<&Field<Option<Surface>
         _ => (None, "mean LTG over direction / (W/rad)".to_owned()),
     };
     let field = field.unwrap_or_else(|| volume.mean_over_directions());
-    let missing = if walls.is_some() { "border, or beside a wall" } else { "border, 0 by definition" };
     let options = HeatOptions {
         title: title.to_owned(),
         quantity,
-        missing: Some(missing.to_owned()),
+        missing: Some(missing_label(walls).to_owned()),
         walls: walls.cloned(),
         ..HeatOptions::default()
     };

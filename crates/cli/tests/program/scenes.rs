@@ -47,7 +47,7 @@ fn light_and_gradients_of_a_scene_are_written_in_every_format() {
     assert_eq!(told["parameters"]["normalization"], "scene");
     assert_eq!(told["input_blake3"].as_str().map(str::len), Some(64));
     let svg = String::from_utf8(place.read("l.svg")).expect("text");
-    assert!(svg.contains("<svg"));
+    assert!(svg.contains("<title>A room</title>"));
     // An animation is a PNG with a chunk that says so, and a frame for every step and the beginning.
     let apng = place.read("l.apng");
     let control = apng.windows(4).position(|w| w == b"acTL").expect("an animation");

@@ -58,6 +58,8 @@ fn parsed<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, SpecError> {
             ron::Error::IntegerOutOfBounds => {
                 "the number is out of range: expected a whole number from 0 that fits the machine".to_owned()
             }
+            ron::Error::ExpectedArray => "expected a list, [...]".to_owned(),
+            ron::Error::ExpectedMap => "expected names with values, {...}".to_owned(),
             code => shortened(&code.to_string()),
         };
         SpecError { file: file.to_owned(), line: place.line.max(1), column: place.col.max(1), problem }

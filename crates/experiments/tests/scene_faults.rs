@@ -111,6 +111,12 @@ fn shapes_that_cannot_be_are_refused_at_their_place() {
         "shape: Disc",
         &["covers no cell", "21 x 13"],
     );
+    refused(
+        "Polygon([(0, 0), (20, 0), (20, 11), (0, 11)])",
+        "Polygon(points: [(0, 0), (20, 0), (20, 11)])",
+        "points: ",
+        &["expected a list, `[...]`"],
+    );
     refused("radius: 2)", "radius: 0)", "0), material: Absorber", &["out of range"]);
     refused("to: (18, 9), thickness", "to: (15, 3), thickness", "shape: Segment", &["begins where it ends"]);
     refused("(0, 0), (20, 0), (20, 11), (0, 11)", "(0, 0), (20, 0)", "shape: Outside", &["2 corners"]);
@@ -135,7 +141,7 @@ fn materials_that_cannot_be_are_refused_at_their_place() {
         "material: Absorber),\n        (\n",
         "material: Glass),\n        (\n",
         "Glass",
-        &["Glass", "Absorber", "Mirror"],
+        &["there is no `Glass` here: expected one of `Empty`, `Absorber`, `Filter`"],
     );
     refused("reflectance: 0.5", "reflectance: 1.5", "1.5)", &["0 to 1"]);
     refused(

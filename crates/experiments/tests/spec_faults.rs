@@ -179,7 +179,7 @@ fn missing_keys() {
     let text = GOOD.replace("width: 5, ", "");
     let found = faults(&text, true);
     assert_eq!((found.len(), found[0].line), (1, 11), "{found:#?}");
-    assert!(found[0].problem.contains("`width` in `Axes`"), "{}", found[0]);
+    assert!(found[0].problem.contains("the key `width` is missing in `Axes`"), "{}", found[0]);
 }
 
 #[test]

@@ -54,16 +54,45 @@ fn parsed<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, SpecError> {
     let options = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
     options.from_str(text).map_err(|e| {
         let place = e.span.start;
-        let problem = match e.code {
-            ron::Error::IntegerOutOfBounds => {
-                "the number is out of range: expected a whole number from 0 that fits the machine".to_owned()
-            }
-            ron::Error::ExpectedArray => "expected a list, [...]".to_owned(),
-            ron::Error::ExpectedMap => "expected names with values, {...}".to_owned(),
-            code => shortened(&code.to_string()),
-        };
+        let problem = in_words(&e.code, text);
         SpecError { file: file.to_owned(), line: place.line.max(1), column: place.col.max(1), problem }
     })
+}
+
+/// What the parser says of `text`, without the names of types that do not stand there.
+fn in_words(error: &ron::Error, text: &str) -> String {
+    use ron::Error as E;
+    let one_of = |names: &[&str]| match names {
+        [] => "none".to_owned(),
+        [name] => format!("`{name}`"),
+        names => format!("one of `{}`", names.join("`, `")),
+    };
+    let within = |outer: &Option<String>| match outer {
+        Some(name) if text.contains(name.as_str()) => format!(" in `{name}`"),
+        _ => String::new(),
+    };
+    let words = match error {
+        E::IntegerOutOfBounds => {
+            "the number is out of range: expected a whole number from 0 that fits the machine".to_owned()
+        }
+        E::ExpectedArray => "expected a list, `[...]`".to_owned(),
+        E::ExpectedMap => "expected names with values, `{...}`".to_owned(),
+        E::ExpectedStructLike | E::ExpectedNamedStructLike(_) => "expected `(`".to_owned(),
+        E::Eof => "the file ends within a value".to_owned(),
+        E::TrailingCharacters => "expected the end of the file".to_owned(),
+        E::NoSuchEnumVariant { expected, found, .. } => {
+            format!("there is no `{found}` here: expected {}", one_of(expected))
+        }
+        E::NoSuchStructField { expected, found, outer } => {
+            format!("there is no key `{found}`{}: expected {}", within(outer), one_of(expected))
+        }
+        E::MissingStructField { field, outer } => format!("the key `{field}` is missing{}", within(outer)),
+        E::DuplicateStructField { field, outer } => {
+            format!("the key `{field}` stands here twice{}", within(outer))
+        }
+        other => other.to_string(),
+    };
+    shortened(&words)
 }
 
 fn check_format(file: &str, text: &str, format: u32) -> Result<(), SpecError> {

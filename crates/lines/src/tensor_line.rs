@@ -35,7 +35,8 @@ pub struct LineOptions {
 
 /// What a line does where the tensor says little: with the anisotropy `c = 1 - |v2| / |v1|` of the half-lengths it goes on along
 /// `c e + (1 - c) ((1 - w) i + w D i)`, where e is the axis, i the direction it comes from, and D i that direction turned
-/// towards the axis by the tensor.
+/// towards the axis by the tensor. As in the paper this happens once a step, so that shorter steps turn a line to the axis on a shorter
+/// way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inertia {
     /// The weight w of the tensor's turning (the paper's puncture weight), 0 to 1; 0 is pure inertia.

@@ -109,7 +109,8 @@ pub(crate) struct LinesArgs {
     /// Lines end where the axes differ by less than this part of the longer one; with --inertia it only says where they begin.
     #[arg(long, value_name = "F", default_value = "0.001", value_parser = parse_share)]
     pub(crate) least_anisotropy: f64,
-    /// Inertia of tensorlines, which cross round tensors: the weight of the tensor there, from 0 (straight on) to 1.
+    /// Inertia of tensorlines, which cross round tensors: the weight of the tensor there, from 0 (straight on) to 1. It acts once a
+    /// step, so that --step matters.
     #[arg(long, value_name = "W", value_parser = parse_share)]
     pub(crate) inertia: Option<f64>,
     /// Hyperstreamlines: half of the width, cells, that the largest half-axis or eigenvalue of the field gets.

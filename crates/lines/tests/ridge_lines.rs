@@ -195,6 +195,29 @@ fn ridges_turn_with_the_field() {
     assert!(worst(&plain, away) < 0.01);
 }
 
+/// Four crests from the middle to the corners, weak beside the rest: those of one diagonal are found as those of the other.
+#[test]
+fn mirrored_fields_have_mirrored_ridges() {
+    let star = |x: f64, y: f64| {
+        let (x, y) = (x - 20.0, y - 20.0);
+        let r = math::hypot(x, y);
+        6.0 * math::exp(-r * r / 8.0) - 0.004 * r * r + 0.4 * math::cos(8.0 * math::atan2(y, x))
+    };
+    for samples_per_cell in [2, 4] {
+        let options = RidgeOptions { samples_per_cell, ..RidgeOptions::default() };
+        let [plain, mirrored] = [false, true].map(|mirror| {
+            let side = |x: f64| if mirror { 40.0 - x } else { x };
+            ridge_lines(&field(41, 41, |x, y| star(side(x), y)), &options).expect("good options")
+        });
+        assert_eq!(plain.length.len(), mirrored.length.len());
+        for found in [&plain, &mirrored] {
+            let nearest = NearestSegment::new(&found.shape);
+            let away = |p: [f64; 2]| nearest.distance([40.0 - p[0], p[1]]).expect("a line");
+            assert!(worst(found, away) < 1e-6, "its own mirror image");
+        }
+    }
+}
+
 #[test]
 fn missing_cells_keep_ridges_away_and_elsewhere_unchanged() {
     let whole = field(41, 41, |x, y| gauss(y - 20.0 - 0.2 * (x - 20.0), 2.0));

@@ -82,41 +82,53 @@ enum Mark {
     Point { position: [f64; 2], value: f64, strength: f64 },
 }
 
-/// Where the edges from each node to the right, downwards and along the diagonal end.
-const ENDS: [(usize, usize); 3] = [(1, 0), (0, 1), (1, 1)];
+/// Whether the square right of and below a node is cut from its upper left to its lower right corner, instead of from the upper right
+/// to the lower left one. Neighbours take turns: of an even number of squares the mesh is its own mirror image, so that no direction of
+/// ridges is favoured.
+const fn falls(i: usize, j: usize) -> bool {
+    (i + j).is_multiple_of(2)
+}
+
+/// Both ends of the edges of a node: to the right, downwards, and across the square between them.
+const fn edges_of(i: usize, j: usize) -> [[[usize; 2]; 2]; 3] {
+    let across = if falls(i, j) { [[i, j], [i + 1, j + 1]] } else { [[i + 1, j], [i, j + 1]] };
+    [[[i, j], [i + 1, j]], [[i, j], [i, j + 1]], across]
+}
 
 fn row_of_edges(mesh: &RidgeMesh, nodes: &[Node], j: usize) -> Vec<[Mark; 3]> {
     let [nx, ny, _] = mesh.nodes();
-    let at = |i: usize, j: usize| (&nodes[j * nx + i], [i as f64, j as f64, 0.0]);
-    let mark = |i: usize, (dx, dy): (usize, usize)| {
-        if i + dx >= nx || j + dy >= ny {
+    let at = |[i, j]: [usize; 2]| (&nodes[j * nx + i], [i as f64, j as f64, 0.0]);
+    let mark = |[from, to]: [[usize; 2]; 2]| {
+        if from[0].max(to[0]) >= nx || from[1].max(to[1]) >= ny {
             return Mark::None;
         }
-        match mesh.crossing(at(i, j), at(i + dx, j + dy)) {
+        match mesh.crossing(at(from), at(to)) {
             Crossing::None => Mark::None,
             Crossing::Rejected => Mark::Rejected,
             Crossing::At { at, known: [value, strength] } => {
-                let place = [i as f64 + at * dx as f64, j as f64 + at * dy as f64, 0.0];
-                let [x, y, _] = mesh.in_volume(place);
+                let [i, j] = [0, 1].map(|d| from[d] as f64 + at * (to[d] as f64 - from[d] as f64));
+                let [x, y, _] = mesh.in_volume([i, j, 0.0]);
                 let [value, strength] = [value, strength].map(|v| mesh.unscaled(v));
                 Mark::Point { position: [x, y], value, strength }
             }
         }
     };
-    (0..nx).map(|i| ENDS.map(|end| mark(i, end))).collect()
+    (0..nx).map(|i| edges_of(i, j).map(mark)).collect()
 }
 
-/// One segment in each triangle of which exactly two edges are crossed. Squares are cut along
-/// their diagonal.
+/// One segment in each triangle of which exactly two edges are crossed.
 fn segments(on_edges: &[[u32; 3]], [nx, ny]: [usize; 2]) -> Vec<[u32; 2]> {
     let mut segments = Vec::new();
     for j in 0..ny.saturating_sub(1) {
         for i in 0..nx.saturating_sub(1) {
             let node = j * nx + i;
-            let [right, down, diagonal] = on_edges[node];
-            for triangle in
-                [[right, on_edges[node + 1][1], diagonal], [down, on_edges[node + nx][0], diagonal]]
-            {
+            let [top, left, across] = on_edges[node];
+            let (right, bottom) = (on_edges[node + 1][1], on_edges[node + nx][0]);
+            // Which sides meet at the corners that the cut leaves.
+            let corners =
+                if falls(i, j) { [[top, right], [left, bottom]] } else { [[top, left], [right, bottom]] };
+            for [a, b] in corners {
+                let triangle = [a, b, across];
                 let mut crossed = triangle.into_iter().filter(|&p| p != NONE);
                 if let (Some(a), Some(b), None) = (crossed.next(), crossed.next(), crossed.next())
                     && a != REJECTED

@@ -50,7 +50,14 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
             "mean": if count > 0 { json!(mean) } else { json!(null) },
         }))?;
     } else if count == 0 {
-        print_text("no tensor has an axis: there are no lines\n")?;
+        let grid = input.field.grid();
+        print_text(match grid.width().min(grid.height()) {
+            1 => "a field of one row or column has no neighbours that part: there are no exponents\n",
+            _ if found.left > 0.0 => {
+                "all lines leave the field before their length: expected a smaller --length\n"
+            }
+            _ => "no tensor has an axis: there are no lines\n",
+        })?;
     } else {
         let left = 100.0 * found.left;
         print_text(&format!(

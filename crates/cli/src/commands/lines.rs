@@ -5,6 +5,7 @@ use crate::commands::{counted, drawing, print_json, print_text};
 use crate::error::CliError;
 use crate::input::Input;
 use serde_json::json;
+use tigereye_core::Tensor2;
 use tigereye_experiments::classical::axes_name;
 use tigereye_experiments::classical::lines::{LinesRequest, Seeds, axes_words, lines, parameters};
 use tigereye_io::vtp;
@@ -45,7 +46,13 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
             "length": length,
         }))?;
     } else if found.lines.is_empty() {
-        print_text(&format!("no tensor where a line may begin has {}\n", axes_words(request.axes)))?;
+        let has_axes = |t: &Tensor2| request.axes.of(t, request.options.least_anisotropy).is_some();
+        print_text(&match input.field.values().iter().any(has_axes) {
+            true => {
+                "no line is long enough: lines leave the field at once, or end where axes do\n".to_owned()
+            }
+            false => format!("no tensor has {}\n", axes_words(request.axes)),
+        })?;
     } else {
         let count = counted(found.lines.len(), "line");
         print_text(&format!(

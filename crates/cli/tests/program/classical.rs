@@ -109,6 +109,18 @@ fn fields_without_axes_give_nothing() {
     }
     let none = place.succeeds(&["lines", "isotropic:size=9", "--json", "-o", "o.vtp"]).json();
     assert_eq!((&none["lines"], &none["points"]), (&json!(0), &json!(0)));
+    // And it is said why.
+    for (command, input, why) in [
+        ("lines", "zero.txt", "no tensor has"),
+        ("lines", "x:width=1,height=9", "no line is long enough"),
+        ("ftle", "isotropic:size=9", "no tensor has an axis"),
+        ("ftle", "x:width=9,height=1", "one row or column"),
+        ("ftle", "x:size=9", "smaller --length"),
+    ] {
+        let output = if command == "lines" { "o.vtp" } else { "o.vti" };
+        let told = place.succeeds(&[command, input, "-o", output]).stdout;
+        assert!(told.contains(why), "{command} {input}: {told}");
+    }
 }
 
 #[test]

@@ -110,6 +110,66 @@ fn an_absorber_never_transmits() {
     }
 }
 
+/// Mirrors and matt walls of any direction in an absorbing wall, or from rim to rim, send nothing round their ends.
+#[test]
+fn walls_in_walls_let_nothing_through() {
+    let absorbing = || part(rectangle([10.0, 0.0], [10.0, 20.0]), Material::Absorber);
+    let angles = [None, Some(0.0), Some(20.0), Some(45.0), Some(90.0), Some(135.0)];
+    for angle_deg in angles {
+        for material in [
+            Material::Mirror { reflectance: 1.0, angle_deg },
+            Material::Diffuse { reflectance: 0.9, angle_deg },
+        ] {
+            let inset = part(rectangle([10.0, 9.0], [10.0, 11.0]), material.clone());
+            let across = part(
+                Shape::Segment { from: [7.0, 10.0], to: [13.0, 10.0], thickness: 1.0 },
+                material.clone(),
+            );
+            let spot = part(Shape::Disc { centre: [10.0, 10.0], radius: 0.6 }, material.clone());
+            let whole =
+                part(Shape::Segment { from: [10.0, 0.0], to: [10.0, 20.0], thickness: 1.0 }, material);
+            for parts in
+                [vec![absorbing(), inset], vec![absorbing(), spot], vec![across, absorbing()], vec![whole]]
+            {
+                let name = format!("{parts:?}");
+                let scene = built(21, 21, parts);
+                let light = Light::continuous(Cell::new(5, 10), isotropic());
+                let energy = lit(&EightLobe, &scene, &[light], 150).distribution.energy();
+                assert!(*energy.at(Cell::new(9, 10)) > 1e-3, "{name}");
+                for (cell, e) in energy.iter().filter(|(c, _)| c.x > 10) {
+                    assert_eq!(*e, 0.0, "{cell:?} {name}");
+                }
+            }
+        }
+    }
+}
+
+/// Thin rectangles and polygons are walls as the segment of the same cells is.
+#[test]
+fn thin_walls_lie_along_their_longer_side() {
+    let shapes = |from: [f64; 2], to: [f64; 2]| {
+        let [[x0, y0], [x1, y1]] = [from, to];
+        [
+            rectangle(from, to),
+            Shape::Polygon(vec![[x0, y0], [x1, y0], [x1, y1], [x0, y1]]),
+            Shape::Segment { from, to, thickness: 1.0 },
+        ]
+    };
+    for shape in shapes([10.0, 2.0], [10.0, 18.0]) {
+        for y in 3..18 {
+            assert_eq!(shape.surface_deg(Cell::new(10, y)), 90.0, "{shape:?} {y}");
+        }
+    }
+    for shape in shapes([2.0, 10.0], [18.0, 10.0]) {
+        for x in 3..18 {
+            assert_eq!(shape.surface_deg(Cell::new(x, 10)), 0.0, "{shape:?} {x}");
+        }
+    }
+    // As wide as a cell.
+    let wide = rectangle([9.5, 0.0], [10.5, 20.0]);
+    assert!((1..20).all(|y| wide.surface_deg(Cell::new(10, y)) == 90.0));
+}
+
 #[test]
 fn a_closed_box_of_perfect_mirrors_keeps_its_energy() {
     let room = rectangle([3.0, 4.0], [18.0, 15.0]);

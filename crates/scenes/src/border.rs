@@ -12,17 +12,38 @@ pub(crate) struct Nearest {
     pub(crate) distance: f64,
     /// Mean of the directions across the border there, y downwards; `[0, 0]` where they cancel.
     pub(crate) across: [f64; 2],
+    /// Sum of the same directions at twice their angle, in which opposite ones agree: that of thin walls.
+    pub(crate) doubled: [f64; 2],
 }
 
 impl Nearest {
-    const NONE: Self = Self { distance: f64::INFINITY, across: [0.0; 2] };
+    const NONE: Self = Self { distance: f64::INFINITY, across: [0.0; 2], doubled: [0.0; 2] };
+
+    /// With one more direction across.
+    fn add(&mut self, [x, y]: [f64; 2]) {
+        self.across = [self.across[0] + x, self.across[1] + y];
+        self.doubled = [self.doubled[0] + x * x - y * y, self.doubled[1] + 2.0 * x * y];
+    }
+
+    /// With one direction across.
+    pub(crate) fn towards(distance: f64, across: [f64; 2]) -> Self {
+        let mut nearest = Self { distance, ..Self::NONE };
+        nearest.add(across);
+        nearest
+    }
 
     /// Direction along the border, degrees from 0 to 180; 0 where there is none.
     pub(crate) fn along_deg(self) -> f64 {
-        let [x, y] = self.across;
-        if math::hypot(x, y) < ROUNDING {
-            return 0.0;
+        let (mut across, [c, s]) = (self.across, self.doubled);
+        if math::hypot(across[0], across[1]) < ROUNDING {
+            // Both sides of a thin wall are equally far, and their normals cancel.
+            if math::hypot(c, s) < ROUNDING {
+                return 0.0;
+            }
+            let angle = 0.5 * math::atan2(s, c);
+            across = [math::cos(angle), math::sin(angle)];
         }
+        let [x, y] = across;
         // Across is (x, -y) with y upwards; a quarter turn from it is (y, x).
         let deg = math::degrees(math::atan2(x, y)).rem_euclid(180.0);
         // Corners of whole cells give 45 degrees but for rounding.
@@ -36,7 +57,7 @@ pub(crate) fn to_circle(p: [f64; 2], centre: [f64; 2], radius: f64) -> Nearest {
     let from = [p[0] - centre[0], p[1] - centre[1]];
     let r = math::hypot(from[0], from[1]);
     let across = if r > 0.0 { [from[0] / r, from[1] / r] } else { [0.0; 2] };
-    Nearest { distance: (r - radius).abs(), across }
+    Nearest::towards((r - radius).abs(), across)
 }
 
 /// Of a line between two points.
@@ -71,7 +92,7 @@ pub(crate) fn to_polygon(p: [f64; 2], corners: &[[f64; 2]]) -> Nearest {
             continue;
         }
         if distance < nearest.distance - ROUNDING {
-            nearest = Nearest { distance, across: [0.0; 2] };
+            nearest = Nearest { distance, ..Nearest::NONE };
             feet.clear();
         }
         let across = if distance > ROUNDING {
@@ -84,7 +105,7 @@ pub(crate) fn to_polygon(p: [f64; 2], corners: &[[f64; 2]]) -> Nearest {
         } else {
             outwards(a, b, clockwise)
         };
-        nearest.across = [nearest.across[0] + across[0], nearest.across[1] + across[1]];
+        nearest.add(across);
     }
     nearest
 }

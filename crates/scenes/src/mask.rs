@@ -37,18 +37,21 @@ impl Mask {
     /// Whether a cell is marked; outside none is.
     #[must_use]
     pub fn contains(&self, cell: Cell) -> bool {
-        cell.x < self.width && self.marked.get(cell.y * self.width + cell.x).copied().unwrap_or(false)
+        cell.x < self.width && cell.y < self.height() && self.marked[cell.y * self.width + cell.x]
     }
 
-    /// The direction of the surface in a marked cell, degrees from 0 to 180: at right angles to the free cells about it, a
-    /// diagonal one counting where both beside it are free. 0 where they have no direction.
-    pub(crate) fn surface_deg(&self, cell: Cell) -> f64 {
+    /// The direction of the surface in a cell of a scene that has the mask's upper left one at `at`, degrees from 0 to 180: at right
+    /// angles to the free cells about it, a diagonal one counting where both beside it are free. 0 where they have no direction. The
+    /// wall is what is marked, or else everything else.
+    pub(crate) fn surface_deg(&self, at: Cell, cell: Cell, marked: bool) -> f64 {
         let free = |k: usize| {
             let (dx, dy) = tigereye_core::NEIGHBOUR_OFFSETS[k];
-            match (cell.x.checked_add_signed(dx), cell.y.checked_add_signed(dy)) {
-                (Some(x), Some(y)) => !self.contains(Cell::new(x, y)),
-                _ => true,
-            }
+            let within = |c: usize, d: isize, first: usize| c.checked_add_signed(d)?.checked_sub(first);
+            let is_marked = match (within(cell.x, dx, at.x), within(cell.y, dy, at.y)) {
+                (Some(x), Some(y)) => self.contains(Cell::new(x, y)),
+                _ => false,
+            };
+            is_marked != marked
         };
         let one = |yes: bool| f64::from(u8::from(yes));
         // Twice the angles of the normals, so that opposite ones agree: 0 and 180 degrees for the sides, 90 and 270 for diagonals.
@@ -77,15 +80,19 @@ mod tests {
     #[test]
     fn surfaces_follow_the_marks() {
         let thin = mask(&[".....", "####.", "#..#.", "#..#.", "####."]);
-        assert_eq!(thin.surface_deg(Cell::new(1, 1)), 0.0);
-        assert_eq!(thin.surface_deg(Cell::new(0, 3)), 90.0);
-        assert_eq!(thin.surface_deg(Cell::new(0, 1)), 45.0, "upper left corner");
-        assert_eq!(thin.surface_deg(Cell::new(3, 1)), 135.0, "upper right corner");
+        assert_eq!(thin.surface_deg(Cell::new(0, 0), Cell::new(1, 1), true), 0.0);
+        assert_eq!(thin.surface_deg(Cell::new(0, 0), Cell::new(0, 3), true), 90.0);
+        assert_eq!(thin.surface_deg(Cell::new(0, 0), Cell::new(0, 1), true), 45.0, "upper left corner");
+        assert_eq!(thin.surface_deg(Cell::new(0, 0), Cell::new(3, 1), true), 135.0, "upper right corner");
         let solid = mask(&[".....", ".###.", ".###.", ".###."]);
-        assert_eq!(solid.surface_deg(Cell::new(2, 1)), 0.0);
-        assert_eq!(solid.surface_deg(Cell::new(3, 2)), 90.0);
-        assert_eq!(solid.surface_deg(Cell::new(1, 1)), 45.0);
-        assert_eq!(solid.surface_deg(Cell::new(2, 2)), 0.0, "inside there is no direction");
+        assert_eq!(solid.surface_deg(Cell::new(0, 0), Cell::new(2, 1), true), 0.0);
+        assert_eq!(solid.surface_deg(Cell::new(0, 0), Cell::new(3, 2), true), 90.0);
+        assert_eq!(solid.surface_deg(Cell::new(0, 0), Cell::new(1, 1), true), 45.0);
+        assert_eq!(
+            solid.surface_deg(Cell::new(0, 0), Cell::new(2, 2), true),
+            0.0,
+            "inside there is no direction"
+        );
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Parts of shapes and materials, put together.
 
-use crate::wall::{closed, diffuse, specular};
+use crate::wall::{Beside, closed, diffuse, specular};
 use crate::{Fault, SceneError, Shape};
 use tigereye_core::{
     Cell, CellTransmission, Directions, Field, Grid, Normalization, Reflection, Surface, Tensor2,
@@ -245,12 +245,12 @@ fn reflection(
         Some(Material::Mirror { reflectance, .. } | Material::Diffuse { reflectance, .. }) => *reflectance,
         _ => return None,
     };
-    let sends_back = |k: usize| {
-        let next = scene.grid.neighbour(cell, k);
-        let surface = next.and_then(|next| *surfaces.at(next));
-        matches!(surface, Some(Surface::Mirror { .. } | Surface::Diffuse { .. }))
+    let beside = |k: usize| match scene.grid.neighbour(cell, k).map(|next| *surfaces.at(next)) {
+        Some(Some(Surface::Mirror { .. } | Surface::Diffuse { .. })) => Beside::Wall,
+        Some(Some(Surface::Absorbing)) | None => Beside::End,
+        Some(Some(Surface::Filter { .. } | Surface::Crystal) | None) => Beside::Open,
     };
-    Some(closed(sent, sends_back).map(|row| row.map(|part| reflectance * part)))
+    Some(closed(sent, beside).map(|row| row.map(|part| reflectance * part)))
 }
 
 #[cfg(test)]

@@ -121,12 +121,14 @@ impl Shape {
         match self {
             Self::Segment { from, to, .. } => {
                 let across = [from[1] - to[1], to[0] - from[0]];
-                Nearest { distance: 0.0, across }.along_deg()
+                Nearest::towards(0.0, across).along_deg()
             }
-            Self::Bitmap { at, mask } => {
-                mask.surface_deg(Cell::new(cell.x.wrapping_sub(at.x), cell.y.wrapping_sub(at.y)))
-            }
-            Self::Outline { of, .. } | Self::Outside(of) => of.surface_deg(cell),
+            Self::Bitmap { at, mask } => mask.surface_deg(*at, cell, true),
+            Self::Outline { of, .. } => of.surface_deg(cell),
+            Self::Outside(of) => match &**of {
+                Self::Bitmap { at, mask } => mask.surface_deg(*at, cell, false),
+                of => of.surface_deg(cell),
+            },
             shape => shape.border([cell.x as f64, cell.y as f64]).map_or(0.0, Nearest::along_deg),
         }
     }

@@ -63,16 +63,27 @@ fn side(angle_deg: f64, k: usize) -> f64 {
     math::cos(math::radians(angle_deg + 90.0 - 45.0 * k as f64))
 }
 
+/// What lies beside a wall's cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Beside {
+    /// Cells that light passes.
+    Open,
+    /// Where light may go, but no way leads on: absorbing walls, and the outside of the grid.
+    End,
+    /// Walls that send light back.
+    Wall,
+}
+
 /// Closes the wall: light returns the way it came where it would go on into another wall's cell, or to a neighbour that lies
 /// beyond the wall.
 ///
 /// Surfaces are stairs on a grid, and at their corners directions alone do not tell which side is which. So the neighbours do:
 /// those that follow each other round the cell without a wall between them lie on the same side.
-pub(crate) fn closed(mut parts: Parts, is_wall: impl Fn(usize) -> bool) -> Parts {
-    let free: [bool; 8] = std::array::from_fn(|k| !is_wall(k));
+pub(crate) fn closed(mut parts: Parts, beside: impl Fn(usize) -> Beside) -> Parts {
+    let beside: [Beside; 8] = std::array::from_fn(beside);
     for j in 0..8 {
         let from = (j + 4) % 8;
-        for k in (0..8).filter(|&k| k != from && !same_side(&free, from, k)) {
+        for k in (0..8).filter(|&k| k != from && !same_side(&beside, from, k)) {
             let part = core::mem::take(&mut parts[k][j]);
             parts[from][j] += part;
         }
@@ -80,10 +91,11 @@ pub(crate) fn closed(mut parts: Parts, is_wall: impl Fn(usize) -> bool) -> Parts
     parts
 }
 
-/// Whether a walk round the cell leads from neighbour `a` to neighbour `b` over free ones alone.
-fn same_side(free: &[bool; 8], a: usize, b: usize) -> bool {
-    let walk = |from: usize, to: usize| (0..=(to + 8 - from) % 8).all(|i| free[(from + i) % 8]);
-    walk(a, b) || walk(b, a)
+/// Whether a walk round the cell leads from neighbour `a` to neighbour `b` over open ones alone; both may be the end of it.
+fn same_side(beside: &[Beside; 8], a: usize, b: usize) -> bool {
+    let walk =
+        |from: usize, to: usize| (1..(to + 8 - from) % 8).all(|i| beside[(from + i) % 8] == Beside::Open);
+    beside[a] != Beside::Wall && beside[b] != Beside::Wall && (walk(a, b) || walk(b, a))
 }
 
 #[cfg(test)]
@@ -146,7 +158,7 @@ mod tests {
 
     #[test]
     fn closed_walls_send_back_what_would_enter_a_neighbour() {
-        let parts = closed(specular(0.0), |k| k == 7);
+        let parts = closed(specular(0.0), |k| if k == 7 { Beside::Wall } else { Beside::Open });
         assert_eq!(sent(&parts, 1), [(5, 1.0)]);
         assert_eq!(sent(&parts, 2), [(6, 1.0)], "downwards nothing is in the way");
     }
@@ -154,10 +166,10 @@ mod tests {
     #[test]
     fn closed_walls_let_nothing_round_their_corners() {
         // A level mirror as part of an upright wall: what it would send to the other side returns.
-        let parts = closed(specular(0.0), |k| k == 2 || k == 6);
+        let parts = closed(specular(0.0), |k| if k % 4 == 2 { Beside::Wall } else { Beside::Open });
         assert_eq!(sent(&parts, 1), [(5, 1.0)]);
         assert_eq!(sent(&parts, 0), [(4, 1.0)]);
-        let end = closed(specular(90.0), |k| k == 6);
+        let end = closed(specular(90.0), |k| if k == 6 { Beside::Wall } else { Beside::Open });
         assert_eq!(sent(&end, 7), [(5, 1.0)], "at the end of a wall both sides are one");
     }
 }

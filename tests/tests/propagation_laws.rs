@@ -96,6 +96,7 @@ fn assert_never_gains(engine: &dyn Engine, problem: &Problem<'_>, what: &str) {
     let outcome = engine.propagate_observed(problem, &mut |view| {
         let step = view.step();
         let (flux, after) = (view.total_flux(), view.energy());
+        assert!(view.energies() == view.distribution().energy(), "step {step}: energies of cells");
         assert!(flux <= before * (1.0 + BALANCE), "{what}: step {step} passes {flux} W of {before} W");
         let expected = flux + injected(light, &view.distribution(), problem.scheme);
         let off = (after - expected).abs();

@@ -3,9 +3,11 @@
 mod common;
 
 use common::{directions, field, scheme, transmission};
-use tigereye_core::{Cell, Field, Grid, LightDistribution, Normalization, PolarProfile, TransmissionField};
+use tigereye_core::{
+    Cell, Field, Grid, NEIGHBOUR_OFFSETS, Normalization, PolarProfile, Surface, TransmissionField, math,
+};
 use tigereye_ltg::{LtgSettings, sweep};
-use tigereye_scenes::{BuiltScene, Material, Part, Scene, Shape};
+use tigereye_scenes::{Layout, Mask, Material, Part, Scene, Shape};
 use tigereye_transport::{
     EightLobe, Engine, Level, Light, Outcome, Problem, PulseDistribution, PulseSolver, Real, SampleSpace,
     Scattering, Scheme, Stopping, TransportError,
@@ -15,11 +17,35 @@ const SAMPLES: usize = 16;
 
 const CLEAR: Material = Material::Clear { transmittance: 1.0 };
 const MIRROR: Material = Material::Mirror { reflectance: 1.0, angle_deg: None };
-const MATT: Material = Material::Diffuse { reflectance: 1.0, angle_deg: None };
+const DIFFUSE: Material = Material::Diffuse { reflectance: 1.0, angle_deg: None };
+
+struct BuiltScene {
+    scene: Scene,
+    layout: Layout,
+    transmission: TransmissionField,
+}
+
+impl BuiltScene {
+    /// The part of the light that a cell passes on or sends back, by its material.
+    fn passed(&self, cell: Cell) -> f64 {
+        match self.layout.part_of.at(cell).map(|i| &self.scene.parts[i].material) {
+            None => 1.0,
+            Some(Material::Clear { transmittance }) => *transmittance,
+            Some(Material::Absorber) => 0.0,
+            Some(Material::Mirror { reflectance, .. } | Material::Diffuse { reflectance, .. }) => {
+                *reflectance
+            }
+            Some(Material::Crystal { .. }) => self.transmission.rate(cell),
+        }
+    }
+}
 
 fn built(width: usize, height: usize, parts: Vec<Part>) -> BuiltScene {
     let grid = Grid::new(width, height).expect("a grid");
-    Scene { grid, parts }.built(directions(SAMPLES)).expect("a scene")
+    let scene = Scene { grid, parts };
+    let layout = scene.layout().expect("a layout");
+    let transmission = scene.transmission(&layout, directions(SAMPLES)).expect("a transmission");
+    BuiltScene { scene, layout, transmission }
 }
 
 fn rectangle(from: [f64; 2], to: [f64; 2]) -> Shape {
@@ -66,7 +92,7 @@ fn rough_parts() -> Vec<Part> {
         normalization: Normalization::Global,
     };
     vec![
-        part(outline(rectangle([0.0, 0.0], [28.0, 22.0]), 1.0), MATT),
+        part(outline(rectangle([0.0, 0.0], [28.0, 22.0]), 1.0), DIFFUSE),
         part(rectangle([27.6, 8.0], [28.4, 12.0]), CLEAR),
         part(Shape::Segment { from: [4.0, 15.0], to: [13.0, 18.5], thickness: 1.6 }, MIRROR),
         part(Shape::Disc { centre: [20.3, 5.4], radius: 3.2 }, Material::Absorber),
@@ -80,7 +106,24 @@ fn rough_parts() -> Vec<Part> {
             Shape::Segment { from: [14.0, 9.0], to: [14.0, 13.0], thickness: 1.0 },
             Material::Diffuse { reflectance: 0.9, angle_deg: Some(70.0) },
         ),
+        part(rectangle([17.0, 11.0], [19.0, 11.0]), MIRROR),
+        part(
+            bitmap(5, 11, &["##..", "###.", "#..#", "#..."]),
+            Material::Mirror { reflectance: 0.7, angle_deg: None },
+        ),
+        part(rectangle([15.0, 6.0], [15.0, 6.0]), MIRROR),
+        part(Shape::Disc { centre: [11.0, 12.0], radius: 0.4 }, DIFFUSE),
+        part(rectangle([20.0, 9.0], [21.0, 9.0]), MIRROR),
+        part(
+            Shape::Outside(Box::new(Shape::Disc { centre: [14.0, 10.5], radius: 16.4 })),
+            Material::Mirror { reflectance: 0.95, angle_deg: None },
+        ),
     ]
+}
+
+fn bitmap(x: usize, y: usize, rows: &[&str]) -> Shape {
+    let mask = Mask::from_fn(rows[0].len(), rows.len(), |c| rows[c.y].as_bytes()[c.x] == b'#');
+    Shape::Bitmap { at: Cell::new(x, y), mask }
 }
 
 fn rough_scene() -> BuiltScene {
@@ -110,7 +153,7 @@ fn an_absorber_never_transmits() {
     }
 }
 
-/// Mirrors and matt walls of any direction in an absorbing wall, or from rim to rim, send nothing round their ends.
+/// Mirrors and diffuse walls of any direction in an absorbing wall, or from rim to rim, send nothing round their ends.
 #[test]
 fn walls_in_walls_let_nothing_through() {
     let absorbing = || part(rectangle([10.0, 0.0], [10.0, 20.0]), Material::Absorber);
@@ -157,17 +200,17 @@ fn thin_walls_lie_along_their_longer_side() {
     };
     for shape in shapes([10.0, 2.0], [10.0, 18.0]) {
         for y in 3..18 {
-            assert_eq!(shape.surface_deg(Cell::new(10, y)), 90.0, "{shape:?} {y}");
+            assert_eq!(shape.surface_deg(Cell::new(10, y)), Some(90.0), "{shape:?} {y}");
         }
     }
     for shape in shapes([2.0, 10.0], [18.0, 10.0]) {
         for x in 3..18 {
-            assert_eq!(shape.surface_deg(Cell::new(x, 10)), 0.0, "{shape:?} {x}");
+            assert_eq!(shape.surface_deg(Cell::new(x, 10)), Some(0.0), "{shape:?} {x}");
         }
     }
     // As wide as a cell.
     let wide = rectangle([9.5, 0.0], [10.5, 20.0]);
-    assert!((1..20).all(|y| wide.surface_deg(Cell::new(10, y)) == 90.0));
+    assert!((1..20).all(|y| wide.surface_deg(Cell::new(10, y)) == Some(90.0)));
 }
 
 #[test]
@@ -177,19 +220,41 @@ fn a_closed_box_of_perfect_mirrors_keeps_its_energy() {
     let tilted = Shape::Polygon(vec![[3.0, 6.0], [14.0, 2.0], [19.5, 9.0], [9.0, 17.5]]);
     for (shape, thickness, material) in [
         (room.clone(), 1.0, MIRROR),
-        (room, 1.0, MATT),
+        (room, 1.0, DIFFUSE),
         (disc.clone(), 1.5, MIRROR),
-        (disc, 1.5, MATT),
+        (disc, 1.5, DIFFUSE),
         (tilted.clone(), 1.5, MIRROR),
-        (tilted, 1.5, MATT),
+        (tilted, 1.5, DIFFUSE),
     ] {
         let name = format!("{shape:?} of {material:?}");
         let scene = built(23, 20, vec![part(outline(shape, thickness), material)]);
-        assert_eq!(tigereye_scenes::leaks(&scene), Vec::<[Cell; 2]>::new(), "{name}");
+        assert_eq!(tigereye_scenes::leaks(&scene.layout), Vec::<[Cell; 2]>::new(), "{name}");
         let light = Light::impulse(Cell::new(9, 8), beam());
         let before = isotropic_energy(&light);
         let after = lit(&EightLobe, &scene, &[light], 10_000).distribution.total_energy();
         assert!((after / before - 1.0).abs() < 1e-12, "{name}: {before} before, {after} after");
+    }
+}
+
+/// The same for small rooms, whose light meets a wall every few steps, with walls that are turned against it.
+#[test]
+fn small_closed_rooms_keep_their_energy() {
+    for i in 0..72 {
+        let (inner, angle_deg) = (1 + i % 3, Some(7.5 * (i / 3) as f64));
+        let material = match i % 2 {
+            0 => Material::Diffuse { reflectance: 1.0, angle_deg },
+            _ => Material::Mirror { reflectance: 1.0, angle_deg },
+        };
+        let far = (inner + 2) as f64;
+        let scene = built(
+            inner + 4,
+            inner + 4,
+            vec![part(outline(rectangle([1.0, 1.0], [far, far]), 1.0), material.clone())],
+        );
+        let light = Light::impulse(Cell::new(2, 2), beam());
+        let after = lit(&EightLobe, &scene, std::slice::from_ref(&light), 10_000).distribution.total_energy();
+        let change = after / isotropic_energy(&light) - 1.0;
+        assert!(change.abs() < 1e-12, "{inner} cells, {material:?}: {change:e}");
     }
 }
 
@@ -216,6 +281,8 @@ fn a_mirror_takes_the_part_that_it_does_not_reflect() {
     };
     let one = lit(&EightLobe, &scene, &[pulse(0)], 1).distribution;
     let two = lit(&EightLobe, &scene, &[pulse(0)], 2).distribution;
+    let sent: f64 = isotropic_energy(&pulse(0));
+    assert!((one.total_energy() / sent - 1.0).abs() < 1e-15, "empty space takes nothing");
     assert!(one.incoming().at(Cell::new(4, 4))[0] > 0.0);
     let on_mirror: f64 = one.incoming().iter().filter(|(c, _)| c.x == 4).flat_map(|(_, a)| *a).sum();
     assert!((on_mirror / one.total_energy() - 1.0).abs() < 1e-15, "everything travels right");
@@ -236,7 +303,7 @@ fn a_mirror_image_of_the_scene_gives_the_mirror_image_of_the_light() {
     });
     let a = lit(&EightLobe, &scene, &[Light::continuous(Cell::new(12, 12), beam())], 90);
     let b = lit(&EightLobe, &image, &[Light::continuous(Cell::new(16, 12), mirrored)], 90);
-    let back = Field::from_fn(scene.surfaces.grid(), |c| {
+    let back = Field::from_fn(scene.layout.surfaces.grid(), |c| {
         let there = b.distribution.incoming().at(Cell::new(28 - c.x, c.y));
         std::array::from_fn(|k| there[(12 - k) % 8])
     });
@@ -258,7 +325,7 @@ fn turning_the_scene_turns_the_light() {
     });
     let a = lit(&EightLobe, &scene, &[Light::continuous(Cell::new(12, 12), beam())], 90);
     let b = lit(&EightLobe, &image, &[Light::continuous(Cell::new(12, 16), turned)], 90);
-    let back = Field::from_fn(scene.surfaces.grid(), |c| {
+    let back = Field::from_fn(scene.layout.surfaces.grid(), |c| {
         let there = b.distribution.incoming().at(Cell::new(c.y, 28 - c.x));
         std::array::from_fn(|k| there[(k + 2) % 8])
     });
@@ -273,7 +340,21 @@ fn moved(shape: Shape, by: &dyn Fn([f64; 2]) -> [f64; 2]) -> Shape {
         Shape::Segment { from, to, thickness } => Shape::Segment { from: by(from), to: by(to), thickness },
         Shape::Polygon(corners) => Shape::Polygon(corners.into_iter().map(by).collect()),
         Shape::Outline { of, thickness } => outline(moved(*of, by), thickness),
-        other => panic!("{other:?} is not among the parts"),
+        Shape::Outside(of) => Shape::Outside(Box::new(moved(*of, by))),
+        Shape::Bitmap { at, mask } => {
+            let all = (0..mask.height()).flat_map(|y| (0..mask.width()).map(move |x| Cell::new(x, y)));
+            let marked: Vec<Cell> = all
+                .filter(|c| mask.contains(*c))
+                .map(|c| by([(at.x + c.x) as f64, (at.y + c.y) as f64]))
+                .map(|[x, y]| Cell::new(x as usize, y as usize))
+                .collect();
+            let least = |of: fn(&Cell) -> usize| marked.iter().map(of).min().expect("a mark");
+            let most = |of: fn(&Cell) -> usize| marked.iter().map(of).max().expect("a mark");
+            let at = Cell::new(least(|c| c.x), least(|c| c.y));
+            let (w, h) = (most(|c| c.x) - at.x + 1, most(|c| c.y) - at.y + 1);
+            let mask = Mask::from_fn(w, h, |c| marked.contains(&Cell::new(at.x + c.x, at.y + c.y)));
+            Shape::Bitmap { at, mask }
+        }
     }
 }
 
@@ -294,6 +375,55 @@ fn turned(
         }
         other => other,
     }
+}
+
+/// Light of one direction alone, followed from wall to wall: empty space does not spread it here. Shares of it that leave the
+/// grid in each direction.
+fn traced(scene: &BuiltScene, from: Cell, direction: usize) -> [f64; 8] {
+    let grid = scene.scene.grid;
+    let mut left = [0.0; 8];
+    let mut rays = std::collections::BTreeMap::from([((from.y, from.x, direction), 1.0)]);
+    for _ in 0..4000 {
+        let mut next = std::collections::BTreeMap::new();
+        for ((y, x, k), share) in rays {
+            let Some(cell) = grid.neighbour(Cell::new(x, y), k) else {
+                left[k] += share;
+                continue;
+            };
+            for out in 0..8 {
+                let part = match scene.transmission.reflection(cell) {
+                    None => f64::from(u8::from(out == k)),
+                    Some(wall) => wall.shares()[out][k],
+                };
+                if part > 0.0 {
+                    *next.entry((cell.y, cell.x, out)).or_insert(0.0) += share * part;
+                }
+            }
+        }
+        rays = next;
+    }
+    assert!(rays.values().sum::<f64>() < 1e-9, "light stays in the corner");
+    left
+}
+
+#[test]
+fn a_corner_reflector_sends_every_ray_back() {
+    let corner = |material: Material| {
+        let side = |from, to| part(Shape::Segment { from, to, thickness: 1.5 }, material.clone());
+        built(25, 25, vec![side([8.0, 0.0], [20.0, 12.0]), side([20.0, 12.0], [8.0, 24.0])])
+    };
+    let flat = built(25, 25, vec![part(rectangle([20.0, 0.0], [20.0, 24.0]), MIRROR)]);
+    let (mirrors, diffuse) = (corner(MIRROR), corner(DIFFUSE));
+    let mut of_diffuse = 0.0;
+    for y in 3..=21 {
+        for k in [0, 1, 7] {
+            let back = |scene: &BuiltScene| traced(scene, Cell::new(7, y), k)[(k + 4) % 8];
+            assert_eq!(back(&mirrors), 1.0, "row {y}, direction {k}");
+            assert!(k == 0 || back(&flat) == 0.0, "a flat mirror, row {y}, direction {k}");
+            of_diffuse += back(&diffuse) / (19.0 * 3.0);
+        }
+    }
+    assert!(of_diffuse < 0.7, "a diffuse corner sends {of_diffuse} back");
 }
 
 #[test]
@@ -363,7 +493,7 @@ fn pulses<T: Real>(
 }
 
 fn as_field<T: Real>(scene: &BuiltScene, pulse: &PulseDistribution<T>) -> Field<[f64; 8]> {
-    let grid = scene.surfaces.grid();
+    let grid = scene.layout.surfaces.grid();
     Field::from_fn(grid, |c| pulse.lobes()[grid.index(c)].map(|v| v.to_f64()))
 }
 
@@ -428,7 +558,7 @@ fn pulses_in_walls_shine_on_nothing() {
 #[test]
 fn gradients_of_scenes_do_not_depend_on_tiles() {
     let scene = built(13, 11, {
-        let mut parts = vec![part(outline(rectangle([0.0, 0.0], [12.0, 10.0]), 1.0), MATT)];
+        let mut parts = vec![part(outline(rectangle([0.0, 0.0], [12.0, 10.0]), 1.0), DIFFUSE)];
         parts.push(part(Shape::Segment { from: [6.0, 0.0], to: [6.0, 6.0], thickness: 1.0 }, MIRROR));
         parts
     });
@@ -457,9 +587,135 @@ fn a_crystal_that_fills_the_scene_is_its_field() {
     assert!(scene.transmission == own);
 }
 
+/// What leaves a cell for its neighbours is what arrived in it, times what its material passes on or sends back.
 #[test]
-fn light_distributions_of_scenes_are_finite() {
-    let light: LightDistribution =
-        lit(&EightLobe, &rough_scene(), &[Light::continuous(Cell::new(12, 12), beam())], 200).distribution;
-    assert!(light.samples().iter().all(|v| v.is_finite() && *v >= 0.0));
+fn every_cell_keeps_the_balance_of_its_material() {
+    let scene = rough_scene();
+    let grid = scene.scene.grid;
+    let light = [Light::impulse(Cell::new(12, 12), beam())];
+    for steps in [1, 2, 7, 30, 100] {
+        let now = lit(&EightLobe, &scene, &light, steps).distribution;
+        let next = lit(&EightLobe, &scene, &light, steps + 1).distribution;
+        let largest = now.incoming().values().iter().flatten().copied().fold(0.0, f64::max);
+        for cell in grid.iter().filter(|c| !grid.is_border(*c)) {
+            let arrived: f64 = now.incoming().at(cell).iter().sum();
+            let sent = (0..8).filter_map(|k| Some((k, grid.neighbour(cell, k)?)));
+            let left: f64 = sent.map(|(k, there)| next.incoming().at(there)[k]).sum();
+            let expected = scene.passed(cell) * arrived;
+            assert!((left - expected).abs() < 1e-14 * largest, "{cell:?}, step {steps}: {left}, {expected}");
+        }
+        assert!(next.samples().iter().all(|v| v.is_finite() && *v >= 0.0));
+    }
+}
+
+/// The matrix of every wall, derived a second time: reflection of vectors, cosines as scalar products, and a flood round the
+/// cell for what lies on its side.
+#[test]
+fn walls_reflect_as_vectors_do() {
+    let scene = rough_scene();
+    let mut seen = [0; 4];
+    for (cell, reflection) in scene.transmission.reflections() {
+        let reflectance = scene.passed(cell);
+        let surface = scene.layout.surfaces.at(cell).expect("a surface");
+        let beside: [Option<bool>; 8] = std::array::from_fn(|k| {
+            // Whether light goes on there; `None` for walls that send it back.
+            match scene.scene.grid.neighbour(cell, k) {
+                None => Some(false),
+                Some(next) => match scene.layout.surfaces.at(next) {
+                    Some(Surface::Mirror { .. } | Surface::Diffuse { .. }) => None,
+                    Some(Surface::Absorbing) => Some(false),
+                    _ => Some(true),
+                },
+            }
+        });
+        for j in 0..8 {
+            let (free, angle) = match surface {
+                Surface::Mirror { angle_deg } => (mirrored(angle_deg, j), angle_deg),
+                Surface::Diffuse { angle_deg } => (scattered(angle_deg, j), angle_deg),
+                other => panic!("{other:?} sends nothing back"),
+            };
+            seen[usize::from(angle.is_some())] += 1;
+            let from = (j + 4) % 8;
+            let reached = flood(&beside, from);
+            let mut expected = [0.0; 8];
+            for k in 0..8 {
+                expected[if reached[k] { k } else { from }] += reflectance * free[k];
+                seen[2 + usize::from(reached[k])] += 1;
+            }
+            for k in 0..8 {
+                let got = reflection.shares()[k][j];
+                assert!((got - expected[k]).abs() < 1e-14, "{cell:?} {surface:?}: {j} to {k}: {got}");
+            }
+        }
+    }
+    assert!(seen.iter().all(|n| *n > 0), "with and without a direction, on both sides: {seen:?}");
+}
+
+/// Unit vector of a direction, y upwards.
+fn unit(k: usize) -> [f64; 2] {
+    let (dx, dy) = NEIGHBOUR_OFFSETS[k];
+    let (x, y) = (dx as f64, -(dy as f64));
+    [x / math::hypot(x, y), y / math::hypot(x, y)]
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// Degrees.
+fn angle_between(a: [f64; 2], b: [f64; 2]) -> f64 {
+    math::degrees(math::atan2(a[0] * b[1] - a[1] * b[0], dot(a, b))).abs()
+}
+
+/// Normal of a wall; that of one without a direction is the light's.
+fn normal(angle_deg: Option<f64>, j: usize) -> [f64; 2] {
+    angle_deg.map_or(unit(j), |a| [-math::sin(math::radians(a)), math::cos(math::radians(a))])
+}
+
+fn mirrored(angle_deg: Option<f64>, j: usize) -> [f64; 8] {
+    let (d, n) = (unit(j), normal(angle_deg, j));
+    let out = [d[0] - 2.0 * dot(d, n) * n[0], d[1] - 2.0 * dot(d, n) * n[1]];
+    // The two of the eight directions about it, by the angle to them.
+    let mut near: Vec<(f64, usize)> =
+        (0..8).map(|k| (angle_between(out, unit(k)), k)).filter(|(deg, _)| *deg < 45.0 - 1e-5).collect();
+    // Not through the wall.
+    near.retain(|(_, k)| dot(d, n).abs() < 1e-9 || dot(d, n) * dot(unit(*k), n) < 1e-9);
+    let mut shares = [0.0; 8];
+    match near[..] {
+        [(_, k)] => shares[k] = 1.0,
+        [(a, k), (b, l)] => {
+            (shares[k], shares[l]) = (b / (a + b), a / (a + b));
+        }
+        _ => panic!("{near:?}"),
+    }
+    shares
+}
+
+fn scattered(angle_deg: Option<f64>, j: usize) -> [f64; 8] {
+    let n = normal(angle_deg, j);
+    let (from, cosines) = (dot(unit(j), n), std::array::from_fn::<f64, 8, _>(|k| dot(unit(k), n)));
+    let back = cosines.map(|c| if from.abs() < 1e-9 { c.abs() } else { (-c * from.signum()).max(0.0) });
+    let back = back.map(|c| if c < 1e-9 { 0.0 } else { c });
+    let sum: f64 = back.iter().sum();
+    back.map(|c| c / sum)
+}
+
+/// The neighbours that can be walked to round the cell, from one that is no wall over open ones.
+fn flood(beside: &[Option<bool>; 8], from: usize) -> [bool; 8] {
+    let mut reached = [false; 8];
+    reached[from] = true;
+    // From another wall nothing arrives.
+    let mut border = if beside[from].is_some() { vec![from] } else { Vec::new() };
+    while let Some(k) = border.pop() {
+        for next in [(k + 1) % 8, (k + 7) % 8] {
+            // The walk may end beside an absorber, and begin there, but not pass it.
+            if !reached[next] && beside[next].is_some() {
+                reached[next] = true;
+                if beside[next] == Some(true) {
+                    border.push(next);
+                }
+            }
+        }
+    }
+    reached
 }

@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 use tigereye_core::{Directions, Field, Grid, Normalization, Surface, TransmissionField};
 use tigereye_experiments::input::Reading;
 use tigereye_experiments::scene::{PreparedScene, is_scene_file, light_fault, prepare};
-use tigereye_experiments::settings::lights_of;
 use tigereye_experiments::{Medium, normalization_name};
 use tigereye_transport::Light;
 
@@ -29,14 +28,14 @@ pub(crate) fn read_scene(name: &str) -> Result<(PreparedScene, Vec<String>), Cli
 
 /// INPUT of commands that propagate.
 #[derive(Debug)]
-pub(crate) enum Lit {
+pub(crate) enum MediumInput {
     /// Tensors of a file or a generator.
     Tensors(Input),
     /// A scene, and the files it was read from.
     Scene(String, PreparedScene, Vec<String>),
 }
 
-impl Lit {
+impl MediumInput {
     /// Reads INPUT. What had to be assumed and what looks wrong goes to standard error.
     pub(crate) fn open(text: &str, reading: &ReadingArgs) -> Result<Self, CliError> {
         if !is_scene_file(text) {
@@ -130,23 +129,21 @@ impl Lit {
 
     /// The walls of a scene.
     pub(crate) fn surfaces(&self) -> Option<&Field<Option<Surface>>> {
-        self.medium().scene().map(|scene| &scene.built.surfaces)
+        self.medium().scene().map(|scene| &scene.layout.surfaces)
     }
 
     /// The lights a scene comes with.
     pub(crate) fn own_lights(&self, directions: Directions) -> Result<Vec<Light>, CliError> {
         let Some(scene) = self.medium().scene() else { return Ok(Vec::new()) };
-        let (lights, faults) = lights_of(&scene.lights, self.grid(), directions);
-        match faults.into_iter().next() {
-            Some(fault) => Err(CliError::input(self.name(), fault)),
-            None => Ok(lights),
-        }
+        scene
+            .lights_in(directions)
+            .map_err(|faults| CliError::Inputs(faults.iter().map(ToString::to_string).collect()))
     }
 
     /// Refuses lights inside of walls.
     pub(crate) fn check_lights(&self, lights: &[Light]) -> Result<(), CliError> {
         let Some(scene) = self.medium().scene() else { return Ok(()) };
-        match lights.iter().find_map(|light| light_fault(&scene.built, light.cell)) {
+        match lights.iter().find_map(|light| light_fault(&scene.layout, light.cell)) {
             Some(problem) => Err(CliError::input("--light", problem)),
             None => Ok(()),
         }

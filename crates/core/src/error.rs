@@ -29,6 +29,14 @@ pub enum CoreError {
         /// Requested number of samples.
         samples: usize,
     },
+    /// More samples than a field's transmission may have.
+    #[error("{cells} cells in {directions} directions are too many samples: expected at most {max}, of fewer directions or fewer cells", max = crate::TransmissionField::MAX_SAMPLES)]
+    TooManySamples {
+        /// Cells of the grid.
+        cells: usize,
+        /// Directions of each.
+        directions: usize,
+    },
     /// A profile with another number of samples than its grid's.
     #[error("a profile of {samples} samples where {expected} are expected")]
     ProfileLength {
@@ -55,14 +63,14 @@ pub enum CoreError {
         /// Row of the cell.
         y: usize,
     },
-    /// A wall's part is negative, or a wall sends back more than all.
+    /// A wall's share is negative, or a wall sends back more than all.
     #[error(
-        "of the light in direction {direction} a wall sends back {sum}: expected parts of 0 or more with a sum of at most 1"
+        "of the light in direction {direction} a wall sends back {sum}: expected shares of 0 or more with a sum of at most 1"
     )]
     ReflectionRange {
         /// Direction of the arriving light, 0 to 7.
         direction: usize,
-        /// Sum of the parts.
+        /// Sum of the shares.
         sum: f64,
     },
     /// A rate outside [0, 1].

@@ -35,6 +35,6 @@ pub use results::{LightDistribution, LtgVolume, StopReason, SweepWork, Work};
 pub use symmetric3::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
 pub use tensor::Tensor2;
 pub use transmission::{
-    Below, CellTransmission, Normalization, TOTAL_ANISOTROPY_RATIO, TransmissionField,
+    Below, CellTransmission, Normalization, RateScale, TOTAL_ANISOTROPY_RATIO, TransmissionField,
     is_totally_anisotropic, transmission_ellipse,
 };

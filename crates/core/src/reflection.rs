@@ -2,49 +2,49 @@
 
 use crate::{Cell, CoreError};
 
-/// What a reflecting cell does to the light that arrives: an 8 x 8 matrix of parts from 0 to 1.
+/// What a reflecting cell does to the light that arrives: an 8 x 8 matrix of shares from 0 to 1.
 ///
 /// A cell with a tensor passes its light on in a shape of its own and therefore normalises it (eq. 3.12). A wall does the same
 /// to whatever arrives: it is linear, its columns add up to its reflectance, and what is missing to 1 is absorbed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reflection {
-    parts: [[f64; 8]; 8],
+    shares: [[f64; 8]; 8],
 }
 
 impl Reflection {
-    /// `parts[k][j]` of the flux that arrives in direction `j` leaves in direction `k`.
+    /// `shares[k][j]` of the flux that arrives in direction `j` leaves in direction `k`.
     ///
     /// # Errors
-    /// [`CoreError::ReflectionRange`] for a part that is negative or not a number, or a direction of which more than all is
+    /// [`CoreError::ReflectionRange`] for a share that is negative or not a number, or a direction of which more than all is
     /// reflected.
-    pub fn new(parts: [[f64; 8]; 8]) -> Result<Self, CoreError> {
+    pub fn new(shares: [[f64; 8]; 8]) -> Result<Self, CoreError> {
         for j in 0..8 {
-            let sum: f64 = (0..8).map(|k| parts[k][j]).sum();
-            // Parts that add up to 1 may exceed it by the rounding of seven additions.
+            let sum: f64 = (0..8).map(|k| shares[k][j]).sum();
+            // Shares that add up to 1 may exceed it by the rounding of seven additions.
             let too_much = sum > 1.0 + 8.0 * f64::EPSILON;
-            if too_much || (0..8).any(|k| parts[k][j] < 0.0 || parts[k][j].is_nan()) {
+            if too_much || (0..8).any(|k| shares[k][j] < 0.0 || shares[k][j].is_nan()) {
                 return Err(CoreError::ReflectionRange { direction: j, sum });
             }
         }
-        Ok(Self { parts })
+        Ok(Self { shares })
     }
 
     /// The matrix, `[k][j]`.
     #[must_use]
-    pub const fn parts(&self) -> &[[f64; 8]; 8] {
-        &self.parts
+    pub const fn shares(&self) -> &[[f64; 8]; 8] {
+        &self.shares
     }
 
     /// Flux that leaves in each direction (W) where `arriving` comes in.
     #[must_use]
     pub fn reflected(&self, arriving: &[f64; 8]) -> [f64; 8] {
-        self.parts.map(|row| row.iter().zip(arriving).map(|(part, a)| part * a).sum())
+        self.shares.map(|row| row.iter().zip(arriving).map(|(share, a)| share * a).sum())
     }
 
-    /// The part of the light arriving in direction `j` that is not sent back, 0 to 1.
+    /// The share of the light arriving in direction `j` that is not sent back, 0 to 1.
     #[must_use]
     pub fn absorbed(&self, j: usize) -> f64 {
-        (1.0 - (0..8).map(|k| self.parts[k][j]).sum::<f64>()).max(0.0)
+        (1.0 - (0..8).map(|k| self.shares[k][j]).sum::<f64>()).max(0.0)
     }
 }
 
@@ -62,13 +62,13 @@ pub enum Surface {
     Crystal,
     /// Sends light back as a mirror does.
     Mirror {
-        /// Direction of its line, degrees from 0 to 180.
-        angle_deg: f64,
+        /// Direction of its line, degrees from 0 to 180; `None` where it faces whatever light arrives.
+        angle_deg: Option<f64>,
     },
-    /// Sends light back to its side in all directions, as a matt wall does.
+    /// Sends light back to its side in all directions, as a diffuse wall does.
     Diffuse {
-        /// Direction of its line, degrees from 0 to 180.
-        angle_deg: f64,
+        /// Direction of its line, degrees from 0 to 180; `None` where it faces whatever light arrives.
+        angle_deg: Option<f64>,
     },
 }
 
@@ -88,9 +88,15 @@ impl Surface {
 pub(crate) struct Reflections(Vec<(usize, Reflection)>);
 
 impl Reflections {
-    pub(crate) fn push(&mut self, index: usize, reflection: Reflection) {
-        debug_assert!(self.0.last().is_none_or(|(last, _)| *last < index), "row-major order");
-        self.0.push((index, reflection));
+    /// Row-major order is kept; cells that come in it cost no search.
+    pub(crate) fn insert(&mut self, index: usize, reflection: Reflection) {
+        match self.0.last() {
+            Some((last, _)) if *last >= index => match self.0.binary_search_by_key(&index, |(i, _)| *i) {
+                Ok(at) => self.0[at].1 = reflection,
+                Err(at) => self.0.insert(at, (index, reflection)),
+            },
+            _ => self.0.push((index, reflection)),
+        }
     }
     pub(crate) fn of(&self, index: usize) -> Option<&Reflection> {
         self.0.binary_search_by_key(&index, |(i, _)| *i).ok().map(|at| &self.0[at].1)
@@ -106,17 +112,22 @@ mod tests {
 
     #[test]
     fn a_wall_never_sends_back_more_than_arrives() {
-        let mut parts = [[0.0; 8]; 8];
-        parts[2][6] = 0.75;
-        parts[1][6] = 0.25;
-        let r = Reflection::new(parts).expect("a reflection");
+        let mut shares = [[0.0; 8]; 8];
+        shares[2][6] = 0.75;
+        shares[1][6] = 0.25;
+        let r = Reflection::new(shares).expect("a reflection");
         assert_eq!(r.reflected(&[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 1.0])[..3], [0.0, 0.5, 1.5]);
         assert_eq!((r.absorbed(6), r.absorbed(7)), (0.0, 1.0));
-        parts[3][6] = 1e-3;
-        assert_eq!(Reflection::new(parts), Err(CoreError::ReflectionRange { direction: 6, sum: 1.001 }));
-        parts[3][6] = -1e-3;
-        assert!(Reflection::new(parts).is_err());
-        parts[3][6] = f64::NAN;
-        assert!(Reflection::new(parts).is_err());
+        let mut all = Reflections::default();
+        for index in [4, 9, 2, 9] {
+            all.insert(index, r.clone());
+        }
+        assert_eq!(all.0.iter().map(|(i, _)| *i).collect::<Vec<_>>(), [2, 4, 9]);
+        shares[3][6] = 1e-3;
+        assert_eq!(Reflection::new(shares), Err(CoreError::ReflectionRange { direction: 6, sum: 1.001 }));
+        shares[3][6] = -1e-3;
+        assert!(Reflection::new(shares).is_err());
+        shares[3][6] = f64::NAN;
+        assert!(Reflection::new(shares).is_err());
     }
 }

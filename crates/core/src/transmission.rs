@@ -108,22 +108,30 @@ pub struct TransmissionField {
 }
 
 /// What [`TransmissionField::assembled`] puts into a cell.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub enum CellTransmission<'a> {
     /// The same in every direction, a rate from 0 to 1.
     Isotropic(f64),
-    /// That of a cell of another field.
-    Of(&'a TransmissionField, Cell),
-    /// None: the cell sends light back.
-    Reflecting(&'a Reflection),
+    /// That of a tensor, with the rate that a field gives it.
+    Tensor(&'a Tensor2, &'a RateScale),
 }
 
-impl TransmissionField {
-    /// Transmission of a tensor field.
+/// The rates that a normalisation gives the tensors of a field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RateScale {
+    normalization: Normalization,
+    /// Binary exponent of the largest half-axis: means are taken relative to it, so that no product overflows or vanishes.
+    exponent: i32,
+    /// Largest mean of the field's profiles, relative; 0 where the normalisation has no need of it.
+    greatest_mean: f64,
+}
+
+impl RateScale {
+    /// Of all `tensors`, their profiles sampled in `directions`.
     ///
     /// # Errors
     /// [`CoreError::NonFiniteTensor`] for the first tensor that is not finite, [`CoreError::Fraction`].
-    pub fn from_tensors(
+    pub fn of(
         tensors: &Field<Tensor2>,
         directions: Directions,
         normalization: Normalization,
@@ -136,33 +144,49 @@ impl TransmissionField {
         {
             return Err(CoreError::Fraction { fraction });
         }
-        let shapes: Vec<Shape> = tensors.values().iter().map(|t| Shape::of(t, directions)).collect();
-        // Means relative to the largest half-axis, so that no product overflows or vanishes.
-        let largest = shapes.iter().fold(0.0, |m: f64, s| m.max(s.s1));
-        let exponent = math::binary_exponent(largest);
-        let means: Vec<f64> =
-            shapes.iter().map(|s| s.mean() * math::scale_by_power_of_two(s.s1, -exponent)).collect();
-        let greatest_mean = means.iter().fold(0.0, |m: f64, &r| m.max(r));
-        let global = |mean: f64| if greatest_mean > 0.0 { mean / greatest_mean } else { 0.0 };
-        let mut field = Self {
-            grid: tensors.grid(),
-            directions,
-            shapes: Vec::with_capacity(tensors.grid().cells() * directions.count()),
-            rates: Vec::with_capacity(tensors.grid().cells()),
-            reflections: Reflections::default(),
-        };
-        for (shape, &mean) in shapes.iter().zip(&means) {
-            let rate = match normalization {
-                _ if shape.s1 == 0.0 => 0.0,
-                Normalization::Global => global(mean),
-                Normalization::Local => 1.0,
-                Normalization::LocalAbove { fraction, .. } if mean >= fraction * greatest_mean => 1.0,
-                Normalization::LocalAbove { below: Below::Absorb, .. } => 0.0,
-                Normalization::LocalAbove { below: Below::Global, .. } => global(mean),
-            };
-            field.push(&shape.samples, shape.mean(), rate);
+        let largest = tensors.values().iter().fold(0.0, |m: f64, t| m.max(Svd::of(t).s[0]));
+        let mut scale = Self { normalization, exponent: math::binary_exponent(largest), greatest_mean: 0.0 };
+        if normalization != Normalization::Local {
+            let means = tensors.values().iter().map(|t| scale.mean(&Shape::of(t, directions)));
+            scale.greatest_mean = means.fold(0.0, f64::max);
         }
-        Ok(field)
+        Ok(scale)
+    }
+
+    /// Mean of a profile, relative.
+    fn mean(&self, shape: &Shape) -> f64 {
+        shape.mean() * math::scale_by_power_of_two(shape.s1, -self.exponent)
+    }
+
+    fn rate(&self, shape: &Shape) -> f64 {
+        let mean = self.mean(shape);
+        let global = || if self.greatest_mean > 0.0 { mean / self.greatest_mean } else { 0.0 };
+        match self.normalization {
+            _ if shape.s1 == 0.0 => 0.0,
+            Normalization::Global => global(),
+            Normalization::Local => 1.0,
+            Normalization::LocalAbove { fraction, .. } if mean >= fraction * self.greatest_mean => 1.0,
+            Normalization::LocalAbove { below: Below::Absorb, .. } => 0.0,
+            Normalization::LocalAbove { below: Below::Global, .. } => global(),
+        }
+    }
+}
+
+impl TransmissionField {
+    /// Most samples, cells times directions: 4096 x 4096 cells in 32 directions, 4 GiB here and as much in the light.
+    pub const MAX_SAMPLES: usize = 1 << 29;
+
+    /// Transmission of a tensor field.
+    ///
+    /// # Errors
+    /// As [`RateScale::of`]; [`CoreError::TooManySamples`].
+    pub fn from_tensors(
+        tensors: &Field<Tensor2>,
+        directions: Directions,
+        normalization: Normalization,
+    ) -> Result<Self, CoreError> {
+        let scale = RateScale::of(tensors, directions, normalization)?;
+        Self::assembled(tensors.grid(), directions, |cell| CellTransmission::Tensor(tensors.at(cell), &scale))
     }
 
     /// Transmission given as profiles, `T` itself, row-major.
@@ -180,7 +204,7 @@ impl TransmissionField {
             let (width, height) = (grid.width(), grid.height());
             return Err(CoreError::ValueCount { values: profiles.len(), width, height });
         }
-        let mut field = Self::empty(grid, directions);
+        let mut field = Self::empty(grid, directions)?;
         for (cell, p) in grid.iter().zip(profiles) {
             let expected = directions.count();
             if p.directions() != directions {
@@ -205,18 +229,15 @@ impl TransmissionField {
     /// Transmission put together cell by cell: a scene.
     ///
     /// # Errors
-    /// [`CoreError::Rate`]; [`CoreError::ProfileLength`] where a cell of a field with other directions is taken.
-    ///
-    /// # Panics
-    /// Where a cell is taken that the other field does not have.
+    /// [`CoreError::Rate`], [`CoreError::TooManySamples`].
     pub fn assembled<'a>(
         grid: Grid,
         directions: Directions,
         mut of: impl FnMut(Cell) -> CellTransmission<'a>,
     ) -> Result<Self, CoreError> {
-        let mut field = Self::empty(grid, directions);
-        let (even, nothing) = (vec![1.0; directions.count()], vec![0.0; directions.count()]);
-        for (index, cell) in grid.iter().enumerate() {
+        let mut field = Self::empty(grid, directions)?;
+        let even = vec![1.0; directions.count()];
+        for cell in grid.iter() {
             match of(cell) {
                 CellTransmission::Isotropic(rate) if (0.0..=1.0).contains(&rate) => {
                     field.push(&even, 1.0, rate)
@@ -224,24 +245,44 @@ impl TransmissionField {
                 CellTransmission::Isotropic(rate) => {
                     return Err(CoreError::Rate { x: cell.x, y: cell.y, rate });
                 }
-                CellTransmission::Of(other, there) if other.directions == directions => {
-                    field.push(other.shape(there), 1.0, other.rate(there));
-                }
-                CellTransmission::Of(other, _) => {
-                    let (samples, expected) = (other.directions.count(), directions.count());
-                    return Err(CoreError::ProfileLength { samples, expected });
-                }
-                CellTransmission::Reflecting(reflection) => {
-                    field.push(&nothing, 0.0, 0.0);
-                    field.reflections.push(index, reflection.clone());
+                CellTransmission::Tensor(tensor, scale) => {
+                    let shape = Shape::of(tensor, directions);
+                    field.push(&shape.samples, shape.mean(), scale.rate(&shape));
                 }
             }
         }
         Ok(field)
     }
 
-    fn empty(grid: Grid, directions: Directions) -> Self {
-        Self { grid, directions, shapes: Vec::new(), rates: Vec::new(), reflections: Reflections::default() }
+    /// The same with cells that send light back, and transmit nothing.
+    ///
+    /// # Panics
+    /// Where a cell lies outside of the grid.
+    #[must_use]
+    pub fn with_reflections(mut self, reflections: impl IntoIterator<Item = (Cell, Reflection)>) -> Self {
+        let n = self.directions.count();
+        for (cell, reflection) in reflections {
+            let i = self.grid.index(cell);
+            self.shapes[i * n..(i + 1) * n].fill(0.0);
+            self.rates[i] = 0.0;
+            self.reflections.insert(i, reflection);
+        }
+        self
+    }
+
+    fn empty(grid: Grid, directions: Directions) -> Result<Self, CoreError> {
+        let (cells, count) = (grid.cells(), directions.count());
+        if cells.saturating_mul(count) > Self::MAX_SAMPLES {
+            return Err(CoreError::TooManySamples { cells, directions: count });
+        }
+        let shapes = Vec::with_capacity(cells * count);
+        Ok(Self {
+            grid,
+            directions,
+            shapes,
+            rates: Vec::with_capacity(cells),
+            reflections: Reflections::default(),
+        })
     }
 
     fn push(&mut self, samples: &[f64], mean: f64, rate: f64) {
@@ -360,23 +401,31 @@ mod tests {
         let d = directions(16);
         let tensors = row(vec![Tensor2::from_axes(0.4, 1.0, 0.2), Tensor2::from_axes(0.4, 0.5, 0.1)]);
         let crystal = TransmissionField::from_tensors(&tensors, d, Normalization::Global).expect("a field");
-        let mut parts = [[0.0; 8]; 8];
-        parts[4][0] = 1.0;
-        let wall = Reflection::new(parts).expect("a reflection");
+        let mut shares = [[0.0; 8]; 8];
+        shares[4][0] = 1.0;
+        let wall = Reflection::new(shares).expect("a reflection");
         let grid = Grid::new(2, 2).expect("a grid");
+        let scale = RateScale::of(&tensors, d, Normalization::Global).expect("a scale");
         let made = TransmissionField::assembled(grid, d, |c| match (c.x, c.y) {
-            (x, 0) => CellTransmission::Of(&crystal, Cell::new(x, 0)),
-            (0, _) => CellTransmission::Isotropic(0.25),
-            _ => CellTransmission::Reflecting(&wall),
+            (x, 0) => CellTransmission::Tensor(tensors.at(Cell::new(x, 0)), &scale),
+            _ => CellTransmission::Isotropic(0.25),
         });
-        let made = made.expect("a field");
+        let made = made.expect("a field").with_reflections([(Cell::new(1, 1), wall.clone())]);
         assert_eq!(made.shape(Cell::new(1, 0)), crystal.shape(Cell::new(1, 0)));
         assert_eq!(made.rates(), [1.0, crystal.rates()[1], 0.25, 0.0]);
         assert_eq!(made.reflection(Cell::new(1, 1)), Some(&wall));
         assert_eq!(made.reflections().map(|(c, _)| c).collect::<Vec<_>>(), [Cell::new(1, 1)]);
         assert_eq!(made.reflection(Cell::new(0, 1)), None);
+        assert_eq!(made.shape(Cell::new(1, 1)), [0.0; 16]);
         let bright = TransmissionField::assembled(grid, d, |_| CellTransmission::Isotropic(1.5));
         assert_eq!(bright, Err(CoreError::Rate { x: 0, y: 0, rate: 1.5 }));
+    }
+
+    #[test]
+    fn more_samples_than_fit_are_refused_before_they_are_made() {
+        let grid = Grid::new(4096, 4096).expect("a grid");
+        let made = TransmissionField::assembled(grid, directions(40), |_| CellTransmission::Isotropic(1.0));
+        assert_eq!(made, Err(CoreError::TooManySamples { cells: 1 << 24, directions: 40 }));
     }
 
     #[test]

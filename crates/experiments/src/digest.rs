@@ -96,7 +96,7 @@ struct SceneDigest {
     absorbing: usize,
     filters: usize,
     mirrors: usize,
-    matt: usize,
+    diffuse: usize,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -122,14 +122,14 @@ pub(crate) fn digest(settings: &Settings, results: &Results, outcome: &Experimen
     });
     let scenes = settings.scenes.iter().map(|(name, s)| {
         let count =
-            |is: fn(&Surface) -> bool| s.built.surfaces.values().iter().flatten().filter(|s| is(s)).count();
+            |is: fn(&Surface) -> bool| s.layout.surfaces.values().iter().flatten().filter(|s| is(s)).count();
         let digest = SceneDigest {
             width: s.scene.grid.width(),
             height: s.scene.grid.height(),
             absorbing: count(|s| matches!(s, Surface::Absorbing)),
             filters: count(|s| matches!(s, Surface::Filter { .. })),
             mirrors: count(|s| matches!(s, Surface::Mirror { .. })),
-            matt: count(|s| matches!(s, Surface::Diffuse { .. })),
+            diffuse: count(|s| matches!(s, Surface::Diffuse { .. })),
         };
         (name.clone(), digest)
     });

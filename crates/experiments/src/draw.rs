@@ -65,8 +65,8 @@ pub(crate) fn draw_figure(
     }
     let alt_of_panels: Vec<String> = panels.iter().map(|(t, s)| format!("{t}. {}", s.description)).collect();
     let mut frames = 0;
-    if let Some((encoded, count)) = figure.animation.as_ref().and_then(|a| draw.animation(a)) {
-        let bytes = encoded.map_err(failed)?;
+    if let Some(encoded) = figure.animation.as_ref().and_then(|a| draw.animation(a)) {
+        let (bytes, count) = encoded.map_err(failed)?;
         tables.push(DataFile { name: format!("{}.apng", figure.name), bytes });
         frames = count;
     }
@@ -343,16 +343,20 @@ impl Draw<'_> {
             width_px,
             ..Overlay::default()
         };
+        let blue = Rgba::hex(0x56b4e9);
         Some(vec![
             line(&ways.shortest, "shortest way (breadth-first search)", Rgba::hex(0xd55e00), 4.0),
-            line(&ways.brightest, "brightest way", Rgba::hex(0x56b4e9), 1.2),
+            match &ways.brightest {
+                Some(way) => line(way, "brightest way", blue, 1.2),
+                None => line(&[], "brightest way: none, a summit lies before the light", blue, 1.2),
+            },
         ])
     }
 
     /// Frames of a light run and their number.
-    fn animation(&self, animation: &spec::Animation) -> Option<(Result<Vec<u8>, RenderError>, usize)> {
+    fn animation(&self, animation: &spec::Animation) -> Option<Result<(Vec<u8>, usize), RenderError>> {
         let r = self.light(&animation.run)?;
-        let reel = r.reel.clone()?.thinned(animation.every.get());
+        let reel = r.reel.as_ref()?;
         let options = HeatOptions {
             quantity: "energy of a cell / W".to_owned(),
             sources: r.sources.clone(),
@@ -361,7 +365,7 @@ impl Draw<'_> {
             ..HeatOptions::default()
         };
         let decades = animation.decades.map_or(4.0, spec::Positive::get);
-        Some((reel.encoded(&options, decades), reel.len()))
+        Some(reel.encoded(&options, decades, animation.every.get()))
     }
 
     fn slice(&self, run: &str, deg: f64, ridge: bool, title: String) -> Option<Scene> {

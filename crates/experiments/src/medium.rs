@@ -45,7 +45,7 @@ impl<'a> Medium<'a> {
     /// What its cells do to light. A scene's crystals have a normalisation of their own.
     ///
     /// # Errors
-    /// As [`TransmissionField::from_tensors`] and [`tigereye_scenes::Scene::built`].
+    /// As [`TransmissionField::from_tensors`] and [`tigereye_scenes::Scene::transmission`].
     pub fn transmission(
         self,
         directions: Directions,
@@ -54,7 +54,7 @@ impl<'a> Medium<'a> {
         match self {
             Self::Tensors(field) => TransmissionField::from_tensors(field, directions, normalization)
                 .map_err(|e| SceneError { part: None, fault: Fault::Core(e) }),
-            Self::Scene(scene) => scene.in_directions(directions).map(|built| built.transmission),
+            Self::Scene(scene) => scene.transmission(directions),
         }
     }
 

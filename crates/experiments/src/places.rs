@@ -5,6 +5,7 @@ use crate::settings::{GradientSettings, LightSettings, RunSettings, sample_of};
 use crate::spec::{MapSource, Panel, ProfileSource, Quantity, RidgeSource, SeriesSource};
 use tigereye_core::{Cell, Field, Grid, Tensor2};
 use tigereye_fields::{Expression, ExpressionField};
+use tigereye_scenes::shortest_path;
 use tigereye_transport::StoppingRule;
 
 /// What is known of an experiment before it runs.
@@ -118,6 +119,7 @@ impl Known<'_> {
             Q::WayLength { run, to } | Q::WayExcess { run, to } | Q::WayDifference { run, to } => {
                 self.way(run, *to)
             }
+            Q::ShortestWays { run } => self.scene_of(run),
             Q::EnergyRatio { run, cell, over } => {
                 self.cell_of(run, *cell).or_else(|| self.cell_of(run, *over))
             }
@@ -163,14 +165,25 @@ impl Known<'_> {
         outside.then(|| Misplaced { word: format!("({x}, {y})"), problem: problem() })
     }
 
+    /// A run whose light has ways to be found.
+    fn scene_of(&self, run: &str) -> Option<Misplaced> {
+        let medium = (self.medium)((self.run)(run)?.field())?;
+        let problem = || format!("\"{run}\" runs through a field: ways are found through scenes");
+        let is_field = medium.scene().is_none();
+        is_field.then(|| Misplaced { word: format!("\"{run}\""), problem: problem() })
+    }
+
     /// The end of a way through a scene.
     fn way(&self, run: &str, to: (usize, usize)) -> Option<Misplaced> {
         let medium = (self.medium)((self.run)(run)?.field())?;
-        let problem = || format!("\"{run}\" runs through a field: ways are found through scenes");
-        match medium.scene() {
-            Some(_) => self.cell(medium.grid(), to),
-            None => Some(Misplaced { word: format!("\"{run}\""), problem: problem() }),
-        }
+        let shut = || {
+            let RunSettings::Light(LightSettings { lights, .. }) = (self.run)(run)? else { return None };
+            let (x, y) = to;
+            let way = shortest_path(&medium.scene()?.open(), lights.first()?.cell, Cell::new(x, y));
+            let problem = || format!("there is no way from the light of \"{run}\" to cell ({x}, {y})");
+            way.is_none().then(|| Misplaced { word: format!("({x}, {y})"), problem: problem() })
+        };
+        self.scene_of(run).or_else(|| self.cell(medium.grid(), to)).or_else(shut)
     }
 
     fn cell_of(&self, run: &str, cell: (usize, usize)) -> Option<Misplaced> {

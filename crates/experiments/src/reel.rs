@@ -1,7 +1,9 @@
 //! The light of every step, for an animation.
 
-use tigereye_core::{Field, LightDistribution};
-use tigereye_render::{HeatOptions, HeatScale, Pace, RenderError, Scene, animation, heat_map};
+use tigereye_core::{Cell, Field};
+use tigereye_render::{
+    HeatOptions, HeatScale, MAX_ANIMATED_PIXELS, Pace, RenderError, Scene, animation, heat_map,
+};
 
 /// Most frames.
 const MAX_FRAMES: usize = 600;
@@ -40,10 +42,10 @@ impl Reel {
         self.frames.is_empty()
     }
 
-    /// The next step, or what is there before the first.
-    pub fn add(&mut self, light: &LightDistribution) {
+    /// The next step, or what is there before the first; `energies` of its cells (W) are asked for where it makes a frame.
+    pub fn add(&mut self, energies: impl FnOnce() -> Field<f64>) {
         if self.seen.is_multiple_of(self.every) {
-            self.frames.push((self.seen, light.energy()));
+            self.frames.push((self.seen, energies()));
         }
         if self.frames.len() > self.most {
             self.every *= 2;
@@ -53,61 +55,82 @@ impl Reel {
         self.seen += 1;
     }
 
-    /// Leaves out frames whose step is no multiple of `every`, and so those that another animation of the same steps wants.
-    #[must_use]
-    pub fn thinned(mut self, every: usize) -> Self {
-        let every = every.max(1);
-        if self.frames.iter().filter(|(step, _)| step.is_multiple_of(every)).count() > 1 {
-            self.frames.retain(|(step, _)| step.is_multiple_of(every));
-        }
-        self
+    /// The frames whose step is a multiple of `every`, without those that another animation of the same steps wants. All of them where
+    /// one would be left.
+    fn chosen(&self, every: usize) -> Vec<&(usize, Field<f64>)> {
+        let some: Vec<_> = self.frames.iter().filter(|(step, _)| step.is_multiple_of(every.max(1))).collect();
+        if some.len() > 1 { some } else { self.frames.iter().collect() }
     }
 
-    /// The frames as pictures of one scale: `options` with a range of `decades` below the brightest cell that is no light.
-    #[must_use]
-    pub fn pictures(&self, options: &HeatOptions, decades: f64) -> Vec<Scene> {
-        let brightest = |field: &Field<f64>| {
-            let cells = field.iter().filter(|(cell, _)| !options.sources.contains(cell));
-            cells.map(|(_, e)| *e).fold(0.0, f64::max)
-        };
-        let top = self.frames.iter().map(|(_, f)| brightest(f)).fold(0.0, f64::max);
-        let range = (top > 0.0).then(|| (top * tigereye_core::math::pow(10.0, -decades), top));
-        let picture = |(step, energy): &(usize, Field<f64>)| {
-            let title = match options.title.as_str() {
-                "" => format!("step {step}"),
-                title => format!("{title}, step {step}"),
-            };
-            let scale = HeatScale::Logarithmic { decades };
-            heat_map(energy, &HeatOptions { title, scale, range, ..options.clone() })
-        };
-        self.frames.iter().map(picture).collect()
-    }
-
-    /// The same as an animated PNG.
+    /// The frames of every `every`-th step as an animated PNG, and how many they are: pictures of one scale, `options` with a range of
+    /// `decades` below the brightest cell that is no light. Where they have too many pixels, every second one goes, as often as
+    /// it takes.
     ///
     /// # Errors
     /// As [`animation`].
-    pub fn encoded(&self, options: &HeatOptions, decades: f64) -> Result<Vec<u8>, RenderError> {
-        animation(&self.pictures(options, decades), Pace::default())
+    pub fn encoded(
+        &self,
+        options: &HeatOptions,
+        decades: f64,
+        every: usize,
+    ) -> Result<(Vec<u8>, usize), RenderError> {
+        let mut frames = self.chosen(every);
+        let range = range_of(&frames, &options.sources, decades);
+        if let Some(last) = frames.last() {
+            let one = picture(last, options, decades, range);
+            frames = fitting(frames, one.width_px * one.height_px);
+        }
+        let drawn = |i: usize| picture(frames[i], options, decades, range);
+        Ok((animation(frames.len(), drawn, Pace::default())?, frames.len()))
     }
+}
+
+/// Every frame, or every second, fourth, ... of them, so that they have no more pixels than an animation may.
+fn fitting<T>(mut frames: Vec<T>, pixels: f64) -> Vec<T> {
+    while frames.len() > 2 && pixels * frames.len() as f64 > MAX_ANIMATED_PIXELS as f64 {
+        frames = frames.into_iter().step_by(2).collect();
+    }
+    frames
+}
+
+/// From `decades` below the brightest cell of all frames that is no light up to it.
+fn range_of(frames: &[&(usize, Field<f64>)], sources: &[Cell], decades: f64) -> Option<(f64, f64)> {
+    let brightest = |field: &Field<f64>| {
+        let cells = field.iter().filter(|(cell, _)| !sources.contains(cell));
+        cells.map(|(_, e)| *e).fold(0.0, f64::max)
+    };
+    let top = frames.iter().map(|(_, f)| brightest(f)).fold(0.0, f64::max);
+    (top > 0.0).then(|| (top * tigereye_core::math::pow(10.0, -decades), top))
+}
+
+fn picture(
+    (step, energy): &(usize, Field<f64>),
+    options: &HeatOptions,
+    decades: f64,
+    range: Option<(f64, f64)>,
+) -> Scene {
+    let title = match options.title.as_str() {
+        "" => format!("step {step}"),
+        title => format!("{title}, step {step}"),
+    };
+    let scale = HeatScale::Logarithmic { decades };
+    heat_map(energy, &HeatOptions { title, scale, range, ..options.clone() })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tigereye_core::{Directions, Grid};
+    use tigereye_core::Grid;
 
-    fn light(energy: f64) -> LightDistribution {
-        let grid = Grid::new(3, 2).expect("a grid");
-        let d = Directions::new(8).expect("directions");
-        LightDistribution::new(d, vec![energy; 8 * 6], Field::from_fn(grid, |_| [0.0; 8]))
+    fn light(energy: f64) -> Field<f64> {
+        Field::from_fn(Grid::new(3, 2).expect("a grid"), |_| energy)
     }
 
     #[test]
     fn long_propagations_keep_frames_at_equal_distances() {
         let mut reel = Reel::new(6, 3);
         for step in 0..10_000 {
-            reel.add(&light(f64::from(step)));
+            reel.add(|| light(f64::from(step)));
         }
         let steps: Vec<usize> = reel.frames.iter().map(|(step, _)| *step).collect();
         assert!(reel.len() <= MAX_FRAMES && reel.len() > MAX_FRAMES / 2);
@@ -118,8 +141,8 @@ mod tests {
     #[test]
     fn animations_of_the_same_steps_take_their_own_frames() {
         let mut reel = Reel::new(6, 2);
-        (0..25).for_each(|step| reel.add(&light(f64::from(step))));
-        let steps = |every| reel.clone().thinned(every).frames.iter().map(|f| f.0).collect::<Vec<_>>();
+        (0..25).for_each(|step| reel.add(|| light(f64::from(step))));
+        let steps = |every| reel.chosen(every).iter().map(|f| f.0).collect::<Vec<_>>();
         assert_eq!((reel.len(), steps(6)), (13, vec![0, 6, 12, 18, 24]));
         assert_eq!(steps(1000).len(), 13, "one frame alone is no animation");
     }
@@ -127,11 +150,22 @@ mod tests {
     #[test]
     fn frames_share_their_colours() {
         let mut reel = Reel::new(6, 1);
-        reel.add(&light(1.0));
-        reel.add(&light(1e-3));
-        let pictures = reel.pictures(&HeatOptions::default(), 4.0);
-        assert_eq!(pictures[0].title, "step 0");
-        assert_ne!(pictures[0].items, pictures[1].items);
-        assert!(!reel.is_empty());
+        reel.add(|| light(1.0));
+        reel.add(|| light(1e-3));
+        let frames = reel.chosen(1);
+        let range = range_of(&frames, &[], 4.0);
+        let [a, b] = [0, 1].map(|i| picture(frames[i], &HeatOptions::default(), 4.0, range));
+        assert_eq!(a.title, "step 0");
+        assert_ne!(a.items, b.items);
+        let (bytes, count) = reel.encoded(&HeatOptions::default(), 4.0, 1).expect("an animation");
+        assert!(count == 2 && !reel.is_empty() && bytes.starts_with(b"\x89PNG"));
+    }
+
+    #[test]
+    fn animations_of_too_many_pixels_lose_frames() {
+        let megapixels = |n: f64| n * f64::from(1 << 20);
+        assert_eq!(fitting((0..40).collect(), megapixels(20.0)).len(), 40);
+        assert_eq!(fitting((0..41).collect(), megapixels(40.0)), (0..41).step_by(2).collect::<Vec<_>>());
+        assert_eq!(fitting((0..41).collect(), megapixels(1000.0)), [0, 32]);
     }
 }

@@ -126,7 +126,7 @@ pub(crate) fn run_all(settings: &Settings, memory_bytes: u64, host: &dyn Host) -
     for (name, run) in &settings.runs {
         let Some(medium) = settings.medium(run.field()) else { continue };
         if let Some(scene) = medium.scene() {
-            results.surfaces.insert(name.clone(), scene.built.surfaces.clone());
+            results.surfaces.insert(name.clone(), scene.layout.surfaces.clone());
         }
         let start = host.seconds();
         match run {
@@ -182,7 +182,7 @@ fn run_light(
     let mut radii = if settings.trace_radius { vec![energy_radius(&start.energy())] } else { Vec::new() };
     let mut reel = settings.reel_every.map(|every| Reel::new(medium.grid().cells(), every));
     if let Some(reel) = &mut reel {
-        reel.add(&start);
+        reel.add(|| start.energy());
     }
     if settings.frames.contains(&0) {
         frames.insert(0, start);
@@ -194,7 +194,7 @@ fn run_light(
             radii.push(energy_radius(&view.distribution().energy()));
         }
         if let Some(reel) = &mut reel {
-            reel.add(&view.distribution());
+            reel.add(|| view.energies());
         }
         if settings.frames.binary_search(&view.step()).is_ok() {
             frames.insert(view.step(), view.distribution());

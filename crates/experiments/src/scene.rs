@@ -3,17 +3,24 @@
 use crate::host::Host;
 use crate::input::format_of;
 use crate::provenance::{hash_of_bytes, hash_of_field};
-use crate::settings::{beside, make_field, normalization_of};
+use crate::settings::{LightFault, beside, cell_of, lights_of, make_field, normalization_of};
 use crate::shortened;
 use crate::spec::{
-    self, FieldSource, LightSource, MaterialSource, Point, SceneFile, ScenePart, ShapeSource, SpecError,
+    self, FieldSource, LightSource, MaterialSource, Point, ProfileShape, SceneFile, ScenePart, ShapeSource,
+    SourceText, SpecError,
 };
-use tigereye_core::{Cell, Directions, Field, Grid, Surface};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use tigereye_core::{Cell, Directions, Field, Grid, Surface, TransmissionField};
 use tigereye_io::picture;
-use tigereye_scenes::{BuiltScene, Fault, Mask, Material, Part, Scene, SceneError, Shape, leaks};
+use tigereye_scenes::{Fault, Layout, Mask, Material, Part, Scene, SceneError, Shape, leaks};
+use tigereye_transport::Light;
 
 /// Ending of files that hold a scene; other `.ron` files below `experiments/` are experiments, or fields.
 pub const ENDING: &str = ".scene.ron";
+
+/// Samples in which profiles are checked.
+const SAMPLES: usize = 32;
 
 /// Most cells of all crystals' fields together.
 const MAX_CRYSTAL_CELLS: usize = 4 * Scene::MAX_CELLS;
@@ -25,6 +32,9 @@ pub fn is_scene_file(name: &str) -> bool {
     name == &ENDING[1..] || name.ends_with(ENDING)
 }
 
+/// Line and column, from 1.
+type Place = (usize, usize);
+
 /// A scene, ready to be built for any number of directions.
 #[derive(Clone, Debug)]
 pub struct PreparedScene {
@@ -32,33 +42,50 @@ pub struct PreparedScene {
     pub title: String,
     /// Its parts.
     pub scene: Scene,
-    /// What each cell is.
-    pub built: BuiltScene,
+    /// What lies where.
+    pub layout: Layout,
     /// Its lights.
     pub lights: Vec<LightSource>,
+    /// Where their profiles stand in the file.
+    profiles_at: Vec<Place>,
+    /// Name of the file.
+    file: String,
     /// Hash of the file and of what it names, hex.
     pub blake3: String,
 }
 
 impl PreparedScene {
-    /// The scene with its transmission in `directions`.
+    /// What its cells do to light, in `directions`.
     ///
     /// # Errors
-    /// [`SceneError`]; none where the scene was checked, but for memory.
-    pub fn in_directions(&self, directions: Directions) -> Result<BuiltScene, SceneError> {
-        self.scene.built(directions)
+    /// As [`Scene::transmission`]; none for a scene that [`prepare`] has checked.
+    pub fn transmission(&self, directions: Directions) -> Result<TransmissionField, SceneError> {
+        self.scene.transmission(&self.layout, directions)
+    }
+
+    /// The lights, with their profiles in `directions`.
+    ///
+    /// # Errors
+    /// Every light whose profile these directions do not have, with its place in the scene's file.
+    pub fn lights_in(&self, directions: Directions) -> Result<Vec<Light>, Vec<SpecError>> {
+        let of_file = |fault: LightFault| {
+            let (line, column) = self.profiles_at[fault.index];
+            SpecError { file: self.file.clone(), line, column, problem: shortened(&fault.problem) }
+        };
+        lights_of(&self.lights, self.scene.grid, directions)
+            .map_err(|faults| faults.into_iter().map(of_file).collect())
     }
 
     /// Cells that pass light on.
     #[must_use]
     pub fn open(&self) -> Field<bool> {
-        Field::from_fn(self.scene.grid, |cell| !self.built.is_wall(cell))
+        Field::from_fn(self.scene.grid, |cell| !self.layout.is_wall(cell))
     }
 
     /// What looks wrong: walls that light passes between.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
-        let gaps = leaks(&self.built);
+        let gaps = leaks(&self.layout);
         let Some([a, b]) = gaps.first() else { return Vec::new() };
         let more = match gaps.len() {
             1 => String::new(),
@@ -77,21 +104,29 @@ impl PreparedScene {
 /// Every problem found, with line and column.
 pub fn prepare(path: &str, text: &str, host: &dyn Host) -> Result<PreparedScene, Vec<SpecError>> {
     let file = spec::load_scene(path, text).map_err(|e| vec![e])?;
+    let source = SourceText::new(text);
     let mut reader = Reader {
         path,
-        text,
         host,
+        parts: source.items("parts:"),
+        lights: source.items("lights:"),
+        source,
         problems: Vec::new(),
         hashes: hash_of_bytes(text.as_bytes()),
+        masks: BTreeMap::new(),
+        mask_cells: 0,
         crystal_cells: 0,
     };
     let grid = match Grid::new(file.width, file.height) {
         Ok(grid) if grid.cells() <= Scene::MAX_CELLS => grid,
         Ok(_) => {
             let fault = Fault::Size { width: file.width, height: file.height };
-            return Err(vec![reader.fault(&[], "width", &fault.to_string())]);
+            return Err(vec![reader.fault("width:", &fault.to_string())]);
         }
-        Err(e) => return Err(vec![reader.fault(&[], "width", &e.to_string())]),
+        Err(e) => {
+            let key = if file.width > 0 && file.height == 0 { "height:" } else { "width:" };
+            return Err(vec![reader.fault(key, &e.to_string())]);
+        }
     };
     let parts: Vec<Option<Part>> =
         file.parts.iter().enumerate().map(|(i, part)| reader.part(i, part, grid)).collect();
@@ -99,22 +134,25 @@ pub fn prepare(path: &str, text: &str, host: &dyn Host) -> Result<PreparedScene,
         return Err(reader.problems);
     }
     let scene = Scene { grid, parts: parts.into_iter().flatten().collect() };
-    for fault in scene.faults() {
-        reader.fault_of_scene(&fault);
-    }
-    if !reader.problems.is_empty() {
-        return Err(reader.problems);
-    }
+    let layout = match scene.layout() {
+        Ok(layout) => layout,
+        Err(faults) => {
+            for fault in faults {
+                reader.fault_of_scene(&fault);
+            }
+            return Err(reader.problems);
+        }
+    };
     let Ok(few) = Directions::new(8) else { unreachable!("8 is a multiple of 8") };
-    let built = scene.built(few).map_err(|fault| {
+    if let Err(fault) = scene.transmission(&layout, few) {
         reader.fault_of_scene(&fault);
-        std::mem::take(&mut reader.problems)
-    })?;
-    reader.lights(&file, &built);
+    }
+    let profiles_at = reader.lights(&file, &layout);
     match reader.problems.is_empty() {
         true => {
             let blake3 = hash_of_bytes(reader.hashes.as_bytes());
-            Ok(PreparedScene { title: file.title, scene, built, lights: file.lights, blake3 })
+            let (title, lights) = (file.title, file.lights);
+            Ok(PreparedScene { title, scene, layout, lights, profiles_at, file: path.to_owned(), blake3 })
         }
         false => Err(reader.problems),
     }
@@ -122,27 +160,36 @@ pub fn prepare(path: &str, text: &str, host: &dyn Host) -> Result<PreparedScene,
 
 struct Reader<'a> {
     path: &'a str,
-    text: &'a str,
     host: &'a dyn Host,
+    source: SourceText<'a>,
+    /// Where the parts stand.
+    parts: Vec<Range<usize>>,
+    /// Where the lights stand.
+    lights: Vec<Range<usize>>,
     problems: Vec<SpecError>,
     /// Hashes of all that was read.
     hashes: String,
+    /// Bitmaps that were read, by their names and whether they are inverted.
+    masks: BTreeMap<(String, bool), Mask>,
+    /// Pixels of the bitmaps so far.
+    mask_cells: usize,
     /// Cells of the crystals' fields so far.
     crystal_cells: usize,
 }
 
 impl Reader<'_> {
-    /// A fault at `word`, behind the anchors.
-    fn fault(&self, anchors: &[&str], word: &str, problem: &str) -> SpecError {
-        let (line, column) = spec::place_after(self.text, anchors, word);
+    /// A fault at a key of the scene itself.
+    fn fault(&self, key: &str, problem: &str) -> SpecError {
+        self.fault_at(self.source.place_after(&[], key), problem)
+    }
+
+    fn fault_at(&self, (line, column): Place, problem: &str) -> SpecError {
         SpecError { file: self.path.to_owned(), line, column, problem: shortened(problem) }
     }
 
-    /// Reports a fault at `word` of an item of a list.
-    fn fault_in(&mut self, list: &str, index: usize, word: &str, problem: &str) {
-        let (line, column) = spec::place_in_list(self.text, list, index, word);
-        let problem = shortened(problem);
-        self.problems.push(SpecError { file: self.path.to_owned(), line, column, problem });
+    /// The place of a key in one of the parts or lights, or of that one where it has no such key.
+    fn place_in(&self, items: &[Range<usize>], index: usize, key: &str) -> Place {
+        items.get(index).map_or((1, 1), |item| self.source.place_in(item.clone(), key))
     }
 
     fn fault_of_scene(&mut self, error: &SceneError) {
@@ -151,10 +198,11 @@ impl Reader<'_> {
             error.fault,
             Fault::Crystal { .. } | Fault::Core(_) | Fault::Share { .. } | Fault::Angle { .. }
         );
-        match error.part {
-            Some(i) => self.fault_in("parts:", i, if of_material { "material:" } else { "shape:" }, &problem),
-            None => self.problems.push(self.fault(&[], "parts", &problem)),
-        }
+        let key = if of_material { "material:" } else { "shape:" };
+        self.problems.push(match error.part {
+            Some(i) => self.fault_at(self.place_in(&self.parts, i, key), &problem),
+            None => self.fault("parts:", &problem),
+        });
     }
 
     fn part(&mut self, index: usize, part: &ScenePart, grid: Grid) -> Option<Part> {
@@ -163,9 +211,10 @@ impl Reader<'_> {
         match (shape, material) {
             (Ok(shape), Ok(material)) => return Some(Part { shape, material }),
             (shape, material) => {
-                for (word, fault) in [("shape:", shape.err()), ("material:", material.err())] {
+                for (key, fault) in [("shape:", shape.err()), ("material:", material.err())] {
                     if let Some(problem) = fault {
-                        self.fault_in("parts:", index, word, &problem);
+                        let place = self.place_in(&self.parts, index, key);
+                        self.problems.push(self.fault_at(place, &problem));
                     }
                 }
             }
@@ -202,9 +251,16 @@ impl Reader<'_> {
         if format_of(name) != "png" {
             return Err(format!("{name}: expected a picture .png"));
         }
-        let bytes = self.host.read(&beside(self.path, name, self.host))?;
-        let picture = picture::read_png(&bytes).map_err(|e| format!("{name}: {e}"))?;
-        let [width, height, _] = picture.size;
+        let key = (name.to_owned(), inverted);
+        let mask = match self.masks.get(&key) {
+            Some(mask) => mask.clone(),
+            None => {
+                let mask = self.read_mask(name, inverted, grid)?;
+                self.masks.insert(key, mask.clone());
+                mask
+            }
+        };
+        let (width, height) = (mask.width(), mask.height());
         let (w, h) = (grid.width(), grid.height());
         match at {
             None if (width, height) != (w, h) => {
@@ -219,8 +275,27 @@ impl Reader<'_> {
             }
             _ => {}
         }
+        Ok(mask)
+    }
+
+    fn read_mask(&mut self, name: &str, inverted: bool, grid: Grid) -> Result<Mask, String> {
+        let bytes = self.host.read(&beside(self.path, name, self.host))?;
+        let fault = |e| format!("{name}: {e}");
+        let [width, height] = picture::size_of_png(&bytes).map_err(fault)?;
+        // Before it is unpacked: a small file may hold a huge picture.
+        if width > grid.width() || height > grid.height() {
+            let (w, h) = (grid.width(), grid.height());
+            return Err(format!(
+                "{name} has {width} x {height} pixels: expected {w} x {h} as the scene has cells, or fewer with `at: (x, y)`"
+            ));
+        }
+        self.mask_cells += width * height;
+        if self.mask_cells as f64 > Scene::MAX_WORK {
+            return Err(format!("the bitmaps have more than {} pixels together", Scene::MAX_WORK));
+        }
+        let picture = picture::read_png(&bytes).map_err(fault)?;
         self.hashes += &hash_of_bytes(&bytes);
-        Ok(Mask::new(width, picture.values.iter().map(|v| (*v < 0.5) != inverted).collect()))
+        Ok(Mask::from_fn(width, height, |c| (picture.values[c.y * width + c.x] < 0.5) != inverted))
     }
 
     fn material(&mut self, source: &MaterialSource) -> Result<Material, String> {
@@ -257,28 +332,50 @@ impl Reader<'_> {
         })
     }
 
-    /// Checks that lights stand in the open.
-    fn lights(&mut self, file: &SceneFile, built: &BuiltScene) {
-        let grid = built.surfaces.grid();
-        for (i, light) in file.lights.iter().enumerate() {
-            let cell = light.cell.map_or(grid.centre(), |(x, y)| Cell::new(x, y));
-            if let Some(problem) = light_fault(built, cell) {
-                self.fault_in("lights:", i, "cell:", &problem);
+    /// Checks that lights can shine, in some directions at least, and stand in the open; the places of their profiles.
+    fn lights(&mut self, file: &SceneFile, layout: &Layout) -> Vec<Place> {
+        let grid = layout.surfaces.grid();
+        let in_wall = |(index, light)| {
+            let problem = light_fault(layout, cell_of(light, grid))?;
+            Some(LightFault { index, key: "cell:", problem })
+        };
+        let mut faults: Vec<LightFault> = file.lights.iter().enumerate().filter_map(in_wall).collect();
+        let misplaced: BTreeSet<usize> = faults.iter().map(|f| f.index).collect();
+        let makes = |lights: &[LightSource], samples: usize| match Directions::new(samples) {
+            Ok(directions) => lights_of(lights, grid, directions).err().unwrap_or_default(),
+            Err(_) => Vec::new(),
+        };
+        for fault in makes(&file.lights, SAMPLES) {
+            let light = &file.lights[fault.index];
+            // Whether a pulse hits a sample is known once the directions are.
+            let is_pulse = fault.key == "profile:" && matches!(light.profile, ProfileShape::Pulse { .. });
+            let of_others = || {
+                (8..=Directions::MAX)
+                    .step_by(8)
+                    .any(|samples| makes(std::slice::from_ref(light), samples).is_empty())
+            };
+            if !(misplaced.contains(&fault.index) || is_pulse && of_others()) {
+                faults.push(fault);
             }
         }
+        for LightFault { index, key, problem } in faults {
+            let place = self.place_in(&self.lights, index, key);
+            self.problems.push(self.fault_at(place, &problem));
+        }
+        (0..file.lights.len()).map(|i| self.place_in(&self.lights, i, "profile:")).collect()
     }
 }
 
 /// What keeps a light from a cell.
 #[must_use]
-pub fn light_fault(built: &BuiltScene, cell: Cell) -> Option<String> {
-    let (grid, Cell { x, y }) = (built.surfaces.grid(), cell);
+pub fn light_fault(layout: &Layout, cell: Cell) -> Option<String> {
+    let (grid, Cell { x, y }) = (layout.surfaces.grid(), cell);
     if !grid.contains(cell) {
         let (w, h) = (grid.width(), grid.height());
         return Some(format!("the light at ({x}, {y}) lies outside of the {w} x {h} cells"));
     }
-    built.is_wall(cell).then(|| {
-        let part = built.parts.at(cell).map(|i| format!(" of part {}", i + 1)).unwrap_or_default();
+    layout.is_wall(cell).then(|| {
+        let part = layout.part_of.at(cell).map(|i| format!(" of part {}", i + 1)).unwrap_or_default();
         format!("the light at ({x}, {y}) is inside a wall{part}: expected a cell that passes light on")
     })
 }

@@ -172,6 +172,7 @@ pub(crate) fn of_quantity(quantity: &Quantity) -> Vec<(&str, RunKind)> {
         | Q::WayLength { run, .. }
         | Q::WayExcess { run, .. }
         | Q::WayDifference { run, .. }
+        | Q::ShortestWays { run }
         | Q::RingShare { run, .. }
         | Q::BoxShare { run, .. }
         | Q::LightSymmetry { run, .. }

@@ -1,7 +1,7 @@
 //! Every fault in a scene's file is refused with its line, its column and what was expected.
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
-use tigereye_core::{Cell, Surface};
+use tigereye_core::{Cell, Directions, Surface};
 use tigereye_experiments::scene::{PreparedScene, is_scene_file, prepare};
 use tigereye_experiments::spec::{self, SpecError};
 use tigereye_experiments::{Host, settings};
@@ -84,7 +84,7 @@ fn refused(from: &str, to: &str, at: &str, words: &[&str]) {
 #[test]
 fn every_kind_of_part_is_read() {
     let scene = read(GOOD).unwrap();
-    let at = |x, y| *scene.built.surfaces.at(Cell::new(x, y));
+    let at = |x, y| *scene.layout.surfaces.at(Cell::new(x, y));
     // The dark pixels are filters, over all that was there, the bright one is empty again.
     assert_eq!(at(1, 1), Some(Surface::Filter { transmittance: 0.25 }));
     assert_eq!(at(9, 10), None);
@@ -144,6 +144,13 @@ fn materials_that_cannot_be_are_refused_at_their_place() {
         &["there is no `Glass` here: expected one of `Empty`, `Absorber`, `Filter`"],
     );
     refused("reflectance: 0.5", "reflectance: 1.5", "1.5)", &["0 to 1"]);
+    refused("Filter(0.25)", "Filter(part: 0.25)", "part: 0.25", &["expected a number"]);
+    refused(
+        "    ],\n    lights",
+        "    lights",
+        "lights: [\n        (cell",
+        &["there is `lights`", "bracket"],
+    );
     refused(
         "width: 21, height: 13, phi",
         "width: 12, height: 13, phi",
@@ -181,7 +188,63 @@ fn lights_in_walls_and_outside_are_refused_at_their_place() {
 }
 
 #[test]
+fn lights_that_cannot_shine_are_refused_at_their_place() {
+    let beam = "profile: Emitter(theta_deg: 0, power: 1)";
+    let expression = |text: &str| format!("profile: Expression(\"{text}\")");
+    refused(beam, &expression("cos(theta"), "profile: Expression", &["the light at (3, 2)", "column 10"]);
+    refused(beam, &expression("1/0"), "profile: Expression", &["the light at (3, 2)", "`1/0`"]);
+    refused(beam, &expression("-1"), "profile: Expression", &["(3, 2)", "0 in every direction"]);
+    refused("cell: (3, 2)", "cell: (2, 2)", "cell: (2, 2), emission", &["(2, 2)", "two lights"]);
+    refused(beam, "profile: Pulse(theta_deg: 7.123)", "profile: Pulse", &["7.123 degrees is no sample"]);
+    // Which directions there are is not the scene's business, and faults of theirs have its place all the same.
+    let scene = read(&GOOD.replace(beam, "profile: Pulse(theta_deg: 2.5)")).unwrap();
+    let d = |samples| Directions::new(samples).unwrap();
+    assert_eq!(scene.lights_in(d(144)).unwrap().len(), 2);
+    let problem = scene.lights_in(d(16)).unwrap_err().remove(0).to_string();
+    assert!(problem.starts_with("room/a.scene.ron:21:43: the light at (3, 2): 2.5 degrees"), "{problem}");
+}
+
+#[test]
+fn places_do_not_depend_on_how_the_file_is_written() {
+    let disc = ("Disc(centre: (6, 6), radius: 2)", "Disc(centre: (60, 6), radius: 2)");
+    let places: Vec<(&str, &str)> = vec![
+        ("    parts: [", "    /* parts: [ (shape: 1), */ parts: ["),
+        ("    parts: [", "    parts : /* [ */\n ["),
+        ("\"parts: [ and (brackets\"", "r#\"parts: [ \" and (brackets\"#"),
+        ("\"parts: [ and (brackets\"", "\"parts: [ \\\" lights: [\""),
+        ("(shape: Outline", "( /* , ) shape: */ shape: Outline"),
+        ("(shape: Disc", "( // shape:\n shape: Disc"),
+    ];
+    for (from, to) in places {
+        let text = GOOD.replacen(disc.0, disc.1, 1).replacen(from, to, 1);
+        assert!(text.contains(to), "{from}");
+        let problem = &read(&text).unwrap_err()[0];
+        let place = text.find("shape: Disc(centre: (60").unwrap();
+        let line = text[..place].matches('\n').count() + 1;
+        let column = place - text[..place].rfind('\n').map_or(0, |n| n + 1) + 1;
+        assert_eq!((problem.line, problem.column), (line, column), "{to}: {problem}");
+    }
+}
+
+/// A small file may name one picture a thousand times, or one that unpacks to many pixels.
+#[test]
+fn many_bitmaps_cost_no_more_than_their_cells() {
+    let part = "(shape: Bitmap(path: \"marks.png\"), material: Filter(0.5)),\n";
+    let text = |n: usize, side: usize| {
+        format!("(format: 1, title: \"t\", width: {side}, height: {side}, parts: [\n{}])", part.repeat(n))
+    };
+    let host = |side: u32| Files(vec![("room/marks.png".to_owned(), picture(side, side, |x, _| x > 0))]);
+    let tried = |n, side: usize, of: u32| prepare("room/a.scene.ron", &text(n, side), &host(of));
+    assert_eq!(tried(200, 300, 300).unwrap().scene.parts.len(), 200);
+    let problems = tried(1200, 300, 300).unwrap_err();
+    assert!(problems[0].line > 1000 && problems[0].problem.contains("too many"), "{}", problems[0]);
+    let problems = tried(1, 300, 2000).unwrap_err();
+    assert!(problems[0].problem.contains("2000 x 2000 pixels: expected 300 x 300"), "{}", problems[0]);
+}
+
+#[test]
 fn scenes_that_are_too_large_are_refused() {
+    refused("height: 13,\n", "height: 0,\n", "height: 0", &["21 x 0"]);
     refused("width: 21,\n", "width: 2100000,\n", "width: 2100000", &["too large"]);
     refused("width: 21,\n", "width: 0,\n", "width: 0", &["0 x 13"]);
     refused("format: 1", "format: 2", "format", &["format 2"]);
@@ -222,9 +285,10 @@ const EXPERIMENT: &str = r#"(
     scenes: { "room": "a.scene.ron" },
     runs: {
         "glow": Light(field: "room", stop: Steps(5)),
+        "bare": Light(field: "plain", lights: [(cell: (2, 2))], stop: Steps(5)),
     },
     figures: [
-        (name: "a", caption: "c", panels: [Energy(run: "glow", title: "t")], animation: (run: "glow")),
+        (name: "a", caption: "c", panels: [Energy(run: "glow", title: "t"), Energy(run: "bare", title: "u")], animation: (run: "glow")),
     ],
     checks: [
         (name: "n", quantity: Steps(run: "glow"), expect: Near(5, 0), basis: "b"),
@@ -238,6 +302,10 @@ fn problems(from: &str, to: &str) -> String {
     let host = Files(vec![
         ("a.scene.ron".to_owned(), GOOD.as_bytes().to_vec()),
         ("marks.png".to_owned(), picture),
+        (
+            "pulse.scene.ron".to_owned(),
+            GOOD.replace("Emitter(theta_deg: 0, power: 1)", "Pulse(theta_deg: 2.5)").into_bytes(),
+        ),
         ("bad.scene.ron".to_owned(), b"(format: 1)".to_vec()),
     ]);
     let experiment = match spec::load("e.ron", &text) {
@@ -269,14 +337,20 @@ fn experiments_take_scenes_where_light_runs_and_nowhere_else() {
     assert!(bad.starts_with("bad.scene.ron:1:"), "{bad}");
     let wall = problems("field: \"room\",", "field: \"room\", lights: [(cell: (0, 0))],");
     assert_eq!(wall, "", "the picture's filters cover the walls");
+    let pulse = problems("a.scene.ron", "pulse.scene.ron");
+    assert!(pulse.starts_with("pulse.scene.ron:21:43: ") && pulse.contains("no sample"), "{pulse}");
     let outside = problems("field: \"room\",", "field: \"room\", lights: [(cell: (40, 0))],");
     assert!(outside.contains("outside"), "{outside}");
     let animation = problems("animation: (run: \"glow\")", "animation: (run: \"glare\")");
     assert!(animation.contains("names a run \"glare\""), "{animation}");
     let never = problems("animation: (run: \"glow\")", "animation: (run: \"glow\", every: 0)");
-    assert!(never.starts_with("e.ron:9:"), "{never}");
+    assert!(never.starts_with("e.ron:10:"), "{never}");
     let way = problems("Steps(run: \"glow\")", "WayLength(run: \"glow\", to: (30, 2))");
     assert!(way.contains("(30, 2)"), "{way}");
+    let solved = problems("Steps(run: \"glow\")", "ShortestWays(run: \"glow\")");
+    assert_eq!(solved, "");
+    let bare = problems("Steps(run: \"glow\")", "ShortestWays(run: \"bare\")");
+    assert!(bare.contains("\"bare\" runs through a field"), "{bare}");
     let no_scene = problems("field: \"room\",", "field: \"plain\", lights: [(cell: (2, 2))],");
     assert_eq!(no_scene, "");
 }

@@ -184,12 +184,12 @@ fn missing_keys() {
 
 #[test]
 fn wrong_types() {
+    refused("format: 1", "format: \"one\"", "\"one\"", &["expected a whole number"]);
+    refused("title: \"Title\"", "title: 5", "5", &["expected text in quotes"]);
     // The parser's own sentences start with a capital.
-    refused("format: 1", "format: \"one\"", "\"one\"", &["xpected integer"]);
-    refused("title: \"Title\"", "title: 5", "5", &["xpected string"]);
     refused("cell: (4, 4)", "cell: (4, 4.5)", "4.5", &["xpected"]);
-    refused("frames: [3, 8]", "frames: 3", "3", &["xpected"]);
-    refused("{\"size\": 9}", "[\"size\", 9]", "[", &["xpected"]);
+    refused("frames: [3, 8]", "frames: 3", "3", &["expected a list"]);
+    refused("{\"size\": 9}", "[\"size\", 9]", "[", &["expected names with values"]);
     refused("{\"size\": 9}", "{\"size\": [9]}", "[9]", &["expected a number, true, false or a string"]);
 }
 

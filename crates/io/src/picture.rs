@@ -7,16 +7,42 @@ use std::io::Cursor;
 /// Weights of red, green and blue (ITU-R BT.709), applied to the stored values.
 const LUMA: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// Reads a PNG picture: brightness from 0 to 1, row 0 on top, pixels at distance 1. Transparency is left out.
+/// Columns and rows of a PNG picture, by its header alone.
+///
+/// # Errors
+/// [`IoError::Png`].
+pub fn size_of_png(bytes: &[u8]) -> Result<[usize; 2], IoError> {
+    let reader = reader(bytes)?;
+    Ok([reader.info().width as usize, reader.info().height as usize])
+}
+
+fn reader(bytes: &[u8]) -> Result<png::Reader<Cursor<&[u8]>>, IoError> {
+    let mut decoder = png::Decoder::new(Cursor::new(bytes));
+    // Palettes and bits become bytes, a colour that stands for nothing an alpha channel.
+    decoder.set_transformations(png::Transformations::EXPAND);
+    decoder.read_info().map_err(fault)
+}
+
+#[allow(clippy::needless_pass_by_value, reason = "for map_err")]
+fn fault(e: png::DecodingError) -> IoError {
+    IoError::Png { problem: e.to_string() }
+}
+
+fn luma(r: f64, g: f64, b: f64) -> f64 {
+    LUMA[0] * r + LUMA[1] * g + LUMA[2] * b
+}
+
+fn over_white(brightness: f64, alpha: f64) -> f64 {
+    alpha * brightness + (1.0 - alpha)
+}
+
+/// Reads a PNG picture: brightness from 0 to 1, row 0 on top, pixels at distance 1. What is transparent shows white
+/// behind it.
 ///
 /// # Errors
 /// [`IoError::Png`], [`IoError::TooManyCells`].
 pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
-    let fault = |e: png::DecodingError| IoError::Png { problem: e.to_string() };
-    let mut decoder = png::Decoder::new(Cursor::new(bytes));
-    // Palettes and bits become bytes.
-    decoder.set_transformations(png::Transformations::EXPAND);
-    let mut reader = decoder.read_info().map_err(fault)?;
+    let mut reader = reader(bytes)?;
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);
     let (cells, limit) = (width as u128 * height as u128, Limits::default().cells);
     if cells > u128::from(limit) {
@@ -38,7 +64,9 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
             row.data().iter().map(|&b| f64::from(b) / 255.0).collect()
         };
         values.extend(samples.chunks_exact(channels).map(|p| match p {
-            [r, g, b, ..] => LUMA[0] * r + LUMA[1] * g + LUMA[2] * b,
+            [grey, alpha] => over_white(*grey, *alpha),
+            [r, g, b] => luma(*r, *g, *b),
+            [r, g, b, alpha] => over_white(luma(*r, *g, *b), *alpha),
             _ => p[0],
         }));
     }

@@ -150,9 +150,17 @@ fn pictures_become_brightness() {
     assert_eq!(brightness(&deep), [1.0, 0.0]);
     let bits = png(ColorType::Grayscale, BitDepth::One, 3, 1, &[0b1010_0000]);
     assert_eq!(brightness(&bits), [1.0, 0.0, 1.0]);
-    let colours = png(ColorType::Rgba, BitDepth::Eight, 2, 1, &[255, 0, 0, 9, 255, 255, 255, 0]);
+    let colours = png(ColorType::Rgb, BitDepth::Eight, 2, 1, &[255, 0, 0, 255, 255, 255]);
     let found = brightness(&colours);
     assert!((found[0] - 0.2126).abs() < 1e-12 && (found[1] - 1.0).abs() < 1e-12, "{found:?}");
+    // What is transparent shows white.
+    let clear = png(ColorType::Rgba, BitDepth::Eight, 3, 1, &[255, 0, 0, 51, 0, 0, 0, 0, 0, 0, 0, 255]);
+    let found = brightness(&clear);
+    assert!((found[0] - (0.2 * 0.2126 + 0.8)).abs() < 1e-12 && found[1..] == [1.0, 0.0], "{found:?}");
+    let clear = png(ColorType::GrayscaleAlpha, BitDepth::Eight, 3, 1, &[0, 0, 0, 255, 0, 51]);
+    assert_eq!(brightness(&clear), [1.0, 0.0, 0.8]);
+    assert_eq!(picture::size_of_png(&clear).unwrap(), [3, 1]);
+    assert!(picture::size_of_png(&clear[..20]).is_err());
     for end in 0..grey.len() - 12 {
         assert!(matches!(picture::read_png(&grey[..end]), Err(IoError::Png { .. })), "cut at {end}");
     }

@@ -93,7 +93,7 @@ impl TensorLine {
 /// A line that passes its seed at this distance or nearer, in its first direction, is closed; cells.
 const CLOSING: f64 = 0.05;
 
-/// The line through `seed`, followed in both directions. A step that is not positive, or a length of more than 10^7 steps,
+/// The line through `seed`, followed in both directions. A step that is not positive, or a length of more than [`LineOptions::MAX_STEPS`],
 /// gives a line of one point. A seed outside of the field, or where the tensor has no axis, is a line of one point. Lines end
 /// where `keep` says no to their next point.
 #[must_use]

@@ -28,8 +28,8 @@ fn ring_bytes<T: Real>(grid: Grid, columns: usize, set: &DirectionSet) -> u128 {
 /// Bytes that a sweep takes whatever its strips.
 fn fixed_bytes<T: Real>(grid: Grid, directions: Directions, slices: usize, bounds: Bounds) -> u128 {
     let (cells, samples) = (grid.cells() as u128, directions.count() as u128);
-    // Transmission profiles (twice while they are made) and matrices in two forms.
-    let prepared = cells * (2 * samples * 8 + 168 + 136);
+    // Transmission profiles and matrices in two forms.
+    let prepared = cells * (samples * 8 + 168 + 136);
     // The gradient itself, and twice its bytes while a checkpoint is read or written.
     let values = cells * slices as u128 * 3 * 8;
     let solver = PulseSolver::<T>::bytes(grid, &bounds.stopping)

@@ -20,37 +20,40 @@ impl Default for Pace {
 }
 
 /// Most pixels of all frames together: some seconds of work.
-const MAX_PIXELS: u64 = 1 << 30;
+pub const MAX_ANIMATED_PIXELS: u64 = 1 << 30;
 
-/// The frames as an animated PNG that never ends, on white and as large as the largest of them. Programs that know no
-/// animations show the first. The same frames give the same bytes.
+/// `count` frames as an animated PNG that never ends, on white and as large as the larger of the first and the last. Programs that
+/// know no animations show the first. The same frames give the same bytes.
 ///
-/// Behind the first, a frame holds the rectangle that changes only.
+/// Behind the first, a frame holds the rectangle that changes only. They are drawn one after the other, so that no more than two are
+/// there at a time; the last one once more for its size.
 ///
 /// # Errors
-/// As [`Scene::to_png`]; [`RenderError::Frames`] for none, or too many pixels.
-pub fn animation(frames: &[Scene], pace: Pace) -> Result<Vec<u8>, RenderError> {
-    let longest = |side: fn(&Scene) -> f64| frames.iter().map(side).fold(0.0, f64::max);
-    let (width_px, height_px) = (longest(|s| s.width_px), longest(|s| s.height_px));
-    let all = width_px * height_px * frames.len() as f64;
-    let count = u32::try_from(frames.len()).unwrap_or(u32::MAX);
-    if frames.is_empty() || all > MAX_PIXELS as f64 {
-        return Err(RenderError::Frames { frames: frames.len(), pixels: all, most: MAX_PIXELS });
+/// As [`Scene::to_png`]; [`RenderError::Frames`] for none, or more pixels than [`MAX_ANIMATED_PIXELS`].
+pub fn animation(count: usize, frame: impl Fn(usize) -> Scene, pace: Pace) -> Result<Vec<u8>, RenderError> {
+    let too_many = |pixels| RenderError::Frames { frames: count, pixels, most: MAX_ANIMATED_PIXELS };
+    let Some(end) = count.checked_sub(1) else { return Err(too_many(0.0)) };
+    let (first, last) = (frame(0), frame(end));
+    let (width_px, height_px) = (first.width_px.max(last.width_px), first.height_px.max(last.height_px));
+    let all = width_px * height_px * count as f64;
+    if all > MAX_ANIMATED_PIXELS as f64 {
+        return Err(too_many(all));
     }
+    let frames = u32::try_from(count).unwrap_or(u32::MAX);
     let mut bytes = Vec::new();
-    let mut shown = pixels(&frames[0], width_px, height_px)?;
+    let mut shown = pixels(&first, width_px, height_px)?;
     let [width, height] = shown.size;
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Balanced);
-    encoder.set_animated(count, 0).map_err(fault)?;
-    let delay = |i: usize| if i + 1 == frames.len() { pace.last_ms } else { pace.frame_ms };
+    encoder.set_animated(frames, 0).map_err(fault)?;
+    let delay = |i: usize| if i == end { pace.last_ms } else { pace.frame_ms };
     encoder.set_frame_delay(delay(0), 1000).map_err(fault)?;
     let mut writer = encoder.write_header().map_err(fault)?;
     writer.write_image_data(&shown.rgb).map_err(fault)?;
-    for (i, frame) in frames.iter().enumerate().skip(1) {
-        let next = pixels(frame, width_px, height_px)?;
+    for i in 1..count {
+        let next = pixels(&frame(i), width_px, height_px)?;
         let part = changed(&shown.rgb, &next.rgb, width as usize);
         writer.reset_frame_position().map_err(fault)?;
         writer.set_frame_dimension(part.width as u32, part.height as u32).map_err(fault)?;
@@ -114,7 +117,8 @@ mod tests {
     #[test]
     fn every_frame_comes_back_as_it_was_drawn() {
         let frames: Vec<Scene> = [3, 4, 4, 9].map(frame).to_vec();
-        let bytes = animation(&frames, Pace { frame_ms: 50, last_ms: 700 }).expect("an animation");
+        let animated = || animation(frames.len(), |i| frames[i].clone(), Pace { frame_ms: 50, last_ms: 700 });
+        let bytes = animated().expect("an animation");
         let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes)).read_info().expect("a header");
         let control = *reader.info().animation_control().expect("an animation");
         assert_eq!((control.num_frames, control.num_plays), (4, 0));
@@ -135,14 +139,14 @@ mod tests {
             assert!(drawn.rgb == canvas);
         }
         assert_eq!(delays, [50, 50, 50, 700]);
-        assert_eq!(bytes, animation(&frames, Pace { frame_ms: 50, last_ms: 700 }).expect("an animation"));
+        assert_eq!(bytes, animated().expect("an animation"));
     }
 
     #[test]
     fn animations_without_end_are_refused() {
-        assert!(matches!(animation(&[], Pace::default()), Err(RenderError::Frames { frames: 0, .. })));
-        let large = Scene::sized(8000.0, 8000.0);
-        let many = vec![large; 100];
-        assert!(matches!(animation(&many, Pace::default()), Err(RenderError::Frames { frames: 100, .. })));
+        let large = |_| Scene::sized(8000.0, 8000.0);
+        let made = |count| animation(count, large, Pace::default());
+        assert!(matches!(made(0), Err(RenderError::Frames { frames: 0, .. })));
+        assert!(matches!(made(100), Err(RenderError::Frames { frames: 100, .. })));
     }
 }

@@ -32,7 +32,7 @@ mod svg;
 mod texture;
 mod walls;
 
-pub use animation::{Pace, animation};
+pub use animation::{MAX_ANIMATED_PIXELS, Pace, animation};
 pub use chart::{Chart, ChartAxis, Reference, Series, line_chart};
 pub use colour::{ColourMap, Rgba, SERIES_PALETTE};
 pub use error::RenderError;

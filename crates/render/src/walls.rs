@@ -9,19 +9,19 @@ use tigereye_core::{Cell, Field, Surface, math};
 const ABSORBING: Rgba = Rgba::hex(0x3b3b3b);
 const MIRROR: Rgba = Rgba::hex(0xa9bfd3);
 const MIRROR_LINE: Rgba = Rgba::hex(0x1f5f8b);
-const MATT: Rgba = Rgba::hex(0xb9a98c);
-const MATT_DOT: Rgba = Rgba::hex(0x6d5c3f);
+const DIFFUSE: Rgba = Rgba::hex(0xb9a98c);
+const DIFFUSE_DOT: Rgba = Rgba::hex(0x6d5c3f);
 /// Smaller cells show no strokes, only their colour, in pixels.
 const LEAST_CELL_PX: f64 = 5.0;
 
 /// The kinds, in the order of the legend.
-const KINDS: [Kind; 5] = [Kind::Absorbing, Kind::Mirror, Kind::Matt, Kind::Filter, Kind::Crystal];
+const KINDS: [Kind; 5] = [Kind::Absorbing, Kind::Mirror, Kind::Diffuse, Kind::Filter, Kind::Crystal];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Absorbing,
     Mirror,
-    Matt,
+    Diffuse,
     Filter,
     Crystal,
 }
@@ -31,7 +31,7 @@ impl Kind {
         match surface {
             Surface::Absorbing => Self::Absorbing,
             Surface::Mirror { .. } => Self::Mirror,
-            Surface::Diffuse { .. } => Self::Matt,
+            Surface::Diffuse { .. } => Self::Diffuse,
             Surface::Filter { .. } => Self::Filter,
             Surface::Crystal => Self::Crystal,
         }
@@ -41,7 +41,7 @@ impl Kind {
         match self {
             Self::Absorbing => "absorbing wall",
             Self::Mirror => "mirror",
-            Self::Matt => "matt wall",
+            Self::Diffuse => "diffuse wall",
             Self::Filter => "filter",
             Self::Crystal => "crystal",
         }
@@ -52,7 +52,7 @@ impl Kind {
         match self {
             Self::Absorbing => Some(ABSORBING),
             Self::Mirror => Some(MIRROR),
-            Self::Matt => Some(MATT),
+            Self::Diffuse => Some(DIFFUSE),
             Self::Filter | Self::Crystal => None,
         }
     }
@@ -109,14 +109,10 @@ fn outline(page: &mut MapFrame, cells: &[Cell], belongs: &dyn Fn(Cell) -> bool) 
             }
         }
     }
-    draw_rim(&mut page.scene, rim);
-}
-
-/// Dark on white, seen over every colour.
-fn draw_rim(scene: &mut Scene, rim: PathBuilder) {
     let rim = rim.finish();
-    scene.stroke(rim.clone(), Rgba::WHITE, 2.4);
-    scene.stroke(rim, Rgba::INK, 1.0);
+    // Dark on white, seen over every colour.
+    page.scene.stroke(rim.clone(), Rgba::WHITE, 2.4);
+    page.scene.stroke(rim, Rgba::INK, 1.0);
 }
 
 /// Strokes and dots of many cells.
@@ -131,7 +127,9 @@ impl Marks {
     fn add(&mut self, surface: &Surface, [x, y]: [f64; 2], r: f64) {
         match surface {
             Surface::Absorbing | Surface::Crystal => {}
-            Surface::Mirror { angle_deg } => {
+            // It faces all sides.
+            Surface::Mirror { angle_deg: None } => self.mirrors.circle([x, y], 0.5 * r),
+            Surface::Mirror { angle_deg: Some(angle_deg) } => {
                 let angle = math::radians(*angle_deg);
                 let (dx, dy) = (0.8 * r * math::cos(angle), -0.8 * r * math::sin(angle));
                 self.mirrors.line([x - dx, y - dy], [x + dx, y + dy]);
@@ -150,7 +148,7 @@ impl Marks {
             scene.stroke(self.mirrors.finish(), MIRROR_LINE, 1.2);
         }
         if !self.dots.is_empty() {
-            scene.fill(self.dots.finish(), MATT_DOT);
+            scene.fill(self.dots.finish(), DIFFUSE_DOT);
         }
         if !self.filters.is_empty() {
             scene.stroke(self.filters.finish(), Rgba::WHITE.with_opacity(0.75), 0.8);
@@ -173,8 +171,8 @@ fn swatch(kind: Kind) -> Mark {
     for x in [-5.5, 5.5] {
         let surface = match kind {
             Kind::Absorbing => Surface::Absorbing,
-            Kind::Mirror => Surface::Mirror { angle_deg: 0.0 },
-            Kind::Matt => Surface::Diffuse { angle_deg: 0.0 },
+            Kind::Mirror => Surface::Mirror { angle_deg: Some(0.0) },
+            Kind::Diffuse => Surface::Diffuse { angle_deg: Some(0.0) },
             Kind::Filter => Surface::Filter { transmittance: 0.5 },
             Kind::Crystal => Surface::Crystal,
         };
@@ -193,8 +191,8 @@ mod tests {
         let grid = Grid::new(12, 9).expect("a grid");
         Field::from_fn(grid, |c| match (c.x, c.y) {
             (0 | 11, _) => Some(Surface::Absorbing),
-            (x, 4) => Some(Surface::Mirror { angle_deg: 15.0 * x as f64 }),
-            (2..=4, 6) => Some(Surface::Diffuse { angle_deg: 0.0 }),
+            (x, 4) => Some(Surface::Mirror { angle_deg: Some(15.0 * x as f64) }),
+            (2..=4, 6) => Some(Surface::Diffuse { angle_deg: Some(0.0) }),
             (6..=9, 6..=7) => Some(Surface::Filter { transmittance: 0.5 }),
             (3..=8, 1..=2) => Some(Surface::Crystal),
             _ => None,
@@ -221,7 +219,7 @@ mod tests {
             heat_map(&bright, &options)
         };
         let (plain, scene) = (with(None), with(Some(walls)));
-        for name in ["absorbing wall", "mirror", "matt wall", "filter", "crystal"] {
+        for name in ["absorbing wall", "mirror", "diffuse wall", "filter", "crystal"] {
             assert!(texts(&scene.items).lines().any(|l| l == name), "{name}");
             assert!(!texts(&plain.items).contains(name), "{name}");
         }
@@ -238,6 +236,6 @@ mod tests {
         let light = LightDistribution::new(d, vec![1.0; 8 * cells], incoming);
         let sources = vec![Cell::new(2, 2)];
         let options = PolarOptions { walls: Some(walls), sources, ..PolarOptions::default() };
-        assert!(texts(&polar_overlay(None, Some(&light), &options).items).contains("matt wall"));
+        assert!(texts(&polar_overlay(None, Some(&light), &options).items).contains("diffuse wall"));
     }
 }

@@ -32,13 +32,14 @@ impl Nearest {
         nearest
     }
 
-    /// Direction along the border, degrees from 0 to 180; 0 where there is none.
-    pub(crate) fn along_deg(self) -> f64 {
+    /// Direction along the border, degrees from 0 to 180; `None` where normals of all directions cancel, as in the middle of a
+    /// disc.
+    pub(crate) fn along_deg(self) -> Option<f64> {
         let (mut across, [c, s]) = (self.across, self.doubled);
         if math::hypot(across[0], across[1]) < ROUNDING {
             // Both sides of a thin wall are equally far, and their normals cancel.
             if math::hypot(c, s) < ROUNDING {
-                return 0.0;
+                return None;
             }
             let angle = 0.5 * math::atan2(s, c);
             across = [math::cos(angle), math::sin(angle)];
@@ -48,7 +49,7 @@ impl Nearest {
         let deg = math::degrees(math::atan2(x, y)).rem_euclid(180.0);
         // Corners of whole cells give 45 degrees but for rounding.
         let whole = math::round_ties_even(deg);
-        if (deg - whole).abs() < ROUNDING { whole % 180.0 } else { deg }
+        Some(if (deg - whole).abs() < ROUNDING { whole % 180.0 } else { deg })
     }
 }
 
@@ -155,15 +156,26 @@ mod tests {
         reversed.reverse();
         for corners in [SQUARE, reversed] {
             let along = |x, y| to_polygon([x, y], &corners).along_deg();
-            assert_eq!((along(5.0, 2.0), along(8.0, 4.0)), (0.0, 90.0));
-            assert_eq!((along(2.0, 2.0), along(8.0, 2.0)), (45.0, 135.0), "on the corner");
-            assert_eq!(
-                (along(1.0, 1.0), along(3.0, 3.0)),
-                (45.0, 45.0),
-                "off the corner, outside and inside"
-            );
-            assert_eq!(along(1.0, 2.0), 90.0, "beside the left side");
+            assert_eq!((along(5.0, 2.0), along(8.0, 4.0)), (Some(0.0), Some(90.0)));
+            assert_eq!((along(2.0, 2.0), along(8.0, 2.0)), (Some(45.0), Some(135.0)), "on the corner");
+            assert_eq!(along(1.0, 1.0), Some(45.0), "off the corner, outside");
+            assert_eq!(along(3.0, 3.0), Some(45.0), "off the corner, inside");
+            assert_eq!(along(1.0, 2.0), Some(90.0), "beside the left side");
+            assert_eq!(along(5.0, 5.0), None, "in the middle");
         }
+    }
+
+    #[test]
+    fn a_corner_counts_once_although_two_sides_meet_there() {
+        // A hook with a short and a long arm, and a point as far from the corner of the short one as from the long one.
+        let hook =
+            [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [5.0, 6.0], [5.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
+        let (corner, p) = ([1.0, 3.0], [2.71875, 4.5]);
+        let distance = 5.0 - p[0];
+        let found = to_polygon(p, &hook);
+        assert!((found.distance - distance).abs() < 1e-12);
+        let mean = [(p[0] - corner[0]) / distance - 1.0, (p[1] - corner[1]) / distance];
+        assert!((0..2).all(|i| (found.across[i] - mean[i]).abs() < 1e-12), "{found:?}, {mean:?}");
     }
 
     #[test]
@@ -179,6 +191,8 @@ mod tests {
         let n = to_circle([3.0, 4.0], [0.0, 0.0], 7.0);
         assert!((n.distance - 2.0).abs() < 1e-15);
         // The radius points down to the right at -53.13 degrees.
-        assert!((n.along_deg() - (90.0 - 53.130_102_354_155_98)).abs() < 1e-12);
+        let along = n.along_deg().expect("a direction");
+        assert!((along - (90.0 - 53.130_102_354_155_98)).abs() < 1e-12);
+        assert_eq!(to_circle([0.0; 2], [0.0; 2], 7.0).along_deg(), None);
     }
 }

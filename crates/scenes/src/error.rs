@@ -94,12 +94,9 @@ pub enum Fault {
         y: usize,
     },
     /// Shapes that take too long.
-    #[error("the shapes are too many or too detailed for so many cells: {work:.1e} tests, expected at most {max:.0e}", max = crate::Scene::MAX_WORK)]
-    Work {
-        /// Cells times corners, over all parts.
-        work: f64,
-    },
-    /// A field that transmits no light.
+    #[error("the shapes so far are too many or too detailed for so many cells: expected at most {max} cells times sides", max = crate::Scene::MAX_WORK)]
+    Work,
+    /// A tensor that is not finite, or a normalisation by a fraction that is none.
     #[error(transparent)]
     Core(#[from] CoreError),
 }

@@ -1,10 +1,10 @@
 //! Parts of shapes and materials, put together.
 
-use crate::wall::{Beside, closed, diffuse, specular};
+use crate::wall::{Beside, Matrix, closed, diffuse, specular};
 use crate::{Fault, SceneError, Shape};
 use tigereye_core::{
-    Cell, CellTransmission, Directions, Field, Grid, Normalization, Reflection, Surface, Tensor2,
-    TransmissionField,
+    Cell, CellTransmission, CoreError, Directions, Field, Grid, Normalization, RateScale, Reflection,
+    Surface, Tensor2, TransmissionField,
 };
 
 /// What a part of a scene is made of.
@@ -22,14 +22,16 @@ pub enum Material {
     Mirror {
         /// The part of the light that is sent back, 0 to 1.
         reflectance: f64,
-        /// Direction of the mirror's line, degrees; along the surface of the shape where there is none.
+        /// Direction of the mirror's line, degrees. `None`: along the surface of the shape, and where that has no direction the
+        /// cell faces whatever light arrives.
         angle_deg: Option<f64>,
     },
-    /// Reflects like a matt wall, on both sides.
+    /// Reflects like a diffuse wall, on both sides.
     Diffuse {
         /// The part of the light that is sent back, 0 to 1.
         reflectance: f64,
-        /// Direction of the wall's line, degrees; along the surface of the shape where there is none.
+        /// Direction of the wall's line, degrees. `None`: along the surface of the shape, and where that has no direction the
+        /// cell faces whatever light arrives.
         angle_deg: Option<f64>,
     },
     /// Passes light on as the tensors of a field do.
@@ -43,7 +45,8 @@ pub enum Material {
     },
 }
 
-/// A shape of one material.
+/// A shape of one material. The surface is the whole shape's, whatever later parts cut out of it: the sides of a door in a thick
+/// mirror reflect in the direction of the mirror's nearest border, unless an angle is given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// Where it is.
@@ -61,22 +64,28 @@ pub struct Scene {
     pub parts: Vec<Part>,
 }
 
-/// A scene as light finds it.
+/// What lies where: a scene without its light.
 #[derive(Clone, Debug, PartialEq)]
-pub struct BuiltScene {
-    /// What each cell does to light.
-    pub transmission: TransmissionField,
+pub struct Layout {
     /// What each cell is; `None` for empty space.
     pub surfaces: Field<Option<Surface>>,
-    /// The part that each cell belongs to.
-    pub parts: Field<Option<usize>>,
+    /// Index of the part that each cell belongs to; `None` for empty space.
+    pub part_of: Field<Option<usize>>,
 }
 
-impl BuiltScene {
+impl Layout {
     /// Whether a cell is a wall: one that no light can be put into.
     #[must_use]
     pub fn is_wall(&self, cell: Cell) -> bool {
         self.surfaces.at(cell).is_some_and(|s| s.is_wall())
+    }
+
+    fn beside(&self, cell: Cell, k: usize) -> Beside {
+        match self.surfaces.grid().neighbour(cell, k).map(|next| *self.surfaces.at(next)) {
+            Some(Some(Surface::Mirror { .. } | Surface::Diffuse { .. })) => Beside::Wall,
+            Some(Some(Surface::Absorbing)) | None => Beside::End,
+            Some(Some(Surface::Filter { .. } | Surface::Crystal) | None) => Beside::Open,
+        }
     }
 }
 
@@ -86,81 +95,112 @@ impl Scene {
     /// Most tests of a cell against a side of a shape.
     pub const MAX_WORK: f64 = 1e8;
 
-    /// The cells with their transmission in `directions`.
+    /// What lies where.
     ///
     /// # Errors
-    /// [`SceneError`] for the first part that is at fault; [`Self::faults`] finds them all.
-    pub fn built(&self, directions: Directions) -> Result<BuiltScene, SceneError> {
-        if let Some(fault) = self.faults().into_iter().next() {
-            return Err(fault);
-        }
-        let parts = self.painted();
-        let of_crystal = |part: &Part| match &part.material {
-            Material::Crystal { field, normalization, .. } => {
-                TransmissionField::from_tensors(field, directions, *normalization).map(Some)
-            }
-            _ => Ok(None),
-        };
-        let crystals: Vec<Option<TransmissionField>> = (self.parts.iter().enumerate())
-            .map(|(i, p)| of_crystal(p).map_err(|e| SceneError { part: Some(i), fault: e.into() }))
-            .collect::<Result<_, _>>()?;
-        let surfaces = Field::from_fn(self.grid, |cell| self.surface(cell, *parts.at(cell)));
-        let whole = |fault: tigereye_core::CoreError| SceneError { part: None, fault: fault.into() };
-        let mut walls = Vec::new();
-        for cell in self.grid.iter() {
-            if let Some(parts) = reflection(self, &parts, &surfaces, cell) {
-                walls.push((cell, Reflection::new(parts).map_err(whole)?));
-            }
-        }
-        // Both go row by row.
-        let mut walls = walls.iter().peekable();
-        let transmission = TransmissionField::assembled(self.grid, directions, |cell| {
-            let material = parts.at(cell).map(|i| (i, &self.parts[i].material));
-            match (walls.next_if(|(wall, _)| *wall == cell), material) {
-                (Some((_, reflection)), _) => CellTransmission::Reflecting(reflection),
-                (None, Some((i, Material::Crystal { at, .. }))) => match &crystals[i] {
-                    Some(crystal) => CellTransmission::Of(crystal, Cell::new(cell.x - at.x, cell.y - at.y)),
-                    None => CellTransmission::Isotropic(0.0),
-                },
-                (None, Some((_, Material::Clear { transmittance }))) => {
-                    CellTransmission::Isotropic(*transmittance)
-                }
-                (None, Some(_)) => CellTransmission::Isotropic(0.0),
-                (None, None) => CellTransmission::Isotropic(1.0),
-            }
-        });
-        Ok(BuiltScene { transmission: transmission.map_err(whole)?, surfaces, parts })
-    }
-
     /// Everything that is wrong with the parts, in their order.
-    #[must_use]
-    pub fn faults(&self) -> Vec<SceneError> {
+    pub fn layout(&self) -> Result<Layout, Vec<SceneError>> {
         let (width, height) = (self.grid.width(), self.grid.height());
         if self.grid.cells() > Self::MAX_CELLS {
-            return vec![SceneError { part: None, fault: Fault::Size { width, height } }];
+            return Err(vec![SceneError { part: None, fault: Fault::Size { width, height } }]);
         }
+        // The last part that covers each cell.
+        let mut last = vec![None; self.grid.cells()];
         let mut faults = Vec::new();
         let mut work = 0.0;
         for (i, part) in self.parts.iter().enumerate() {
-            if let Err(fault) = part.shape.check().and_then(|()| part.material.check()) {
-                faults.push(SceneError { part: Some(i), fault });
+            let fault = |fault| SceneError { part: Some(i), fault };
+            if let Err(e) = part.shape.check().and_then(|()| part.material.check()) {
+                faults.push(fault(e));
                 continue;
             }
             if let Some([[x0, x1], [y0, y1]]) = part.shape.window(self.grid) {
                 work += (x1 + 1 - x0) as f64 * (y1 + 1 - y0) as f64 * part.shape.detail() as f64;
             }
             if work > Self::MAX_WORK {
-                faults.push(SceneError { part: Some(i), fault: Fault::Work { work } });
-                return faults;
+                faults.push(fault(Fault::Work));
+                break;
             }
-            let mut cells = self.cells_of(&part.shape).peekable();
-            if cells.peek().is_none() {
-                faults.push(SceneError { part: Some(i), fault: Fault::Outside { width, height } });
-            } else if let Some(fault) = cells.find_map(|cell| part.material.missing(cell)) {
-                faults.push(SceneError { part: Some(i), fault });
+            let (mut is_empty, mut missing) = (true, None);
+            for cell in self.cells_of(&part.shape) {
+                is_empty = false;
+                missing = missing.or_else(|| part.material.missing(cell));
+                last[self.grid.index(cell)] = Some(i);
+            }
+            let outside = is_empty.then_some(Fault::Outside { width, height });
+            faults.extend(outside.or(missing).map(fault));
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        let part_of = Field::from_fn(self.grid, |cell| last[self.grid.index(cell)]);
+        let surfaces = Field::from_fn(self.grid, |cell| self.surface(cell, *part_of.at(cell)));
+        Ok(Layout { surfaces, part_of })
+    }
+
+    /// What each cell does to light, in `directions`.
+    ///
+    /// # Errors
+    /// [`SceneError`] for a crystal with a tensor that is not finite, or one that is normalised by a fraction outside 0 to 1; for
+    /// more samples than [`TransmissionField::MAX_SAMPLES`].
+    ///
+    /// # Panics
+    /// For the layout of another scene.
+    pub fn transmission(
+        &self,
+        layout: &Layout,
+        directions: Directions,
+    ) -> Result<TransmissionField, SceneError> {
+        let scale = |part: &Part| match &part.material {
+            Material::Crystal { field, normalization, .. } => {
+                RateScale::of(field, directions, *normalization).map(Some)
+            }
+            _ => Ok(None),
+        };
+        let scales: Vec<Option<RateScale>> = (self.parts.iter().enumerate())
+            .map(|(i, p)| scale(p).map_err(|e| SceneError { part: Some(i), fault: e.into() }))
+            .collect::<Result<_, _>>()?;
+        let whole = |fault: CoreError| SceneError { part: None, fault: fault.into() };
+        let open = TransmissionField::assembled(self.grid, directions, |cell| {
+            let Some(i) = *layout.part_of.at(cell) else { return CellTransmission::Isotropic(1.0) };
+            match (&self.parts[i].material, &scales[i]) {
+                (Material::Crystal { field, at, .. }, Some(scale)) => {
+                    CellTransmission::Tensor(field.at(Cell::new(cell.x - at.x, cell.y - at.y)), scale)
+                }
+                (Material::Clear { transmittance }, _) => CellTransmission::Isotropic(*transmittance),
+                _ => CellTransmission::Isotropic(0.0),
+            }
+        });
+        let mut reflections = Vec::new();
+        for cell in self.grid.iter() {
+            if let Some(matrix) = self.reflected(layout, cell) {
+                reflections.push((cell, Reflection::new(matrix).map_err(whole)?));
             }
         }
-        faults
+        Ok(open.map_err(whole)?.with_reflections(reflections))
+    }
+
+    /// What a cell that sends light back makes of it. `None` inside of thick walls, where none arrives.
+    fn reflected(&self, layout: &Layout, cell: Cell) -> Option<Matrix> {
+        let (Some(surface), Some(part)) = (layout.surfaces.at(cell), *layout.part_of.at(cell)) else {
+            return None;
+        };
+        let sent = match surface {
+            Surface::Mirror { .. } | Surface::Diffuse { .. }
+                if (0..8).all(|k| layout.beside(cell, k) != Beside::Open) =>
+            {
+                return None;
+            }
+            Surface::Mirror { angle_deg } => specular(*angle_deg),
+            Surface::Diffuse { angle_deg } => diffuse(*angle_deg),
+            _ => return None,
+        };
+        let (Material::Mirror { reflectance, .. } | Material::Diffuse { reflectance, .. }) =
+            &self.parts[part].material
+        else {
+            return None;
+        };
+        Some(closed(sent, |k| layout.beside(cell, k)).map(|row| row.map(|share| reflectance * share)))
     }
 
     fn cells_of<'a>(&self, shape: &'a Shape) -> impl Iterator<Item = Cell> + use<'a> {
@@ -173,21 +213,10 @@ impl Scene {
             .filter(|cell| shape.contains(*cell))
     }
 
-    /// The last part that covers each cell.
-    fn painted(&self) -> Field<Option<usize>> {
-        let mut last = vec![None; self.grid.cells()];
-        for (i, part) in self.parts.iter().enumerate() {
-            for cell in self.cells_of(&part.shape) {
-                last[self.grid.index(cell)] = Some(i);
-            }
-        }
-        Field::from_fn(self.grid, |cell| last[self.grid.index(cell)])
-    }
-
     fn surface(&self, cell: Cell, part: Option<usize>) -> Option<Surface> {
         let part = &self.parts[part?];
         let angle = |given: Option<f64>| {
-            given.map_or_else(|| part.shape.surface_deg(cell), |deg| deg.rem_euclid(180.0))
+            given.map(|deg| deg.rem_euclid(180.0)).or_else(|| part.shape.surface_deg(cell))
         };
         match part.material {
             Material::Clear { transmittance: 1.0 } => None,
@@ -229,30 +258,6 @@ impl Material {
     }
 }
 
-/// What a wall sends back.
-fn reflection(
-    scene: &Scene,
-    parts: &Field<Option<usize>>,
-    surfaces: &Field<Option<Surface>>,
-    cell: Cell,
-) -> Option<[[f64; 8]; 8]> {
-    let sent = match surfaces.at(cell) {
-        Some(Surface::Mirror { angle_deg }) => specular(*angle_deg),
-        Some(Surface::Diffuse { angle_deg }) => diffuse(*angle_deg),
-        _ => return None,
-    };
-    let reflectance = match parts.at(cell).map(|i| &scene.parts[i].material) {
-        Some(Material::Mirror { reflectance, .. } | Material::Diffuse { reflectance, .. }) => *reflectance,
-        _ => return None,
-    };
-    let beside = |k: usize| match scene.grid.neighbour(cell, k).map(|next| *surfaces.at(next)) {
-        Some(Some(Surface::Mirror { .. } | Surface::Diffuse { .. })) => Beside::Wall,
-        Some(Some(Surface::Absorbing)) | None => Beside::End,
-        Some(Some(Surface::Filter { .. } | Surface::Crystal) | None) => Beside::Open,
-    };
-    Some(closed(sent, beside).map(|row| row.map(|part| reflectance * part)))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -263,6 +268,10 @@ mod tests {
 
     fn scene(parts: Vec<Part>) -> Scene {
         Scene { grid: Grid::new(9, 7).expect("a grid"), parts }
+    }
+
+    fn transmission(scene: &Scene) -> TransmissionField {
+        scene.transmission(&scene.layout().expect("a layout"), directions()).expect("a transmission")
     }
 
     fn row(y: f64, material: Material) -> Part {
@@ -276,21 +285,47 @@ mod tests {
             row(3.0, Material::Absorber),
             Part { shape: door, material: Material::Clear { transmittance: 1.0 } },
         ]);
-        let built = s.built(directions()).expect("a scene");
-        assert!(built.is_wall(Cell::new(3, 3)) && !built.is_wall(Cell::new(4, 3)));
-        assert_eq!(built.transmission.rates().iter().filter(|r| **r == 0.0).count(), 8);
-        assert_eq!((*built.parts.at(Cell::new(4, 3)), *built.parts.at(Cell::new(0, 0))), (Some(1), None));
+        let layout = s.layout().expect("a layout");
+        assert!(layout.is_wall(Cell::new(3, 3)) && !layout.is_wall(Cell::new(4, 3)));
+        assert_eq!(transmission(&s).rates().iter().filter(|r| **r == 0.0).count(), 8);
+        assert_eq!(
+            (*layout.part_of.at(Cell::new(4, 3)), *layout.part_of.at(Cell::new(0, 0))),
+            (Some(1), None)
+        );
     }
 
     #[test]
     fn walls_have_the_matrices_of_their_material() {
         let s = scene(vec![row(2.0, Material::Mirror { reflectance: 0.5, angle_deg: None })]);
-        let built = s.built(directions()).expect("a scene");
-        let wall = built.transmission.reflection(Cell::new(4, 2)).expect("a wall");
+        let made = transmission(&s);
+        let wall = made.reflection(Cell::new(4, 2)).expect("a wall");
         let mut up_right = [0.0; 8];
         up_right[1] = 2.0;
         assert_eq!(wall.reflected(&up_right)[7], 1.0);
-        assert_eq!(*built.surfaces.at(Cell::new(4, 2)), Some(Surface::Mirror { angle_deg: 0.0 }));
+        assert_eq!(
+            *s.layout().expect("a layout").surfaces.at(Cell::new(4, 2)),
+            Some(Surface::Mirror { angle_deg: Some(0.0) })
+        );
+    }
+
+    #[test]
+    fn given_angles_turn_walls_from_their_surface() {
+        let given = |angle_deg| {
+            let s = scene(vec![
+                row(2.0, Material::Mirror { reflectance: 1.0, angle_deg: Some(angle_deg) }),
+                row(4.0, Material::Diffuse { reflectance: 1.0, angle_deg: Some(angle_deg) }),
+            ]);
+            let layout = s.layout().expect("a layout");
+            let angles = [2, 4].map(|y| match *layout.surfaces.at(Cell::new(4, y)) {
+                Some(Surface::Mirror { angle_deg } | Surface::Diffuse { angle_deg }) => angle_deg,
+                other => panic!("{other:?}"),
+            });
+            assert_eq!(angles[0], angles[1]);
+            (angles[0], transmission(&s).reflection(Cell::new(4, 2)).expect("a wall").shares()[3][6])
+        };
+        // Light that falls down on a mirror at 22.5 degrees leaves up to the left.
+        assert_eq!((given(22.5), given(202.5)), ((Some(22.5), 1.0), (Some(22.5), 1.0)));
+        assert_eq!((given(-30.0).0, given(0.0)), (Some(150.0), (Some(0.0), 0.0)));
     }
 
     #[test]
@@ -302,13 +337,16 @@ mod tests {
         let crystal =
             |at| Material::Crystal { field: field.clone(), at, normalization: Normalization::Local };
         let part = |at| Part { shape: shape.clone(), material: crystal(at) };
-        let built = scene(vec![part(Cell::new(3, 3))]).built(directions()).expect("a scene");
+        let made = transmission(&scene(vec![part(Cell::new(3, 3))]));
         let own =
             TransmissionField::from_tensors(&field, directions(), Normalization::Local).expect("a field");
-        assert_eq!(built.transmission.shape(Cell::new(4, 5)), own.shape(Cell::new(1, 2)));
-        assert_eq!(built.transmission.shape(Cell::new(3, 3)), [1.0; 16], "outside of the disc");
-        let e = scene(vec![part(Cell::new(4, 3))]).built(directions()).expect_err("too far right");
-        assert!(matches!(e.fault, Fault::Crystal { left: 4, top: 3, x: 3, y: 4, .. }), "{e}");
+        assert_eq!(made.shape(Cell::new(4, 5)), own.shape(Cell::new(1, 2)));
+        assert_eq!(made.shape(Cell::new(3, 3)), [1.0; 16], "outside of the disc");
+        let e = scene(vec![part(Cell::new(4, 3))]).layout().expect_err("too far right");
+        assert!(
+            matches!(e[..], [SceneError { fault: Fault::Crystal { left: 4, top: 3, x: 3, y: 4, .. }, .. }]),
+            "{e:?}"
+        );
     }
 
     #[test]
@@ -320,11 +358,11 @@ mod tests {
             Part { shape: far, material: Material::Absorber },
             row(4.0, Material::Diffuse { reflectance: 1.0, angle_deg: Some(f64::NAN) }),
         ]);
-        let parts: Vec<_> = s.faults().iter().map(|f| f.part).collect();
+        let faults = |s: &Scene| s.layout().expect_err("faults");
+        let parts: Vec<_> = faults(&s).iter().map(|f| f.part).collect();
         assert_eq!(parts, [Some(0), Some(2), Some(3)]);
-        assert!(s.built(directions()).is_err());
         let huge = Scene { grid: Grid::new(2000, 2000).expect("a grid"), parts: Vec::new() };
-        assert!(matches!(huge.built(directions()), Err(SceneError { fault: Fault::Size { .. }, .. })));
+        assert!(matches!(faults(&huge)[..], [SceneError { fault: Fault::Size { .. }, .. }]));
         let ring: Vec<[f64; 2]> = (0..50_000).map(|i| [f64::from(i % 7), f64::from(i % 5)]).collect();
         let detailed = Part { shape: Shape::Polygon(ring), material: Material::Absorber };
         let large = Scene {
@@ -334,6 +372,17 @@ mod tests {
                 material: Material::Absorber,
             }],
         };
-        assert!(matches!(large.faults()[..], [SceneError { fault: Fault::Work { .. }, .. }]));
+        assert!(matches!(faults(&large)[..], [SceneError { fault: Fault::Work, .. }]));
+    }
+
+    #[test]
+    fn only_the_skin_of_a_thick_wall_reflects() {
+        let block = Shape::Rectangle { from: [2.0, 1.0], to: [6.0, 5.0] };
+        let mirror = Material::Mirror { reflectance: 1.0, angle_deg: None };
+        let s = scene(vec![Part { shape: block, material: mirror }]);
+        let (made, layout) = (transmission(&s), s.layout().expect("a layout"));
+        assert_eq!(layout.surfaces.values().iter().flatten().filter(|s| s.is_wall()).count(), 25);
+        assert_eq!(made.reflections().count(), 16);
+        assert!(made.reflection(Cell::new(3, 2)).is_none() && made.rate(Cell::new(3, 2)) == 0.0);
     }
 }

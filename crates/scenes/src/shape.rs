@@ -97,7 +97,9 @@ impl Shape {
     pub fn contains(&self, cell: Cell) -> bool {
         let p = [cell.x as f64, cell.y as f64];
         match self {
-            Self::Rectangle { .. } | Self::Polygon(_) => border::inside_polygon(p, &self.corners()),
+            Self::Rectangle { from, to } => (0..2)
+                .all(|i| (from[i].min(to[i]) - ROUNDING..=from[i].max(to[i]) + ROUNDING).contains(&p[i])),
+            Self::Polygon(corners) => border::inside_polygon(p, corners),
             Self::Disc { centre, radius } => {
                 tigereye_core::math::hypot(p[0] - centre[0], p[1] - centre[1]) <= radius + ROUNDING
             }
@@ -115,9 +117,10 @@ impl Shape {
         }
     }
 
-    /// The direction of the shape's surface nearest to a cell, degrees from 0 to 180.
+    /// The direction of the shape's surface nearest to a cell, degrees from 0 to 180; `None` where it has none: a single cell, the
+    /// middle of a disc or a square.
     #[must_use]
-    pub fn surface_deg(&self, cell: Cell) -> f64 {
+    pub fn surface_deg(&self, cell: Cell) -> Option<f64> {
         match self {
             Self::Segment { from, to, .. } => {
                 let across = [from[1] - to[1], to[0] - from[0]];
@@ -129,7 +132,7 @@ impl Shape {
                 Self::Bitmap { at, mask } => mask.surface_deg(*at, cell, false),
                 of => of.surface_deg(cell),
             },
-            shape => shape.border([cell.x as f64, cell.y as f64]).map_or(0.0, Nearest::along_deg),
+            shape => shape.border([cell.x as f64, cell.y as f64]).and_then(Nearest::along_deg),
         }
     }
 
@@ -231,7 +234,7 @@ mod tests {
             thickness: 1.0,
         };
         assert_eq!(covered(&o, 6, 6), [(1, 1), (2, 1), (3, 1), (1, 2), (3, 2), (1, 3), (2, 3), (3, 3)]);
-        let m = Shape::Bitmap { at: Cell::new(4, 5), mask: Mask::new(2, vec![true, false, true, true]) };
+        let m = Shape::Bitmap { at: Cell::new(4, 5), mask: Mask::from_fn(2, 2, |c| c != Cell::new(1, 0)) };
         assert_eq!(covered(&m, 6, 6), [(4, 5)]);
         let out = Shape::Outside(Box::new(Shape::Rectangle { from: [0.0, 0.0], to: [5.0, 4.0] }));
         assert_eq!(covered(&out, 6, 6).len(), 6);
@@ -241,11 +244,20 @@ mod tests {
     #[test]
     fn surfaces_lie_along_the_shape() {
         let s = Shape::Segment { from: [0.0, 4.0], to: [4.0, 0.0], thickness: 1.5 };
-        assert_eq!(s.surface_deg(Cell::new(2, 2)), 45.0, "up to the right");
+        assert_eq!(s.surface_deg(Cell::new(2, 2)), Some(45.0), "up to the right");
         let d = Shape::Disc { centre: [5.0, 5.0], radius: 3.0 };
-        assert_eq!(d.surface_deg(Cell::new(5, 2)), 0.0);
-        assert_eq!(d.surface_deg(Cell::new(3, 3)), 45.0);
-        assert_eq!(d.surface_deg(Cell::new(5, 5)), 0.0, "no direction in the middle");
+        assert_eq!(d.surface_deg(Cell::new(5, 2)), Some(0.0));
+        assert_eq!(d.surface_deg(Cell::new(3, 3)), Some(45.0));
+        assert_eq!(d.surface_deg(Cell::new(5, 5)), None, "no direction in the middle");
+    }
+
+    #[test]
+    fn the_outside_of_a_bitmap_has_the_surface_of_its_complement() {
+        let room = Shape::Bitmap { at: Cell::new(2, 1), mask: Mask::from_fn(3, 4, |_| true) };
+        let walls = Shape::Outside(Box::new(room));
+        let surface = |x, y| walls.contains(Cell::new(x, y)).then(|| walls.surface_deg(Cell::new(x, y)));
+        assert_eq!((surface(3, 2), surface(5, 3), surface(1, 2)), (None, Some(Some(90.0)), Some(Some(90.0))));
+        assert_eq!((surface(3, 0), surface(3, 5)), (Some(Some(0.0)), Some(Some(0.0))));
     }
 
     #[test]

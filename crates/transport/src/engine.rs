@@ -73,6 +73,10 @@ pub trait StepView {
     fn energy(&self) -> f64;
     /// The whole distribution after the step.
     fn distribution(&self) -> LightDistribution;
+    /// Energy of every cell after the step, W: that of [`Self::distribution`], to the last bit.
+    fn energies(&self) -> Field<f64> {
+        self.distribution().energy()
+    }
 }
 
 /// What a propagation leaves.

@@ -1,6 +1,7 @@
 //! Sources of light.
 
 use crate::TransportError;
+use std::collections::BTreeSet;
 use tigereye_core::{Cell, Directions, Grid, PolarProfile, math};
 
 /// A light in one cell.
@@ -76,12 +77,13 @@ pub fn check_lights(lights: &[Light], grid: Grid, directions: Directions) -> Res
     if lights.is_empty() {
         return Err(TransportError::NoLight);
     }
-    for (i, light) in lights.iter().enumerate() {
+    let mut taken = BTreeSet::new();
+    for light in lights {
         let Cell { x, y } = light.cell;
         if !grid.contains(light.cell) {
             return Err(TransportError::LightOutside { x, y, width: grid.width(), height: grid.height() });
         }
-        if lights[..i].iter().any(|other| other.cell == light.cell) {
+        if !taken.insert((y, x)) {
             return Err(TransportError::LightTwice { x, y });
         }
         match &light.emission {

@@ -231,8 +231,10 @@ impl StepView for Run<'_> {
         let s = scheme.directions().count();
         let grid = self.buffers_grid();
         let incoming = Field::from_fn(grid, |c| self.lobes_at(&self.buffers.from, c));
-        let mut samples: Vec<f64> =
-            incoming.values().iter().flat_map(|a| (0..s).map(|t| scheme.intensity(a, t))).collect();
+        let mut samples = Vec::with_capacity(grid.cells() * s);
+        for a in incoming.values() {
+            samples.extend((0..s).map(|t| scheme.intensity(a, t)));
+        }
         for light in &self.lights {
             let i = grid.index(light.cell) * s;
             match &light.kind {
@@ -242,6 +244,23 @@ impl StepView for Run<'_> {
             }
         }
         LightDistribution::new(scheme.directions(), samples, incoming)
+    }
+
+    fn energies(&self) -> Field<f64> {
+        let scheme = self.problem.scheme;
+        let (s, h) = (scheme.directions().count(), scheme.directions().step_rad());
+        let grid = self.buffers_grid();
+        Field::from_fn(grid, |cell| {
+            let a = self.lobes_at(&self.buffers.from, cell);
+            let light = self.lights.binary_search_by_key(&grid.index(cell), |l| grid.index(l.cell));
+            let kind = light.ok().map(|i| (&self.lights[i].kind, &self.lights[i].profile));
+            let sample = |t: usize| match kind {
+                Some((Kind::Continuous, profile)) => profile[t],
+                Some((Kind::Pulse { sample, .. }, _)) if t == *sample => s as f64,
+                _ => scheme.intensity(&a, t),
+            };
+            h * (0..s).map(sample).sum::<f64>()
+        })
     }
 }
 

@@ -36,10 +36,11 @@ pub(super) fn open_input(text: &str, reading: &ReadingArgs, outputs: &[PathBuf])
 
 /// Refuses lines of more steps than can be.
 pub(super) fn check_steps(length: f64, step: f64) -> Result<(), CliError> {
-    if length / step <= LineOptions::MAX_STEPS {
+    let most = LineOptions::MAX_STEPS;
+    if length / step <= most {
         return Ok(());
     }
-    let problem = format!("{length} cells in steps of {step}: expected at most 10^7 steps (option --step)");
+    let problem = format!("{length} cells in steps of {step}: expected at most {most} steps (option --step)");
     Err(CliError::input("--length", problem))
 }
 

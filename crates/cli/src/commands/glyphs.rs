@@ -6,7 +6,7 @@ use crate::error::CliError;
 use crate::files;
 use clap::ValueEnum;
 use serde_json::json;
-use tigereye_experiments::classical::glyphs::poly_data;
+use tigereye_experiments::classical::glyphs::{check, poly_data};
 use tigereye_experiments::classical::usual_axes;
 use tigereye_io::vtp;
 use tigereye_lines::Axes;
@@ -47,15 +47,11 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
     let options = GlyphOptions { title, kind, scale, colour, every: args.every, ..GlyphOptions::default() };
     let parameters = json!({ "kind": name_of(args.kind), "scale": name_of(args.scale), "every": args.every });
     let story = drawing::story(&input, parameters, &args.reading);
-    let data = args
-        .outputs
-        .iter()
-        .any(|o| files::extension(o) == "vtp")
-        .then(|| poly_data(&input.field, &options, &drawing::placement(&input), &story))
-        .transpose()
-        .map_err(|e| CliError::input(&args.input, e))?;
+    if args.outputs.iter().any(|o| files::extension(o) == "vtp") {
+        check(input.field.grid(), args.every).map_err(|e| CliError::input(&args.input, e))?;
+    }
     drawing::write(&args.outputs, &|| Ok(glyphs(&input.field, &options)), &|| {
-        data.as_ref().map_or(Ok(Vec::new()), vtp::write)
+        vtp::write(&poly_data(&input.field, &options, &drawing::placement(&input), &story))
     })?;
     Ok(0)
 }

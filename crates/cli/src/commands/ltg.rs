@@ -6,7 +6,7 @@ use crate::commands::propagate::{check_outputs, stop_name, stopping_of};
 use crate::commands::{command_line, print_json, print_text, volume};
 use crate::error::CliError;
 use crate::input::insert_reading;
-use crate::medium::Lit;
+use crate::medium::MediumInput;
 use crate::part_file::{self, Costs, Identity};
 use crate::watch::Watch;
 use crate::{files, interrupt, system};
@@ -23,7 +23,7 @@ use tigereye_transport::{Scattering, Scheme, SharedWeights};
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     check_places(args)?;
     let start = Instant::now();
-    let input = Lit::open(&args.input, &args.scheme.reading)?;
+    let input = MediumInput::open(&args.input, &args.scheme.reading)?;
     input.check_apart(&args.outputs)?;
     let settings = settings_of(args)?;
     let normalization = input.normalization(args.scheme.normalization)?;
@@ -85,13 +85,13 @@ fn compute(
     args: &LtgArgs,
     settings: &LtgSettings,
     normalization: Normalization,
-    input: &Lit,
+    input: &MediumInput,
     identity: &Identity,
     start: Instant,
 ) -> Result<(PartialVolume, Costs), CliError> {
     let (directions, shard) = (args.scheme.directions, args.shard.unwrap_or(Shard::WHOLE));
     // Before anything large is made.
-    check_fit(input.grid(), directions, settings).map_err(fault)?;
+    check_fit(input.grid(), directions, settings).map_err(|e| fault(of_program(args, e)))?;
     let (checkpoint, found) = match &args.checkpoint {
         Some(folder) => {
             let (checkpoint, found) = Checkpoint::open(folder, command_line(), identity.clone(), shard)?;
@@ -141,12 +141,30 @@ fn fault(error: LtgError) -> CliError {
     }
 }
 
+/// What the program takes beside the sweep: code, stacks of the threads, the input, what the allocator keeps.
+const PROGRAM_BYTES: u64 = 8 << 20;
+
+/// Upper bound on all memory, bytes.
+fn memory_bound(args: &LtgArgs) -> u64 {
+    args.resources.memory.unwrap_or_else(system::half_of_memory)
+}
+
+/// A sweep that does not fit, told by the memory of the whole program.
+fn of_program(args: &LtgArgs, error: LtgError) -> LtgError {
+    match error {
+        LtgError::Memory { needed, .. } => {
+            LtgError::Memory { needed: needed + u128::from(PROGRAM_BYTES), bound: memory_bound(args) }
+        }
+        other => other,
+    }
+}
+
 fn settings_of(args: &LtgArgs) -> Result<LtgSettings, CliError> {
     let mut settings = LtgSettings {
         stopping: stopping_of(&args.scheme),
         omega_step: args.omega_step.unwrap_or_else(|| omega_step_of_volumes(args.scheme.directions)),
         slices: args.slices.clone(),
-        memory_bytes: args.resources.memory.unwrap_or_else(system::half_of_memory),
+        memory_bytes: memory_bound(args).saturating_sub(PROGRAM_BYTES),
         level: system::level()?,
         precision: match args.precision {
             args::Precision::F64 => Precision::F64,
@@ -170,7 +188,7 @@ fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: &str) -> Va
         "slices": settings.slices,
         "precision": settings.precision.name(),
         "threads": args.resources.threads.unwrap_or_else(rayon::current_num_threads),
-        "memory": settings.memory_bytes,
+        "memory": memory_bound(args),
     });
     insert_reading(&mut parameters, &args.scheme.reading);
     parameters

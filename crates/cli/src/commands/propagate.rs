@@ -4,7 +4,7 @@ use crate::args::{Picture, PropagateArgs, SchemeArgs, StopRule};
 use crate::commands::{command_line, counted, print_json, print_text};
 use crate::error::CliError;
 use crate::input::insert_reading;
-use crate::medium::Lit;
+use crate::medium::MediumInput;
 use crate::{files, interrupt, system};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
@@ -31,7 +31,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     check_outputs(&args.outputs, &["vti", "npy", "png", "svg", "pvd", "apng"])?;
     args.outputs.iter().filter(|o| is_collection(o)).try_for_each(|o| check_frames(o, args))?;
     let start = Instant::now();
-    let input = Lit::open(&args.input, &args.scheme.reading)?;
+    let input = MediumInput::open(&args.input, &args.scheme.reading)?;
     input.check_apart(&args.outputs)?;
     for folder in args.outputs.iter().filter(|o| is_collection(o)).map(|o| folder_of_frames(o)) {
         let inside = |file: &&String| files::place_of(Path::new(file)).starts_with(files::place_of(&folder));
@@ -60,7 +60,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
         frames.add(&problem.before_first_step())?;
     }
     if let Some(reel) = &mut reel {
-        reel.add(&problem.before_first_step());
+        reel.add(|| problem.before_first_step().energy());
     }
     let mut fault = None;
     let outcome = EightLobe
@@ -69,7 +69,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
                 fault = frames.add(&view.distribution()).err();
             }
             if let Some(reel) = &mut reel {
-                reel.add(&view.distribution());
+                reel.add(|| view.energies());
             }
             let end = interrupt::asked() || fault.is_some();
             if end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -196,7 +196,7 @@ impl Frames {
 }
 
 /// The lights asked for, or a scene's own.
-fn lights(args: &PropagateArgs, input: &Lit) -> Result<Vec<Light>, CliError> {
+fn lights(args: &PropagateArgs, input: &MediumInput) -> Result<Vec<Light>, CliError> {
     let asked = args.lights.iter().map(|l| light(l, args)).collect::<Result<Vec<_>, _>>()?;
     if !asked.is_empty() {
         input.check_lights(&asked)?;
@@ -278,7 +278,8 @@ fn encoded(output: &Path, args: &PropagateArgs, drawn: &Drawn<'_>, story: &str) 
         }
         "apng" => {
             let reel = drawn.reel.ok_or_else(|| CliError::input(&name, "no step was kept"))?;
-            reel.encoded(&drawn.energy_options(), DECADES).map_err(|e| CliError::input(&name, e))
+            let made = reel.encoded(&drawn.energy_options(), DECADES, 1);
+            made.map(|(bytes, _)| bytes).map_err(|e| CliError::input(&name, e))
         }
         "png" => drawn.picture(args).to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
         _ => drawn.picture(args).to_svg().map(String::into_bytes).map_err(|e| CliError::input(&name, e)),
@@ -330,7 +331,7 @@ impl Drawn<'_> {
 
 fn report(
     args: &PropagateArgs,
-    input: &Lit,
+    input: &MediumInput,
     lights: usize,
     outcome: &Outcome,
     seconds: f64,

@@ -1,8 +1,8 @@
 //! Glyphs as VTK data.
 
-use super::{Placement, counts, push_line, push_story};
+use super::{Placement, counts, push_line, push_points, push_story};
 use thiserror::Error;
-use tigereye_core::{Anisotropy, Field, Tensor2};
+use tigereye_core::{Anisotropy, Field, Grid, Tensor2};
 use tigereye_io::{DataArray, PolyData};
 use tigereye_render::{GlyphOptions, glyph_outlines};
 
@@ -16,23 +16,26 @@ pub struct TooManyGlyphs {
     glyphs: usize,
 }
 
-/// The outlines of glyphs ([`glyph_outlines`]): areas as polygons, the rest as lines. Cell arrays: `part` (0 area, 1 area left white, 2 line,
-/// 3 head of an arrow, 4 sector of a turn, 5 line kept by a reflection), `sign` (1 tension or counter-clockwise, -1 compression or
-/// clockwise, 0 neither or both), `column` and `row` of the tensor (row 0 on top), and its linear `anisotropy`.
+/// Refuses more glyphs than [`poly_data`] should make.
 ///
 /// # Errors
 /// [`TooManyGlyphs`] for more than [`MAX_GLYPHS`].
+pub fn check(grid: Grid, every: Option<usize>) -> Result<(), TooManyGlyphs> {
+    let every = every.unwrap_or(1).max(1);
+    let glyphs = grid.width().div_ceil(every) * grid.height().div_ceil(every);
+    if glyphs > MAX_GLYPHS { Err(TooManyGlyphs { glyphs }) } else { Ok(()) }
+}
+
+/// The outlines of glyphs ([`glyph_outlines`]): areas as polygons, the rest as lines. Cell arrays: `part` (0 area, 1 area left white, 2 line,
+/// 3 head of an arrow, 4 sector of a turn, 5 line kept by a reflection), `sign` (1 tension or counter-clockwise, -1 compression or
+/// clockwise, 0 neither or both), `column` and `row` of the tensor (row 0 on top), and its linear `anisotropy`.
+#[must_use]
 pub fn poly_data(
     field: &Field<Tensor2>,
     options: &GlyphOptions,
     placement: &Placement,
     story: &str,
-) -> Result<PolyData, TooManyGlyphs> {
-    let every = options.every.unwrap_or(1).max(1);
-    let glyphs = field.grid().width().div_ceil(every) * field.grid().height().div_ceil(every);
-    if glyphs > MAX_GLYPHS {
-        return Err(TooManyGlyphs { glyphs });
-    }
+) -> PolyData {
     let (areas, lines): (Vec<_>, Vec<_>) =
         glyph_outlines(field, options).into_iter().partition(|outline| outline.closed);
     let mut data = PolyData::default();
@@ -40,9 +43,8 @@ pub fn poly_data(
         push_line(&mut data, line.points.iter().map(|p| placement.place(*p)));
     }
     for area in &areas {
-        let first = data.points.len();
-        data.points.extend(area.points.iter().map(|p| placement.place(*p)));
-        data.polys.push(first..data.points.len());
+        let corners = push_points(&mut data, area.points.iter().map(|p| placement.place(*p)));
+        data.polys.push(corners);
     }
     // Lines come before polygons.
     let all = || lines.iter().chain(&areas);
@@ -55,5 +57,5 @@ pub fn poly_data(
         DataArray::new("anisotropy", 1, anisotropy),
     ];
     push_story(&mut data, story);
-    Ok(data)
+    data
 }

@@ -10,6 +10,7 @@ pub mod topology;
 
 pub use overlays::{line_overlay, point_overlays};
 
+use std::ops::Range;
 use tigereye_core::{Field, Grid, Tensor2};
 use tigereye_io::{DataArray, FieldEntry, FieldValues, PROVENANCE, PolyData};
 use tigereye_lines::{Axes, Decomposition, Domain, Family, Interpolated, ellipse_tensors};
@@ -108,9 +109,15 @@ impl Placement {
 
 /// Adds lines to poly data; the points of each follow those of the one before.
 fn push_line(data: &mut PolyData, points: impl Iterator<Item = [f64; 3]>) {
+    let line = push_points(data, points);
+    data.lines.push(line);
+}
+
+/// Adds points; which they are.
+fn push_points(data: &mut PolyData, points: impl Iterator<Item = [f64; 3]>) -> Range<usize> {
     let first = data.points.len();
     data.points.extend(points);
-    data.lines.push(first..data.points.len());
+    first..data.points.len()
 }
 
 /// Whole numbers as an array.

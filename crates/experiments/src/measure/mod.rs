@@ -16,7 +16,7 @@ use crate::runs::{LightResult, Results, RunError};
 use crate::settings::Settings;
 use crate::settings::{axes_of, sample_of};
 use crate::spec::{Check, Expectation, Quantity, SchemeConstant};
-use crate::ways::Ways;
+use crate::ways::{self, Ways};
 use tigereye_core::{Directions, Field, StopReason, Tensor2, math};
 use tigereye_ltg::LtgOutcome;
 use tigereye_transport::{Scheme, SharedWeights, emitter, half_core_alpha_rad};
@@ -111,9 +111,10 @@ impl Measure<'_> {
             }
             Q::WayLength { run, to } => self.ways(run, *to).map(|w| w.shortest.len() as f64),
             Q::WayExcess { run, to } => {
-                self.ways(run, *to).map(|w| w.brightest.len() as f64 - w.shortest.len() as f64)
+                self.ways(run, *to).and_then(|w| Some(w.brightest?.len() as f64 - w.shortest.len() as f64))
             }
-            Q::WayDifference { run, to } => self.ways(run, *to).map(|w| w.difference() as f64),
+            Q::WayDifference { run, to } => self.ways(run, *to)?.difference().map(|n| n as f64),
+            Q::ShortestWays { run } => ways::solved_part(self.settings, self.results, run),
             Q::EnergyRatio { run, cell, over } => {
                 self.light(run).and_then(|r| lights::energy_ratio(r, *cell, *over))
             }

@@ -1,9 +1,10 @@
 //! Lights and their profiles.
 
 use crate::spec::{self, ProfileShape};
+use std::collections::BTreeSet;
 use tigereye_core::{Cell, Directions, Grid, PolarProfile};
 use tigereye_fields::Expression;
-use tigereye_transport::{Light, emitter};
+use tigereye_transport::{Light, TransportError, check_lights, emitter};
 
 /// The sample at an angle, which must be one.
 pub(crate) fn sample_of(degrees: f64, directions: Directions) -> Result<usize, String> {
@@ -20,25 +21,60 @@ pub(crate) fn sample_of(degrees: f64, directions: Directions) -> Result<usize, S
     }
 }
 
-/// Lights with their profiles, and a sentence for each whose profile cannot be made. Lights without a cell stand in the centre.
-#[must_use]
+/// What is wrong with one light of several.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightFault {
+    /// Which one.
+    pub index: usize,
+    /// The key of its faulty value, with a colon.
+    pub key: &'static str,
+    /// A sentence.
+    pub problem: String,
+}
+
+/// Lights with their profiles. Those without a cell stand in the centre.
+///
+/// # Errors
+/// Every light without a profile, outside of the grid, in the cell of another, or dark.
 pub fn lights_of(
     sources: &[spec::LightSource],
     grid: Grid,
     directions: Directions,
-) -> (Vec<Light>, Vec<String>) {
-    let (mut lights, mut faults) = (Vec::new(), Vec::new());
-    for source in sources {
-        let cell = source.cell.map_or(grid.centre(), |(x, y)| Cell::new(x, y));
-        match profile_of(&source.profile, directions) {
-            Ok(profile) => lights.push(match source.emission {
-                spec::EmissionKind::Continuous => Light::continuous(cell, profile),
-                spec::EmissionKind::Impulse => Light::impulse(cell, profile),
-            }),
-            Err(problem) => faults.push(format!("light at ({}, {}): {problem}", cell.x, cell.y)),
+) -> Result<Vec<Light>, Vec<LightFault>> {
+    let (mut lights, mut faults, mut taken) = (Vec::new(), Vec::new(), BTreeSet::new());
+    for (index, source) in sources.iter().enumerate() {
+        let cell = cell_of(source, grid);
+        let Cell { x, y } = cell;
+        let profile = match profile_of(&source.profile, directions) {
+            Ok(profile) => profile,
+            Err(problem) => {
+                let problem = format!("the light at ({x}, {y}): {problem}");
+                faults.push(LightFault { index, key: "profile:", problem });
+                continue;
+            }
+        };
+        let light = match source.emission {
+            spec::EmissionKind::Continuous => Light::continuous(cell, profile),
+            spec::EmissionKind::Impulse => Light::impulse(cell, profile),
+        };
+        let fault = match check_lights(std::slice::from_ref(&light), grid, directions) {
+            Err(fault) => Some(fault),
+            Ok(()) if !taken.insert((y, x)) => Some(TransportError::LightTwice { x, y }),
+            Ok(()) => None,
+        };
+        if let Some(fault) = fault {
+            let is_dark = matches!(fault, TransportError::DarkLight { .. });
+            let key = if is_dark { "profile:" } else { "cell:" };
+            faults.push(LightFault { index, key, problem: fault.to_string() });
         }
+        lights.push(light);
     }
-    (lights, faults)
+    if faults.is_empty() { Ok(lights) } else { Err(faults) }
+}
+
+/// Where a light stands.
+pub(crate) fn cell_of(source: &spec::LightSource, grid: Grid) -> Cell {
+    source.cell.map_or(grid.centre(), |(x, y)| Cell::new(x, y))
 }
 
 /// Samples of a light's profile.

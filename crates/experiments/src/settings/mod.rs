@@ -3,8 +3,9 @@
 mod lights;
 mod sources;
 
+pub(crate) use lights::cell_of;
 pub(crate) use lights::sample_of;
-pub use lights::{lights_of, profile_of, profile_of_expression};
+pub use lights::{LightFault, lights_of, profile_of, profile_of_expression};
 pub(crate) use sources::beside;
 pub use sources::{defined_plane, is_field_file, make_field, make_plane};
 
@@ -15,13 +16,13 @@ use crate::host::Host;
 use crate::places::{Known, Misplaced};
 use crate::scene::{self, PreparedScene, is_scene_file, light_fault};
 use crate::shortened;
-use crate::spec::{self, Experiment, Run, Scope, SpecError};
+use crate::spec::{self, Experiment, Run, Scope, SourceText, SpecError};
 use crate::uses::{self, RunKind};
 use std::collections::BTreeMap;
 use tigereye_core::{Below, Cell, Directions, Field, Grid, Normalization, Tensor2};
 use tigereye_lines::{Axes, Family};
 use tigereye_ltg::{omega_step_of_slices, omega_step_of_volumes};
-use tigereye_transport::{Light, SharedWeights, Stopping, StoppingRule};
+use tigereye_transport::{Light, SharedWeights, Stopping, StoppingRule, TransportError};
 
 /// An experiment, ready to run.
 #[derive(Clone, Debug)]
@@ -159,7 +160,7 @@ pub fn resolve(
     host: &dyn Host,
 ) -> Result<Settings, Vec<SpecError>> {
     let slug = slug_of(file);
-    let mut resolver = Resolver { file, text, problems: Vec::new() };
+    let mut resolver = Resolver { file, source: SourceText::new(text), problems: Vec::new() };
     let mut experiment = experiment;
     let mut fields = BTreeMap::new();
     for (name, source) in experiment.fields.iter() {
@@ -236,14 +237,14 @@ const fn scope_of(run: &Run) -> Scope {
 
 struct Resolver<'a> {
     file: &'a str,
-    text: &'a str,
+    source: SourceText<'a>,
     problems: Vec<SpecError>,
 }
 
 impl Resolver<'_> {
     /// Reports a problem at the first `"name"` behind the anchors, each looked for behind the one before.
     fn fault_at(&mut self, anchors: &[&str], name: &str, problem: &str) {
-        let (line, column) = spec::place_after(self.text, anchors, &format!("\"{name}\""));
+        let (line, column) = self.source.place_after(anchors, &format!("\"{name}\""));
         let problem = shortened(problem);
         self.problems.push(SpecError { file: self.file.to_owned(), line, column, problem });
     }
@@ -371,23 +372,22 @@ impl Resolver<'_> {
         experiment: &Experiment,
     ) -> Option<RunSettings> {
         let grid = medium.grid();
-        let sources = match medium.scene() {
-            Some(scene) if sources.is_empty() => &scene.lights,
-            _ => sources,
+        let lights = match medium.scene() {
+            Some(scene) if sources.is_empty() => {
+                scene.lights_in(setup.directions).map_err(|faults| self.problems.extend(faults))
+            }
+            _ => lights_of(sources, grid, setup.directions).map_err(|faults| {
+                for LightFault { problem, .. } in faults {
+                    self.fault(name, format!("run \"{name}\": {problem}"));
+                }
+            }),
         };
-        let (lights, faults) = lights_of(sources, grid, setup.directions);
-        for problem in faults {
-            self.fault(name, format!("run \"{name}\", {problem}"));
-        }
-        // A light without a profile has been reported.
-        if lights.len() < sources.len() {
+        let lights = lights.ok()?;
+        if lights.is_empty() {
+            self.fault(name, format!("run \"{name}\": {}", TransportError::NoLight));
             return None;
         }
-        if let Err(e) = tigereye_transport::check_lights(&lights, grid, setup.directions) {
-            self.fault(name, format!("run \"{name}\": {e}"));
-            return None;
-        }
-        let in_wall = |scene: &PreparedScene| lights.iter().find_map(|l| light_fault(&scene.built, l.cell));
+        let in_wall = |scene: &PreparedScene| lights.iter().find_map(|l| light_fault(&scene.layout, l.cell));
         if let Some(problem) = medium.scene().and_then(in_wall) {
             self.fault(name, format!("run \"{name}\": {problem}"));
             return None;
@@ -484,7 +484,7 @@ impl Resolver<'_> {
     /// Reports something a figure or check mentions and that does not exist.
     fn misplaced(&mut self, user: User<'_>, what: &Misplaced) {
         let anchors = [format!("{}s:", user.kind), format!("\"{}\"", user.name)];
-        let (line, column) = spec::place_after(self.text, &[&anchors[0], &anchors[1]], &what.word);
+        let (line, column) = self.source.place_after(&[&anchors[0], &anchors[1]], &what.word);
         let problem = shortened(&format!("{} \"{}\": {}", user.kind, user.name, what.problem));
         self.problems.push(SpecError { file: self.file.to_owned(), line, column, problem });
     }

@@ -227,6 +227,11 @@ pub enum Quantity {
         /// Column and row of their end.
         to: (usize, usize),
     },
+    /// Of the cells of a scene with a way to its first light, the part from which the brightest way is a shortest one.
+    ShortestWays {
+        /// Name of the light run.
+        run: String,
+    },
     /// Share of the energy at distances from the centre in a range, cells; lights excluded.
     RingShare {
         /// Name of the light run.

@@ -1,5 +1,6 @@
 //! Text to [`Experiment`], with the place of every fault.
 
+use super::source_text::SourceText;
 use super::{Experiment, FORMAT, FieldFile, SceneFile};
 use crate::shortened;
 use ron::extensions::Extensions;
@@ -78,6 +79,12 @@ fn in_words(error: &ron::Error, text: &str) -> String {
         E::ExpectedArray => "expected a list, `[...]`".to_owned(),
         E::ExpectedMap => "expected names with values, `{...}`".to_owned(),
         E::ExpectedStructLike | E::ExpectedNamedStructLike(_) => "expected `(`".to_owned(),
+        E::ExpectedFloat => "expected a number".to_owned(),
+        E::ExpectedInteger => "expected a whole number".to_owned(),
+        E::ExpectedString => "expected text in quotes".to_owned(),
+        E::ExpectedDifferentStructName { found, .. } => {
+            format!("there is `{found}` where `(` was expected: is a bracket missing before it?")
+        }
         E::Eof => "the file ends within a value".to_owned(),
         E::TrailingCharacters => "expected the end of the file".to_owned(),
         E::NoSuchEnumVariant { expected, found, .. } => {
@@ -99,98 +106,7 @@ fn check_format(file: &str, text: &str, format: u32) -> Result<(), SpecError> {
     if format == FORMAT {
         return Ok(());
     }
-    let (line, column) = place_after(text, &[], "format");
+    let (line, column) = SourceText::new(text).place_after(&[], "format:");
     let problem = format!("format {format} is unknown: this version reads format {FORMAT}");
     Err(SpecError { file: file.to_owned(), line, column, problem })
-}
-
-/// Line and column of the first `word` outside of comments behind all `anchors`, each looked for behind the one before.
-/// An anchor or word that is missing is passed over.
-pub(crate) fn place_after(text: &str, anchors: &[&str], word: &str) -> (usize, usize) {
-    let code = without_comments(text);
-    let mut from = 0;
-    let mut place = 0;
-    for part in anchors.iter().chain(std::iter::once(&word)) {
-        if let Some(found) = code[from..].find(part) {
-            place = from + found;
-            from = place + part.len();
-        }
-    }
-    line_and_column(&code, place)
-}
-
-/// Line and column of `word` in an item of the list behind `list`, or of the item where it has no such word.
-pub(crate) fn place_in_list(text: &str, list: &str, index: usize, word: &str) -> (usize, usize) {
-    let code = without_strings(&without_comments(text));
-    let Some(list) = code.find(list).map(|at| at + list.len()) else { return (1, 1) };
-    let Some(items) = code[list..].find('[').map(|at| list + at + 1) else { return (1, 1) };
-    let (mut depth, mut seen, mut start, mut end) = (0_usize, 0, items, code.len());
-    for (i, c) in code[items..].char_indices() {
-        match c {
-            '(' | '[' | '{' => depth += 1,
-            ')' | ']' | '}' if depth == 0 => {
-                end = items + i;
-                break;
-            }
-            ')' | ']' | '}' => depth -= 1,
-            ',' if depth == 0 && seen == index => {
-                end = items + i;
-                break;
-            }
-            ',' if depth == 0 => {
-                seen += 1;
-                start = items + i + 1;
-            }
-            _ => {}
-        }
-    }
-    let item = &code[start..end];
-    let place = start + item.find(word).unwrap_or(item.len() - item.trim_start().len());
-    line_and_column(&code, place)
-}
-
-fn line_and_column(code: &str, place: usize) -> (usize, usize) {
-    let line = code[..place].matches('\n').count() + 1;
-    let start = code[..place].rfind('\n').map_or(0, |n| n + 1);
-    (line, code[start..place].chars().count() + 1)
-}
-
-/// The text with what stands in strings replaced by dots, every character at its place.
-fn without_strings(code: &str) -> String {
-    let (mut in_string, mut escaped) = (false, false);
-    let blanked = code.chars().map(|c| {
-        let inside = in_string && (c != '"' || escaped);
-        if c == '"' && !escaped {
-            in_string = !in_string;
-        }
-        escaped = in_string && c == '\\' && !escaped;
-        if inside && c != '\n' { '.' } else { c }
-    });
-    blanked.collect()
-}
-
-/// The text with comment tails blanked out, every other byte at its place.
-fn without_comments(text: &str) -> String {
-    let mut code = String::with_capacity(text.len());
-    for line in text.split_inclusive('\n') {
-        let end = comment_start(line).unwrap_or(line.len());
-        code.push_str(&line[..end]);
-        code.extend(line[end..].chars().map(|c| if c == '\n' { '\n' } else { ' ' }));
-    }
-    code
-}
-
-/// Where a `//` stands outside of a string.
-fn comment_start(line: &str) -> Option<usize> {
-    let mut in_string = false;
-    let mut previous = ' ';
-    for (i, c) in line.char_indices() {
-        match c {
-            '"' if previous != '\\' => in_string = !in_string,
-            '/' if previous == '/' && !in_string => return Some(i - 1),
-            _ => {}
-        }
-        previous = if c == '\\' && previous == '\\' { ' ' } else { c };
-    }
-    None
 }

@@ -10,6 +10,7 @@ mod load;
 mod named;
 mod numbers;
 mod scene;
+mod source_text;
 mod tables;
 
 pub use checks::{Check, Expectation, Mirror, PulseNumber, Quantity, SchemeConstant, Summary};
@@ -18,10 +19,10 @@ pub use figures::{
     Animation, Axis, Curve, Figure, FlatView, GlyphColour, Panel, ProfileSource, Scale, SeriesSource,
 };
 pub use load::{SpecError, load, load_field, load_scene};
-pub(crate) use load::{place_after, place_in_list};
 pub use named::Named;
 pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive, Sigma};
 pub use scene::{MaterialSource, Point, SceneFile, ScenePart, ShapeSource};
+pub(crate) use source_text::SourceText;
 pub use tables::{ComparisonRow, GradientRow, NoiseRow, RuntimeRow, Table, TableRows};
 
 use serde::Deserialize;

@@ -112,7 +112,7 @@ pub enum MaterialSource {
         #[serde(default)]
         angle_deg: Option<Finite>,
     },
-    /// Reflects like a matt wall, on both sides (Lambert's law).
+    /// Reflects like a diffuse wall, on both sides (Lambert's law).
     Diffuse {
         /// The part of the light that is sent back.
         #[serde(default = "Fraction::one")]

@@ -13,11 +13,11 @@ pub(crate) struct Walls<T> {
     rows: Vec<usize>,
 }
 
-/// One wall: `parts[k][j]` of what arrives in direction j leaves in direction k.
+/// One wall: `shares[k][j]` of what arrives in direction j leaves in direction k.
 #[derive(Clone, Debug)]
 pub(crate) struct Wall<T> {
-    parts: [[T; 8]; 8],
-    /// The part of each direction that is not sent back.
+    shares: [[T; 8]; 8],
+    /// The share of each direction that is not sent back.
     absorbed: [f64; 8],
 }
 
@@ -53,12 +53,12 @@ impl<T: Number> Walls<T> {
 impl<T: Number> Wall<T> {
     fn new(reflection: &Reflection) -> Self {
         Self {
-            parts: reflection.parts().map(|row| row.map(T::narrowed)),
+            shares: reflection.shares().map(|row| row.map(T::narrowed)),
             absorbed: std::array::from_fn(|j| reflection.absorbed(j)),
         }
     }
 
-    /// The part of what arrives in direction `j` that is not sent back.
+    /// The share of what arrives in direction `j` that is not sent back.
     pub(crate) const fn absorbed(&self, j: usize) -> f64 {
         self.absorbed[j]
     }
@@ -69,7 +69,7 @@ impl<T: Number> Wall<T> {
         let mut phi = [V::splat(proof, T::default()); 8];
         for k in 0..8 {
             for j in 0..8 {
-                phi[k] = a[j].mul_add(V::splat(proof, self.parts[k][j]), phi[k]);
+                phi[k] = a[j].mul_add(V::splat(proof, self.shares[k][j]), phi[k]);
             }
         }
         phi

@@ -73,11 +73,19 @@ impl Axis {
         if self.logarithmic { self.log_ticks(count) } else { self.linear_ticks(count) }
     }
 
+    /// At least two where a finer step finds them: one mark alone gives no scale.
     fn linear_ticks(&self, count: usize) -> Vec<Tick> {
-        let step = nice_step(self.high - self.low, count);
-        let first = (self.low / step - 1e-9).ceil() as i64;
-        let last = (self.high / step + 1e-9).floor() as i64;
-        (first..=last.min(first.saturating_add(100)))
+        let span = self.high - self.low;
+        let within = |step: f64| {
+            let first = (self.low / step - 1e-9).ceil() as i64;
+            let last = (self.high / step + 1e-9).floor() as i64;
+            first..=last.min(first.saturating_add(100))
+        };
+        let step = (count..=4 * count)
+            .map(|parts| nice_step(span, parts))
+            .find(|step| within(*step).nth(1).is_some())
+            .unwrap_or_else(|| nice_step(span, count));
+        within(step)
             .map(|i| i as f64 * step)
             .map(|value| Tick { value, label: number::label(value, step) })
             .collect()
@@ -140,4 +148,24 @@ pub(crate) fn cell_ticks(count: usize, cell_px: f64, apart_px: f64) -> Vec<usize
     let decade = number::power_of_ten(number::decade(least));
     let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|f| f * decade).find(|s| *s >= least * (1.0 - 1e-9));
     (0..count).step_by(step.unwrap_or(least).round().max(1.0) as usize).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_has_at_least_two_marks() {
+        for low in [-350.0, -20.0, 0.0, 35.0, 101.0, 149.9] {
+            for span in [1e-3, 0.7, 19.0, 98.0, 205.0, 249.0] {
+                for count in 0..8 {
+                    let ticks = Axis::linear(low, low + span).ticks(count);
+                    assert!(
+                        (2..=3 + 2 * count).contains(&ticks.len()),
+                        "{low} + {span} / {count}: {ticks:?}"
+                    );
+                }
+            }
+        }
+    }
 }

@@ -1,7 +1,10 @@
 //! Marching tetrahedra: surfaces between the nodes of a mesh, from crossings of its edges.
 //!
-//! Every cube of the mesh is cut into six tetrahedra along its diagonal (Freudenthal 1942), which fit together from
-//! cube to cube. Whether and where an edge is crossed is decided once for the edge, so there are no cracks. A
+//! Every cube of the mesh is cut into six tetrahedra along a diagonal (Freudenthal 1942): the one from the corner whose
+//! three indices are even to the one whose are odd (Tucker 1945). Neighbours are each other's mirror images, so they
+//! fit together, no direction is favoured, and the surfaces of a symmetric volume are symmetric where the number of
+//! nodes along the axis is odd. Whether and where an edge is crossed is decided once for the edge, so there are no
+//! cracks. A
 //! tetrahedron gives triangles where its crossings part the corners in two; other patterns, which crossings without a
 //! common orientation and missing nodes can have, give none.
 
@@ -36,8 +39,8 @@ pub(crate) trait Edges: Sync {
 /// A point on an edge.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
-    /// Eight times the index of the edge's lower node and the direction of the edge in bits (1 for x, 2 for y, 4 for
-    /// the third axis), 0 for the node itself.
+    /// Eight times the index of the lowest node of the square or cube that the edge crosses, or of the edge itself, and
+    /// the axes along which it leads in bits (1 for x, 2 for y, 4 for the third axis); no bit for the node itself.
     pub(crate) key: u64,
     /// Place in nodes.
     pub(crate) place: [f64; 3],
@@ -80,7 +83,8 @@ struct Part {
     triangles: Vec<[u32; 3]>,
 }
 
-/// A layer of nodes and the vertices on the edges that begin at each, by direction.
+/// A layer of nodes and the vertices on the edges across the squares and cubes that begin at each, by the axes along
+/// which they lead.
 struct Layer<N> {
     nodes: Vec<N>,
     on_edges: Vec<[u32; 8]>,
@@ -107,10 +111,9 @@ impl Part {
         for j in 0..ny {
             for i in 0..nx {
                 for d in 1..4 {
-                    let (u, v) = (i + (d & 1), j + (d >> 1));
-                    if u < nx && v < ny {
-                        let ends = (&nodes[j * nx + i], &nodes[v * nx + u]);
-                        on_edges[j * nx + i][d] = self.vertex(edges, [i, j, k], d, ends);
+                    if i + (d & 1) < nx && j + (d >> 1) < ny {
+                        let at = |[x, y, _]: [usize; 3]| &nodes[y * nx + x];
+                        on_edges[j * nx + i][d] = self.vertex(edges, ends([i, j, k], d), at);
                     }
                 }
             }
@@ -124,33 +127,46 @@ impl Part {
         for j in 0..ny {
             for i in 0..nx {
                 for d in 4..8 {
-                    let (u, v) = (i + (d & 1), j + ((d >> 1) & 1));
-                    if u < nx && v < ny {
-                        let ends = (&lower.nodes[j * nx + i], &upper.nodes[v * nx + u]);
-                        lower.on_edges[j * nx + i][d] = self.vertex(edges, [i, j, k], d, ends);
+                    if i + (d & 1) < nx && j + ((d >> 1) & 1) < ny {
+                        let at = |[x, y, z]: [usize; 3]| {
+                            let layer = if z == k { &lower.nodes } else { &upper.nodes };
+                            &layer[y * nx + x]
+                        };
+                        let vertex = self.vertex(edges, ends([i, j, k], d), at);
+                        lower.on_edges[j * nx + i][d] = vertex;
                     }
                 }
             }
         }
     }
 
-    fn vertex<E: Edges>(&mut self, edges: &E, node: [usize; 3], d: usize, ends: (&E::Node, &E::Node)) -> u32 {
+    /// The vertex on the edge between two nodes, which are found by their indices.
+    fn vertex<'a, E: Edges>(
+        &mut self,
+        edges: &E,
+        [a, b]: [[usize; 3]; 2],
+        node: impl Fn([usize; 3]) -> &'a E::Node,
+    ) -> u32
+    where
+        E::Node: 'a,
+    {
         let [nx, ny, _] = edges.nodes();
-        let along = [0, 1, 2].map(|axis| (d >> axis) & 1);
-        let from = node.map(|v| v as f64);
-        let to = [0, 1, 2].map(|axis| (node[axis] + along[axis]) as f64);
-        let (at, known) = match edges.crossing((ends.0, from), (ends.1, to)) {
+        let [from, to] = [a, b].map(|n| n.map(|v| v as f64));
+        let (at, known) = match edges.crossing((node(a), from), (node(b), to)) {
             Crossing::None => return NONE,
             Crossing::Rejected => return REJECTED,
             Crossing::At { at, known } => (at, known),
         };
         let key = |n: [usize; 3], d: usize| 8 * ((n[2] * ny + n[1]) * nx + n[0]) as u64 + d as u64;
         let (key, place) = if at < SNAP {
-            (key(node, 0), from)
+            (key(a, 0), from)
         } else if at > 1.0 - SNAP {
-            (key([0, 1, 2].map(|axis| node[axis] + along[axis]), 0), to)
+            (key(b, 0), to)
         } else {
-            (key(node, d), [0, 1, 2].map(|axis| from[axis] + at * along[axis] as f64))
+            let lowest = [0, 1, 2].map(|axis| a[axis].min(b[axis]));
+            let along = [0, 1, 2].map(|axis| usize::from(a[axis] != b[axis]) << axis);
+            let place = [0, 1, 2].map(|axis| from[axis] + at * (to[axis] - from[axis]));
+            (key(lowest, along.into_iter().sum()), place)
         };
         self.vertices.push(Vertex { key, place, known });
         (self.vertices.len() - 1) as u32
@@ -162,10 +178,13 @@ impl Part {
             for i in 0..nx - 1 {
                 let layer = |c: usize| if c < 4 { lower } else { upper };
                 let index = |c: usize| (j + ((c >> 1) & 1)) * nx + i + (c & 1);
+                let even = (i & 1) | (j & 1) << 1 | (k & 1) << 2;
                 for path in PATHS {
-                    let corner = [0, path[0], path[0] | path[1], 7];
-                    let on = EDGES
-                        .map(|(a, b)| layer(corner[a]).on_edges[index(corner[a])][corner[b] ^ corner[a]]);
+                    let corner = [0, path[0], path[0] | path[1], 7].map(|c| c ^ even);
+                    let on = EDGES.map(|(a, b)| {
+                        let lowest = corner[a] & corner[b];
+                        layer(lowest).on_edges[index(lowest)][corner[a] ^ corner[b]]
+                    });
                     if on == [NONE; 6] {
                         continue;
                     }
@@ -196,7 +215,15 @@ impl Part {
     }
 }
 
-/// The first two steps of the six ways from the first corner of a cube to the opposite one.
+/// The ends of the edge along the axes `d`, in bits, across what begins at a node: first the end whose indices along
+/// them are even, then the one whose are odd.
+fn ends(node: [usize; 3], d: usize) -> [[usize; 3]; 2] {
+    let along = [0, 1, 2].map(|axis| (d >> axis) & 1);
+    let even = [0, 1, 2].map(|axis| node[axis] + along[axis] * (node[axis] & 1));
+    [even, [0, 1, 2].map(|axis| if along[axis] == 0 { node[axis] } else { 2 * node[axis] + 1 - even[axis] })]
+}
+
+/// The first two steps of the six ways from the even corner of a cube to the opposite one.
 const PATHS: [[usize; 2]; 6] = [[1, 2], [1, 4], [2, 1], [2, 4], [4, 1], [4, 2]];
 /// Edges of a tetrahedron by their corners.
 const EDGES: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];

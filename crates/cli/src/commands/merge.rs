@@ -4,10 +4,12 @@ use crate::args::MergeArgs;
 use crate::commands::propagate::check_outputs;
 use crate::commands::{command_line, print_json, print_text, volume};
 use crate::error::CliError;
-use crate::interrupt;
+use crate::medium::read_scene;
 use crate::part_file::{self, Costs, Identity, PartFile};
-use std::path::Path;
+use crate::{files, interrupt};
+use std::path::{Path, PathBuf};
 use tigereye_experiments::provenance::provenance;
+use tigereye_experiments::scene::{PreparedScene, is_scene_file};
 use tigereye_ltg::{PartialVolume, Shard};
 
 /// Names listed in a message.
@@ -43,14 +45,36 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     let summary = part_file::summary(&sum, &identity, &costs(&taken));
     let outcome = sum.into_outcome().map_err(|e| CliError::input(&names(&taken), e))?;
     let story = provenance(&command_line(), &identity.parameters, &identity.input_blake3);
-    let title = identity.parameters["input"].as_str().unwrap_or_default();
-    volume::write(&args.outputs, &outcome.volume, None, title, &story)?;
+    let drawn = args.outputs.iter().any(|output| volume::is_picture(output));
+    let scene = if drawn { scene_of(&identity, &args.outputs)? } else { None };
+    let walls = scene.as_ref().map(|scene| &scene.layout.surfaces);
+    let input = identity.parameters["input"].as_str().unwrap_or_default();
+    let title = scene.as_ref().map_or(input, |scene| &scene.title);
+    volume::write(&args.outputs, &outcome.volume, walls, title, &story)?;
     if args.json {
         print_json(&summary)?
     } else {
         print_text(&volume::sentence(&summary))?
     }
     Ok(0)
+}
+
+/// The scene that the parts were made of, for its walls and title in pictures. Parts hold neither: where the file is not
+/// the one that was read then, pictures go without, and standard error says so.
+fn scene_of(identity: &Identity, outputs: &[PathBuf]) -> Result<Option<PreparedScene>, CliError> {
+    let Some(name) = identity.parameters["input"].as_str().filter(|name| is_scene_file(name)) else {
+        return Ok(None);
+    };
+    let lack = match read_scene(name) {
+        Ok((scene, files)) if scene.blake3 == identity.input_blake3 => {
+            files::check_apart(&files, outputs)?;
+            return Ok(Some(scene));
+        }
+        Ok(_) => "has changed since the parts were made",
+        Err(_) => "cannot be read here",
+    };
+    eprintln!("{name}: {lack}; the picture is without its walls");
+    Ok(None)
 }
 
 fn read(path: &Path) -> Result<(Taken, PartialVolume), CliError> {

@@ -6,6 +6,7 @@ use crate::error::CliError;
 use crate::input::insert_reading;
 use crate::medium::MediumInput;
 use crate::{files, interrupt, system};
+use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -63,8 +64,10 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
         reel.add(|| problem.before_first_step().energy());
     }
     let mut fault = None;
+    let line = progress_line(&args.input, &stopping);
     let outcome = EightLobe
         .propagate_observed(&problem, &mut |view| {
+            line.set_position(view.step() as u64);
             if let Some(frames) = &mut frames {
                 fault = frames.add(&view.distribution()).err();
             }
@@ -75,6 +78,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
             if end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })
         .map_err(|e| CliError::input("--light", e))?;
+    line.finish_and_clear();
     interrupt::check()?;
     fault.map_or(Ok(()), Err)?;
     let drawn = Drawn {
@@ -92,6 +96,21 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     }
     report(args, &input, lights.len(), &outcome, start.elapsed().as_secs_f64())?;
     Ok(0)
+}
+
+/// The steps taken and their rate; how many are left where their number is known. Hidden by indicatif where standard
+/// error is no terminal.
+fn progress_line(name: &str, stopping: &Stopping) -> ProgressBar {
+    let (line, template) = match stopping.rule {
+        StoppingRule::Steps(steps) => {
+            (ProgressBar::new(steps as u64), "{msg} [{bar:30}] step {pos} of {len}, {per_sec}, {eta} left")
+        }
+        _ => (ProgressBar::no_length(), "{msg} step {pos}, {per_sec}, {elapsed}"),
+    };
+    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    line.set_style(style.progress_chars("=> "));
+    line.set_message(name.to_owned());
+    line
 }
 
 /// Refuses outputs before anything is computed.

@@ -22,6 +22,11 @@ fn images(outputs: &[PathBuf]) -> impl Iterator<Item = &PathBuf> {
     outputs.iter().filter(|o| files::extension(o) == "vti")
 }
 
+/// Whether an output is a picture rather than the volume itself.
+pub(super) fn is_picture(output: &Path) -> bool {
+    matches!(files::extension(output).as_str(), "png" | "svg")
+}
+
 /// Whether the scripts can be written, before anything is computed.
 pub(super) fn check_scripts(outputs: &[PathBuf]) -> Result<(), CliError> {
     images(outputs).try_for_each(|output| files::check_writable(&script_of(output)))

@@ -73,6 +73,38 @@ fn lights_given_take_the_place_of_the_scenes_own() {
 }
 
 #[test]
+fn merged_shards_are_drawn_as_the_whole_scene() {
+    let place = Place::new();
+    place.write("room.scene.ron", ROOM);
+    let args = ["ltg", "room.scene.ron", "--directions", "16"];
+    place.succeeds(&[&args[..], &["-o", "whole.svg", "whole.npy"]].concat());
+    for k in 0..2 {
+        let (shard, name) = (format!("{k}/2"), format!("{k}.part"));
+        place.succeeds(&[&args[..], &["--shard", &shard, "-o", &name]].concat());
+    }
+    let merge = |outputs: &[&str]| {
+        let run = place.tigereye(&[&["merge", "0.part", "1.part", "-o"], outputs].concat());
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        run.stderr
+    };
+    assert_eq!(merge(&["merged.svg", "merged.npy"]), "");
+    assert_eq!(place.read("merged.svg"), place.read("whole.svg"));
+    assert_eq!(place.read("merged.npy"), place.read("whole.npy"));
+    // The picture goes without walls where they are not known, and says so; the volume needs none.
+    let bare = |why: &str| {
+        let said = merge(&["bare.svg", "bare.npy"]);
+        assert!(said.contains("room.scene.ron") && said.contains(why) && said.lines().count() == 1, "{said}");
+        assert_ne!(place.read("bare.svg"), place.read("whole.svg"));
+        assert_eq!(place.read("bare.npy"), place.read("whole.npy"));
+    };
+    place.write("room.scene.ron", ROOM.replacen("0.5", "0.6", 1));
+    bare("has changed");
+    place.write("room.scene.ron", "");
+    bare("cannot be read");
+    assert_eq!(merge(&["quiet.npy"]), "");
+}
+
+#[test]
 fn bad_scenes_are_refused_with_their_place() {
     let place = Place::new();
     let refuses = |from: &str, to: &str, words: &[&str]| {

@@ -1,6 +1,6 @@
 //! What a command works on: a file or a generator.
 
-use crate::args::ReadingArgs;
+use crate::args::reading::ReadingArgs;
 use crate::error::CliError;
 use crate::host::FileHost;
 use crate::{files, interrupt};

@@ -15,7 +15,8 @@ mod part_file;
 mod system;
 mod watch;
 
-use args::{Cli, Command, FieldCommand};
+use args::fields::FieldCommand;
+use args::{Cli, Command};
 use clap::Parser;
 use error::CliError;
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! What light runs through in a command: a tensor field or a scene.
 
-use crate::args::ReadingArgs;
+use crate::args::reading::ReadingArgs;
 use crate::error::CliError;
 use crate::files;
 use crate::host::FileHost;

@@ -210,7 +210,8 @@ fn decoded(part: part::Part) -> Result<PartFile, (usize, String)> {
             e => meaning(&e),
         })?;
     let shard = text("/shard")?;
-    let shard = crate::args::parse_shard(&shard).map_err(|e| lacks(&format!("a shard at /shard: {e}")))?;
+    let shard =
+        crate::args::values::parse_shard(&shard).map_err(|e| lacks(&format!("a shard at /shard: {e}")))?;
     Ok(PartFile {
         identity: Identity {
             version: text("/version")?,

@@ -1,6 +1,6 @@
 //! The command line of the classical methods.
 
-use super::ReadingArgs;
+use super::reading::ReadingArgs;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use tigereye_core::{Field, Tensor2};

@@ -1,6 +1,6 @@
 //! `tigereye bench`: how near the engine comes to what the machine can do.
 
-use crate::args::BenchArgs;
+use crate::args::light::BenchArgs;
 use crate::commands::{print_json, print_text};
 use crate::error::CliError;
 use crate::{interrupt, system};

@@ -1,6 +1,6 @@
 //! `tigereye check`: experiment files, parsed and validated.
 
-use crate::args::CheckArgs;
+use crate::args::experiments::CheckArgs;
 use crate::commands::reproduce::{Prepared, Source, prepare};
 use crate::commands::{counted, print_text};
 use crate::error::CliError;

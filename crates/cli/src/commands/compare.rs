@@ -1,6 +1,6 @@
 //! `tigereye compare`: the difference of two results.
 
-use crate::args::{CompareArgs, ReadingArgs};
+use crate::args::reading::{CompareArgs, ReadingArgs};
 use crate::commands::print_text;
 use crate::error::CliError;
 use crate::files;

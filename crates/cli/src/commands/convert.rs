@@ -1,6 +1,6 @@
 //! `tigereye convert`: any readable tensor field to another format.
 
-use crate::args::ConvertArgs;
+use crate::args::reading::ConvertArgs;
 use crate::commands::command_line;
 use crate::error::CliError;
 use crate::input::{Input, Source, insert_reading};

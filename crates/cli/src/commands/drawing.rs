@@ -1,6 +1,6 @@
 //! What the commands of the classical methods share: outputs by their endings, provenance, and place.
 
-use crate::args::ReadingArgs;
+use crate::args::reading::ReadingArgs;
 use crate::commands::command_line;
 use crate::commands::propagate::PNG_SCALE;
 use crate::error::CliError;

@@ -1,6 +1,6 @@
 //! `tigereye field`: the generators, and work on a field of one's own.
 
-use crate::args::{FieldLintArgs, FieldListArgs, FieldNewArgs, FieldShowArgs};
+use crate::args::fields::{FieldLintArgs, FieldListArgs, FieldNewArgs, FieldShowArgs};
 use crate::commands::propagate::{PNG_SCALE, check_outputs};
 use crate::commands::{print_json, print_text, quoted};
 use crate::error::CliError;

@@ -1,6 +1,6 @@
 //! `tigereye info`: what a tensor field holds and how it was read.
 
-use crate::args::InfoArgs;
+use crate::args::reading::InfoArgs;
 use crate::commands::{lattice, print_json, print_text};
 use crate::error::CliError;
 use crate::files;

@@ -1,6 +1,6 @@
 //! `tigereye ltg`: the light transport gradient volume, or a shard of it.
 
-use crate::args::{self, LtgArgs};
+use crate::args::light::{self, LtgArgs};
 use crate::checkpoint::Checkpoint;
 use crate::commands::propagate::{check_outputs, stop_name, stopping_of};
 use crate::commands::{command_line, print_json, print_text, volume};
@@ -167,8 +167,8 @@ fn settings_of(args: &LtgArgs) -> Result<LtgSettings, CliError> {
         memory_bytes: memory_bound(args).saturating_sub(PROGRAM_BYTES),
         level: system::level()?,
         precision: match args.precision {
-            args::Precision::F64 => Precision::F64,
-            args::Precision::F32 => Precision::F32,
+            light::Precision::F64 => Precision::F64,
+            light::Precision::F32 => Precision::F32,
         },
     };
     settings.slices = Some(settings.checked_slices(args.scheme.directions).map_err(fault)?);

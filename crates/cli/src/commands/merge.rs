@@ -1,6 +1,6 @@
 //! `tigereye merge`: the gradient volume of shards computed apart.
 
-use crate::args::MergeArgs;
+use crate::args::light::MergeArgs;
 use crate::commands::propagate::check_outputs;
 use crate::commands::{command_line, print_json, print_text, volume};
 use crate::error::CliError;

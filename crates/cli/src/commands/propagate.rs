@@ -1,6 +1,6 @@
 //! `tigereye propagate`: one light distribution.
 
-use crate::args::{Picture, PropagateArgs, SchemeArgs, StopRule};
+use crate::args::light::{Picture, PropagateArgs, SchemeArgs, StopRule};
 use crate::commands::{command_line, counted, print_json, print_text};
 use crate::error::CliError;
 use crate::input::insert_reading;

@@ -1,6 +1,7 @@
 //! `tigereye reproduce` and `tigereye run`: experiments to a report.
 
-use crate::args::{ReproduceArgs, Resources, RunArgs};
+use crate::args::experiments::{ReproduceArgs, RunArgs};
+use crate::args::light::Resources;
 use crate::commands::{counted, print_text, quoted};
 use crate::error::CliError;
 use crate::host::{FileHost, REFERENCE};

@@ -4,7 +4,7 @@ mod revision;
 
 pub(crate) use revision::abandon;
 
-use crate::args::ReviewArgs;
+use crate::args::experiments::ReviewArgs;
 use crate::commands::print_text;
 use crate::error::CliError;
 use crate::{files, interrupt};

@@ -1,0 +1,73 @@
+//! The command line of experiments and their review.
+
+use super::light::Resources;
+use super::values::parse_threshold;
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct ReproduceArgs {
+    /// Folder for the report, figures and data.
+    #[arg(long, value_name = "DIR", default_value = "results")]
+    pub(crate) out: PathBuf,
+    /// Only this experiment; may be repeated.
+    #[arg(long, value_name = "SLUG")]
+    pub(crate) only: Vec<String>,
+    /// The thesis's own resolutions: takes much longer.
+    #[arg(long)]
+    pub(crate) full: bool,
+    /// Take the experiment files of this folder instead of the built-in ones.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) experiments: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RunArgs {
+    /// Experiment files.
+    #[arg(required = true, value_name = "FILE.ron")]
+    pub(crate) files: Vec<PathBuf>,
+    /// Folder for the report, figures and data.
+    #[arg(long, value_name = "DIR", default_value = "results")]
+    pub(crate) out: PathBuf,
+    /// Also the runs that are marked `scope: Full`.
+    #[arg(long)]
+    pub(crate) full: bool,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    /// Experiment files, or scenes.
+    #[arg(required = true, value_name = "FILE.ron")]
+    pub(crate) files: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReviewArgs {
+    /// What was before: a results folder, as `reproduce --out` writes it, or a git revision, which is built and run.
+    #[arg(required_unless_present = "snapshots", conflicts_with = "snapshots")]
+    pub(crate) base: Option<String>,
+    /// What is now, in the same way.
+    #[arg(required_unless_present = "snapshots", conflicts_with = "snapshots")]
+    pub(crate) head: Option<String>,
+    /// Folder for the page and the summary, review.html and review.json.
+    #[arg(long, value_name = "DIR", default_value = "review")]
+    pub(crate) out: PathBuf,
+    /// Only the experiment of this name, its file without folder and ending; repeatable. Of revisions only these are run.
+    #[arg(long, value_name = "SLUG", conflicts_with = "snapshots")]
+    pub(crate) only: Vec<String>,
+    /// Largest relative change of a number that is no movement.
+    #[arg(long, value_name = "REL", default_value = "1e-9", value_parser = parse_threshold, allow_hyphen_values = true)]
+    pub(crate) tolerance: f64,
+    /// Compare the pending snapshots (*.snap.new) of a folder with the accepted ones beside them.
+    #[arg(
+        long,
+        value_name = "FOLDER",
+        num_args = 0..=1,
+        default_missing_value = "crates/experiments/tests/snapshots"
+    )]
+    pub(crate) snapshots: Option<PathBuf>,
+}

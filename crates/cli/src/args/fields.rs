@@ -1,0 +1,69 @@
+//! The command line of the test fields.
+
+use super::reading::ReadingArgs;
+use super::values::{parse_cell, parse_normalization};
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+use tigereye_core::Normalization;
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum FieldCommand {
+    /// All generators with their parameters and defaults.
+    List(FieldListArgs),
+    /// A field file to begin with, and an experiment made from it.
+    New(FieldNewArgs),
+    /// A sheet about a field: ellipses, lines, anisotropy, determinant, one light, a gradient.
+    Show(FieldShowArgs),
+    /// What is odd about a field.
+    Lint(FieldLintArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FieldListArgs {
+    /// As JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FieldNewArgs {
+    /// Name of the field: lower-case letters, digits, - and _; with --experiment also a generator, to show it in one.
+    pub(crate) name: String,
+    /// Folder for the files.
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    pub(crate) folder: PathBuf,
+    /// Write an experiment with the field beside it.
+    #[arg(long)]
+    pub(crate) experiment: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FieldShowArgs {
+    /// A field file, a data file or a generator.
+    pub(crate) input: String,
+    /// The sheet, .png or .svg.
+    #[arg(short, long = "output", value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Cell that shines, column and row; by default the one nearest to the middle whose tensor is not zero.
+    #[arg(long, value_name = "X,Y", value_parser = parse_cell)]
+    pub(crate) light: Option<[usize; 2]>,
+    /// Direction of the gradient, degrees, a multiple of 22.5.
+    #[arg(long, value_name = "DEG", default_value_t = 90.0)]
+    pub(crate) slice_deg: f64,
+    /// Scaling of transmission profiles; as `ltg` by default.
+    #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
+    pub(crate) normalization: Option<Normalization>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FieldLintArgs {
+    /// A field file, a data file or a generator.
+    pub(crate) input: String,
+    /// As JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+}

@@ -1,0 +1,167 @@
+//! The command line of propagations and gradients.
+
+use super::reading::ReadingArgs;
+use super::values::{
+    parse_bytes, parse_count, parse_directions, parse_normalization, parse_seconds, parse_shard, parse_side,
+    parse_threads, parse_threshold,
+};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use tigereye_core::{Directions, Normalization};
+use tigereye_ltg::Shard;
+
+/// What a computation may use.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct Resources {
+    /// Threads; all processors by default. Results do not depend on it.
+    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    pub(crate) threads: Option<usize>,
+    /// Upper bound on memory, bytes (suffixes K, M, G); half of the machine's by default.
+    #[arg(long, value_name = "BYTES", value_parser = parse_bytes)]
+    pub(crate) memory: Option<u64>,
+}
+
+/// What determines a propagation.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct SchemeArgs {
+    /// Angular samples S, a multiple of 8.
+    #[arg(long, value_name = "N", default_value = "32", value_parser = parse_directions)]
+    pub(crate) directions: Directions,
+    /// Stop when the stopping rule's measure falls below F; 0 never stops early.
+    #[arg(long, value_name = "F", default_value = "0.5", value_parser = parse_threshold, allow_hyphen_values = true)]
+    pub(crate) threshold: f64,
+    /// At most N+1 steps.
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = parse_count, allow_hyphen_values = true)]
+    pub(crate) max_iterations: usize,
+    /// What the threshold is compared with.
+    #[arg(long, value_enum, default_value_t = StopRule::Flux)]
+    pub(crate) stop: StopRule,
+    /// global, local, local-above:F or local-above-global:F; `local` for generators and .txt, `global` otherwise.
+    #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
+    pub(crate) normalization: Option<Normalization>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+}
+
+/// Stopping rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StopRule {
+    /// Change of the total transported flux between two steps, W.
+    Flux,
+    /// Sum of the changes of all profiles, W.
+    Distribution,
+    /// That sum over the energy at most 1e-10; ignores --threshold and --max-iterations.
+    Stationary,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PropagateArgs {
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value;
+    /// or a scene (NAME.scene.ron).
+    pub(crate) input: String,
+    /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1). A scene has
+    /// lights of its own where none is given.
+    #[arg(long = "light", value_name = "X,Y[,PROFILE]", allow_hyphen_values = true)]
+    pub(crate) lights: Vec<String>,
+    /// The lights flash once instead of shining all the time.
+    #[arg(long)]
+    pub(crate) impulse: bool,
+    /// Exactly N steps instead of a stopping rule.
+    #[arg(long, value_name = "N", value_parser = parse_count, allow_hyphen_values = true)]
+    pub(crate) steps: Option<usize>,
+    /// Outputs by their endings: .vti, .npy, .png, .svg; .pvd has a frame for every step, in the folder NAME beside NAME.pvd;
+    /// .apng is an animation of the energy, a frame for every step or every n-th.
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
+    pub(crate) outputs: Vec<PathBuf>,
+    /// What pictures show.
+    #[arg(long, value_enum, default_value_t = Picture::Overlay)]
+    pub(crate) picture: Picture,
+    #[command(flatten)]
+    pub(crate) scheme: SchemeArgs,
+    /// Summary as JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// What a picture of a light distribution shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Picture {
+    /// Transmission (red) and light (blue) of every cell.
+    Overlay,
+    /// Energy of every cell, logarithmic.
+    Energy,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LtgArgs {
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value;
+    /// or a scene (NAME.scene.ron).
+    pub(crate) input: String,
+    /// Outputs by their endings: .vti, .npy; .png, .svg show the only slice, or the mean over the slices. With --shard
+    /// one .part.
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
+    pub(crate) outputs: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) scheme: SchemeArgs,
+    /// Half-width of the angular difference, samples; ceil(S/12) by default.
+    #[arg(long, value_name = "K", value_parser = parse_count, allow_hyphen_values = true)]
+    pub(crate) omega_step: Option<usize>,
+    /// Only these angular slices (sample indices: 90 degrees are S/4); the output then holds just them, ascending.
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = parse_count, allow_hyphen_values = true)]
+    pub(crate) slices: Option<Vec<usize>>,
+    /// Precision of the computation.
+    #[arg(long, value_enum, default_value_t = Precision::F64)]
+    pub(crate) precision: Precision,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
+    /// Write NAME.view.py beside NAME.vti: it opens the volume in ParaView with contours and a slice.
+    #[arg(long)]
+    pub(crate) view: bool,
+    /// Keep what is finished in DIR/checkpoint.part; the same command again continues.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) checkpoint: Option<PathBuf>,
+    /// Only piece K, from 0, of N nearly equal ones, for `merge`.
+    #[arg(long, value_name = "K/N", value_parser = parse_shard)]
+    pub(crate) shard: Option<Shard>,
+    /// Summary as JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Precision of a sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Precision {
+    /// Double precision.
+    F64,
+    /// Single precision: faster, and less than 1e-4 off in the fields that the tests compare.
+    F32,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MergeArgs {
+    /// What `ltg --shard` wrote, every shard once, in any order.
+    #[arg(required = true, value_name = "PART")]
+    pub(crate) parts: Vec<PathBuf>,
+    /// Outputs by their endings, as those of `ltg`: .vti, .npy, .png, .svg.
+    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
+    pub(crate) outputs: Vec<PathBuf>,
+    /// Summary as JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchArgs {
+    /// The larger number of threads to measure; all processors by default. One thread is measured too.
+    #[arg(long, value_name = "N", value_parser = parse_threads)]
+    pub(crate) threads: Option<usize>,
+    /// Sides of the square fields.
+    #[arg(long, value_name = "A,B,C", value_delimiter = ',', default_value = "14,51,101,201", value_parser = parse_side)]
+    pub(crate) cells: Vec<usize>,
+    /// Seconds for each number; each of the three numbers of a row takes so long, at the least.
+    #[arg(long, value_name = "F", default_value = "1", value_parser = parse_seconds)]
+    pub(crate) seconds: f64,
+    /// As JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}

@@ -1,0 +1,135 @@
+//! Values of options: from their words, or what was expected.
+
+use tigereye_core::{Below, Directions, Normalization};
+use tigereye_fields::images::MAX_SIGMA;
+use tigereye_ltg::Shard;
+
+pub(crate) fn parse_side(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 3..=1000) => Ok(n),
+        _ => Err("expected 3 to 1000".to_owned()),
+    }
+}
+
+pub(crate) fn parse_seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 60.0 => Ok(x),
+        _ => Err("expected a number of seconds above 0, at most 60".to_owned()),
+    }
+}
+
+pub(crate) fn parse_directions(text: &str) -> Result<Directions, String> {
+    let samples =
+        text.parse().map_err(|_| format!("expected a multiple of 8 from 8 to {}", Directions::MAX))?;
+    Directions::new(samples).map_err(|e| e.to_string())
+}
+
+pub(crate) fn parse_threshold(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x >= 0.0 => Ok(x),
+        _ => Err("expected a finite number from 0".to_owned()),
+    }
+}
+
+pub(crate) fn parse_count(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "expected a whole number from 0".to_owned())
+}
+
+pub(crate) fn parse_threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(n @ 1..=1024) => Ok(n),
+        _ => Err("expected 1 to 1024".to_owned()),
+    }
+}
+
+pub(crate) fn parse_size(text: &str) -> Result<[usize; 2], String> {
+    let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    sides.filter(|s| !s.contains(&0)).ok_or_else(|| "expected WIDTHxHEIGHT, for example 64x48".to_owned())
+}
+
+pub(crate) fn parse_cell(text: &str) -> Result<[usize; 2], String> {
+    let cell = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    cell.ok_or_else(|| "expected X,Y, for example 25,40".to_owned())
+}
+
+pub(crate) fn parse_sigma(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if (0.0..=MAX_SIGMA).contains(&x) => Ok(x),
+        _ => Err(format!("expected a number of cells from 0 to {MAX_SIGMA}")),
+    }
+}
+
+pub(crate) fn parse_shard(text: &str) -> Result<Shard, String> {
+    let numbers = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    let (index, count) = numbers.ok_or("expected K/N, for example 0/4")?;
+    Shard::new(index, count).map_err(|e| e.to_string())
+}
+
+pub(crate) fn parse_bytes(text: &str) -> Result<u64, String> {
+    let expected = || "expected a number of bytes, for example 2000000000, 800M or 2G".to_owned();
+    let (digits, factor) = match text.char_indices().last() {
+        Some((i, 'k' | 'K')) => (&text[..i], 1 << 10),
+        Some((i, 'm' | 'M')) => (&text[..i], 1 << 20),
+        Some((i, 'g' | 'G')) => (&text[..i], 1 << 30),
+        _ => (text, 1),
+    };
+    let count: u64 = digits.parse().map_err(|_| expected())?;
+    count.checked_mul(factor).filter(|b| *b > 0).ok_or_else(expected)
+}
+
+pub(crate) fn parse_normalization(text: &str) -> Result<Normalization, String> {
+    let fraction = |f: &str, below| match f.parse::<f64>() {
+        Ok(fraction) if (0.0..=1.0).contains(&fraction) => Ok(Normalization::LocalAbove { fraction, below }),
+        _ => Err(format!("`{f}` is no fraction: expected a number from 0 to 1")),
+    };
+    match text.split_once(':') {
+        None if text == "global" => Ok(Normalization::Global),
+        None if text == "local" => Ok(Normalization::Local),
+        Some(("local-above", f)) => fraction(f, Below::Absorb),
+        Some(("local-above-global", f)) => fraction(f, Below::Global),
+        _ => Err("expected global, local, local-above:F or local-above-global:F".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tigereye_io::volume::{Axis, Crop, parse_slice};
+
+    #[test]
+    fn bytes_have_suffixes() {
+        assert_eq!(parse_bytes("2G"), Ok(2 << 30));
+        assert_eq!(parse_bytes("12"), Ok(12));
+        assert!(
+            parse_bytes("0").is_err() && parse_bytes("x").is_err() && parse_bytes("99999999999G").is_err()
+        );
+        assert!(parse_bytes("").is_err() && parse_bytes("ü").is_err());
+    }
+
+    #[test]
+    fn slices_and_crops_are_spelled_as_documented() {
+        assert_eq!(parse_slice("z=10"), Ok((Axis::Z, 10)));
+        assert_eq!(Crop::parse("1:5,0:4"), Ok(Crop { x: [1, 5], y: [0, 4] }));
+        for wrong in ["", "z", "w=1", "z=-1", "xy=1", "z=1.5"] {
+            assert!(parse_slice(wrong).is_err(), "{wrong}");
+        }
+        for wrong in ["", "1:5", "5:5,0:1", "a:b,c:d", "1:5,4:0", "1,2,3,4"] {
+            assert!(Crop::parse(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn shards_count_from_zero() {
+        assert_eq!(parse_shard("2/3").map(|s| (s.index(), s.count())), Ok((2, 3)));
+        for wrong in ["3/3", "0/0", "1", "-1/3", "a/b", "0/3/4", "", "0/99999999999999999999"] {
+            assert!(parse_shard(wrong).is_err_and(|e| e.contains("K/N")), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn normalisations_are_spelled_as_documented() {
+        assert_eq!(parse_normalization("global"), Ok(Normalization::Global));
+        assert!(matches!(parse_normalization("local-above:0.25"), Ok(Normalization::LocalAbove { .. })));
+        assert!(parse_normalization("local-above:2").is_err() && parse_normalization("nothing").is_err());
+    }
+}

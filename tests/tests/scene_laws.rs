@@ -190,6 +190,7 @@ fn walls_in_walls_let_nothing_through() {
 /// Thin rectangles and polygons are walls as the segment of the same cells is.
 #[test]
 fn thin_walls_lie_along_their_longer_side() {
+    let grid = Grid::new(21, 21).expect("a grid");
     let shapes = |from: [f64; 2], to: [f64; 2]| {
         let [[x0, y0], [x1, y1]] = [from, to];
         [
@@ -200,17 +201,17 @@ fn thin_walls_lie_along_their_longer_side() {
     };
     for shape in shapes([10.0, 2.0], [10.0, 18.0]) {
         for y in 3..18 {
-            assert_eq!(shape.surface_deg(Cell::new(10, y)), Some(90.0), "{shape:?} {y}");
+            assert_eq!(shape.surface_deg(grid, Cell::new(10, y)), Some(90.0), "{shape:?} {y}");
         }
     }
     for shape in shapes([2.0, 10.0], [18.0, 10.0]) {
         for x in 3..18 {
-            assert_eq!(shape.surface_deg(Cell::new(x, 10)), Some(0.0), "{shape:?} {x}");
+            assert_eq!(shape.surface_deg(grid, Cell::new(x, 10)), Some(0.0), "{shape:?} {x}");
         }
     }
     // As wide as a cell.
     let wide = rectangle([9.5, 0.0], [10.5, 20.0]);
-    assert!((1..20).all(|y| wide.surface_deg(Cell::new(10, y)) == Some(90.0)));
+    assert!((1..20).all(|y| wide.surface_deg(grid, Cell::new(10, y)) == Some(90.0)));
 }
 
 #[test]
@@ -537,6 +538,25 @@ fn stationary_light_in_scenes_is_that_of_many_steps() {
         // A relative change of 1e-10 a step leaves about 1e-8 where light stays for a hundred steps.
         let d = difference(&as_field(&scene, pulse), plain.distribution.incoming());
         assert!(d < 1e-7, "{i}: {d:e}");
+    }
+}
+
+/// Nothing leaves a closed room: light fills it until as much comes back to the pulse as it sends.
+#[test]
+fn closed_rooms_have_a_stationary_light() {
+    for material in [MIRROR, DIFFUSE] {
+        let scene = built(8, 8, vec![part(outline(rectangle([1.0, 1.0], [6.0, 6.0]), 1.0), material)]);
+        let cell = Cell::new(3, 3);
+        let settled = pulses::<f64>(&scene, Level::detect(), cell, &Stopping::STATIONARY);
+        let plain = pulses::<f64>(&scene, Level::detect(), cell, &Stopping::steps(20_000));
+        let single = pulses::<f32>(&scene, Level::detect(), cell, &Stopping::STATIONARY);
+        for (i, pulse) in plain.iter().enumerate() {
+            let filled = as_field(&scene, pulse);
+            let d = difference(&as_field(&scene, &settled[i]), &filled);
+            assert!(d < 1e-7, "{i}: {d:e}");
+            let d = difference(&as_field(&scene, &single[i]), &filled);
+            assert!(d < 1e-4, "{i}, f32: {d:e}");
+        }
     }
 }
 

@@ -1,10 +1,11 @@
 //! Files: whole reads, atomic writes.
 
 use crate::error::CliError;
+use std::collections::BTreeSet;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempPath};
 
 /// Largest input file, bytes. Text needs about twenty bytes a number; this holds every field a grid may have.
 const MAX_INPUT: u64 = 16 << 30;
@@ -42,10 +43,11 @@ pub(crate) fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, CliError> {
 /// How the names of temporary files begin.
 const TEMPORARY: &str = ".tigereye-";
 
-/// Temporary files of this process. Dropped, they are gone; where the process ends at once, [`abandon`] removes them.
-static PENDING: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+/// Temporary files of this process, and folders made for them. Dropped, they are gone; where the process ends at once, [`abandon`]
+/// removes them.
+static PENDING: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-fn pending() -> MutexGuard<'static, Vec<PathBuf>> {
+fn pending() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     PENDING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -61,7 +63,7 @@ impl Temporary {
         let mut pending = pending();
         let file = tempfile::Builder::new().prefix(prefix).tempfile_in(folder)?;
         let path = file.path().to_path_buf();
-        pending.push(path.clone());
+        pending.insert(path.clone());
         Ok(Self { file: Some(file), path })
     }
 
@@ -76,23 +78,125 @@ impl Temporary {
         let Some(file) = self.file.take() else { return Ok(()) };
         file.persist(path).map(drop).map_err(|e| e.error)
     }
+
+    /// The same file, closed.
+    fn waiting(mut self) -> Waiting {
+        let file = self.file.take().map(NamedTempFile::into_temp_path);
+        // It stays among the pending ones.
+        self.path = PathBuf::new();
+        Waiting(file)
+    }
 }
 
 impl Drop for Temporary {
     fn drop(&mut self) {
         drop(self.file.take());
-        pending().retain(|p| *p != self.path);
+        pending().remove(&self.path);
     }
 }
 
 /// Removes what is being written; no further temporary file can be made. For a process that ends right now.
 pub(crate) fn abandon() {
     let pending = pending();
-    for path in pending.iter() {
-        // There is nobody left to tell.
-        let _ = std::fs::remove_file(path);
+    // Folders come before what is in them, and only empty ones go. There is nobody left to tell.
+    for path in pending.iter().rev() {
+        let _ = std::fs::remove_file(path).or_else(|_| std::fs::remove_dir(path));
     }
     std::mem::forget(pending);
+}
+
+/// A folder for files that belong together, which become visible all at once.
+///
+/// Each waits under a temporary name until [`Self::finish`]; without it they are gone, and so is the folder where it was made for
+/// them. What was in the folder before stays until then.
+pub(crate) struct Staging {
+    folder: PathBuf,
+    /// Whether the folder was made for the files.
+    made: bool,
+    files: Vec<(PathBuf, Waiting)>,
+}
+
+/// A temporary file that is closed, so that thousands may wait.
+struct Waiting(Option<TempPath>);
+
+impl Waiting {
+    fn become_file(mut self, path: &Path) -> std::io::Result<()> {
+        let Some(file) = self.0.take() else { return Ok(()) };
+        let temporary = file.to_path_buf();
+        let result = file.persist(path).map_err(|e| e.error);
+        pending().remove(&temporary);
+        result
+    }
+}
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        if let Some(file) = self.0.take() {
+            let temporary = file.to_path_buf();
+            drop(file);
+            pending().remove(&temporary);
+        }
+    }
+}
+
+impl Staging {
+    pub(crate) fn new(folder: &Path) -> Result<Self, CliError> {
+        let made = !folder.exists();
+        make_folder(folder)?;
+        if made {
+            pending().insert(folder.to_path_buf());
+        }
+        Ok(Self { folder: folder.to_path_buf(), made, files: Vec::new() })
+    }
+
+    /// How many files wait.
+    pub(crate) const fn len(&self) -> usize {
+        self.files.len()
+    }
+
+    /// A file of the folder.
+    pub(crate) fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), CliError> {
+        let path = self.folder.join(name);
+        self.add_at(path, bytes)
+    }
+
+    /// A file that belongs to them, beside the folder for example.
+    pub(crate) fn add_at(&mut self, path: PathBuf, bytes: &[u8]) -> Result<(), CliError> {
+        let written = Temporary::new(folder_of(&path), TEMPORARY).and_then(|mut temporary| {
+            temporary.fill(bytes)?;
+            Ok(temporary.waiting())
+        });
+        match written {
+            Ok(waiting) => {
+                self.files.push((path, waiting));
+                Ok(())
+            }
+            Err(source) => {
+                Err(CliError::File { path: path.display().to_string(), action: "writing", source })
+            }
+        }
+    }
+
+    /// Gives the files their names, in the order in which they came.
+    pub(crate) fn finish(mut self) -> Result<(), CliError> {
+        for (path, waiting) in std::mem::take(&mut self.files) {
+            let fault =
+                |source| CliError::File { path: path.display().to_string(), action: "writing", source };
+            waiting.become_file(&path).map_err(fault)?;
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Staging {
+    fn drop(&mut self) {
+        self.files.clear();
+        if self.made {
+            pending().remove(&self.folder);
+            // Not where there are files in it.
+            let _ = std::fs::remove_dir(&self.folder);
+        }
+    }
 }
 
 /// Replaces a file as a whole: readers see the old bytes or the new ones, never a part.
@@ -195,4 +299,37 @@ pub(crate) fn place_of(path: &Path) -> PathBuf {
 /// The ending of a path in lower case, without dot.
 pub(crate) fn extension(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn staged_files_appear_together_or_not_at_all() {
+        let place = tempfile::tempdir().expect("a folder");
+        let (folder, list) = (place.path().join("new"), place.path().join("list"));
+        let stage = || {
+            let mut staging = Staging::new(&folder).expect("a folder");
+            staging.add("a", b"1").expect("a file");
+            staging.add_at(list.clone(), b"2").expect("a file");
+            staging
+        };
+        let everything = || {
+            let entries = [place.path(), &folder].map(|f| std::fs::read_dir(f).into_iter().flatten().count());
+            (entries, std::fs::read(&list).ok())
+        };
+        let staging = stage();
+        assert_eq!((staging.len(), everything()), (2, ([2, 1], None)), "waiting under other names");
+        assert_eq!(pending().iter().filter(|p| p.starts_with(place.path())).count(), 3);
+        drop(staging);
+        assert_eq!(everything(), ([0, 0], None), "nothing is left");
+        stage().finish().expect("a rename");
+        assert_eq!(everything(), ([2, 1], Some(b"2".to_vec())));
+        // Without an end the older files stay.
+        std::fs::write(&list, "old").expect("a file");
+        drop(stage());
+        assert_eq!(everything(), ([2, 1], Some(b"old".to_vec())));
+        assert_eq!(pending().iter().filter(|p| p.starts_with(place.path())).count(), 0);
+    }
 }

@@ -132,6 +132,11 @@ impl MediumInput {
         self.medium().scene().map(|scene| &scene.layout.surfaces)
     }
 
+    /// Cells that send light back.
+    pub(crate) fn reflecting(&self) -> usize {
+        self.medium().scene().map_or(0, |scene| scene.layout.reflecting())
+    }
+
     /// The lights a scene comes with.
     pub(crate) fn own_lights(&self, directions: Directions) -> Result<Vec<Light>, CliError> {
         let Some(scene) = self.medium().scene() else { return Ok(Vec::new()) };

@@ -272,7 +272,8 @@ fn run_gradient(
         precision: Precision::F64,
     };
     // Before anything large is made.
-    check_fit(medium.grid(), setup.directions, &ltg).map_err(failed)?;
+    let walls = medium.scene().map_or(0, |scene| scene.layout.reflecting());
+    check_fit(medium.grid(), setup.directions, walls, &ltg).map_err(failed)?;
     let transmission = medium
         .transmission(setup.directions, setup.normalization)
         .map_err(|source| RunError::Field { run: name.to_owned(), source })?;

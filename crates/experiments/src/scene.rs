@@ -119,42 +119,37 @@ pub fn prepare(path: &str, text: &str, host: &dyn Host) -> Result<PreparedScene,
     };
     let grid = match Grid::new(file.width, file.height) {
         Ok(grid) if grid.cells() <= Scene::MAX_CELLS => grid,
-        Ok(_) => {
+        _ => {
             let fault = Fault::Size { width: file.width, height: file.height };
-            return Err(vec![reader.fault("width:", &fault.to_string())]);
-        }
-        Err(e) => {
             let key = if file.width > 0 && file.height == 0 { "height:" } else { "width:" };
-            return Err(vec![reader.fault(key, &e.to_string())]);
+            return Err(vec![reader.fault(key, &fault.to_string())]);
         }
     };
-    let parts: Vec<Option<Part>> =
-        file.parts.iter().enumerate().map(|(i, part)| reader.part(i, part, grid)).collect();
-    if parts.contains(&None) {
-        return Err(reader.problems);
-    }
-    let scene = Scene { grid, parts: parts.into_iter().flatten().collect() };
-    let layout = match scene.layout() {
-        Ok(layout) => layout,
-        Err(faults) => {
-            for fault in faults {
-                reader.fault_of_scene(&fault);
-            }
-            return Err(reader.problems);
+    let part = |(i, part)| reader.part(i, part, grid).map(|part| (i, part));
+    let (numbers, parts): (Vec<usize>, Vec<Part>) = file.parts.iter().enumerate().filter_map(part).unzip();
+    // What is wrong with the rest of the scene is told, too, where parts of it cannot be made.
+    let scene = Scene { grid, parts };
+    let layout = scene.layout().map_err(|faults| {
+        for SceneError { part, fault } in faults {
+            reader.fault_of_scene(&SceneError { part: part.map(|i| numbers[i]), fault });
         }
-    };
+    });
+    let layout = layout.ok();
     let Ok(few) = Directions::new(8) else { unreachable!("8 is a multiple of 8") };
-    if let Err(fault) = scene.transmission(&layout, few) {
-        reader.fault_of_scene(&fault);
+    if let Some(Err(SceneError { part, fault })) = layout.as_ref().map(|l| scene.transmission(l, few)) {
+        reader.fault_of_scene(&SceneError { part: part.map(|i| numbers[i]), fault });
     }
-    let profiles_at = reader.lights(&file, &layout);
-    match reader.problems.is_empty() {
-        true => {
+    let profiles_at = reader.lights(&file, grid, layout.as_ref());
+    match layout {
+        Some(layout) if reader.problems.is_empty() => {
             let blake3 = hash_of_bytes(reader.hashes.as_bytes());
             let (title, lights) = (file.title, file.lights);
             Ok(PreparedScene { title, scene, layout, lights, profiles_at, file: path.to_owned(), blake3 })
         }
-        false => Err(reader.problems),
+        _ => {
+            reader.problems.sort_by_key(|problem| (problem.line, problem.column));
+            Err(reader.problems)
+        }
     }
 }
 
@@ -332,11 +327,11 @@ impl Reader<'_> {
         })
     }
 
-    /// Checks that lights can shine, in some directions at least, and stand in the open; the places of their profiles.
-    fn lights(&mut self, file: &SceneFile, layout: &Layout) -> Vec<Place> {
-        let grid = layout.surfaces.grid();
+    /// Checks that lights can shine, in some directions at least, and stand in the open, as far as walls are known; the places of
+    /// their profiles.
+    fn lights(&mut self, file: &SceneFile, grid: Grid, layout: Option<&Layout>) -> Vec<Place> {
         let in_wall = |(index, light)| {
-            let problem = light_fault(layout, cell_of(light, grid))?;
+            let problem = light_fault(layout?, cell_of(light, grid))?;
             Some(LightFault { index, key: "cell:", problem })
         };
         let mut faults: Vec<LightFault> = file.lights.iter().enumerate().filter_map(in_wall).collect();

@@ -245,7 +245,7 @@ fn many_bitmaps_cost_no_more_than_their_cells() {
 #[test]
 fn scenes_that_are_too_large_are_refused() {
     refused("height: 13,\n", "height: 0,\n", "height: 0", &["21 x 0"]);
-    refused("width: 21,\n", "width: 2100000,\n", "width: 2100000", &["too large"]);
+    refused("width: 21,\n", "width: 2100000,\n", "width: 2100000", &["not possible", "1 to 1048576 cells"]);
     refused("width: 21,\n", "width: 0,\n", "width: 0", &["0 x 13"]);
     refused("format: 1", "format: 2", "format", &["format 2"]);
 }
@@ -265,6 +265,12 @@ fn crystals_without_end_are_refused() {
 fn all_faults_of_a_scene_are_told_at_once() {
     let text = GOOD.replace("centre: (6, 6)", "centre: (-60, 6)").replace("to: (18, 9)", "to: (15, 3)");
     assert_eq!(read(&text).unwrap_err().len(), 2);
+    // Those of parts, of the scene that the rest of them make, and of its lights.
+    let text = text.replacen("marks.png", "none.png", 1).replace("(cell: (2, 2))", "(cell: (50, 2))");
+    let problems: Vec<String> = read(&text).unwrap_err().iter().map(ToString::to_string).collect();
+    let told = ["covers no cell", "begins where it ends", "none.png", "(50, 2) lies outside"];
+    assert_eq!(problems.len(), told.len(), "{problems:?}");
+    assert!(problems.iter().zip(told).all(|(problem, words)| problem.contains(words)), "{problems:?}");
 }
 
 #[test]

@@ -10,7 +10,7 @@
 //! parses nor reads clocks.
 
 /// Counts the changes that moved a bit of a gradient: what one count left half-finished, another must not go on with.
-pub const NUMERICS: u32 = 1;
+pub const NUMERICS: u32 = 2;
 
 mod error;
 mod observer;

@@ -18,12 +18,19 @@ pub(crate) struct Bounds {
     pub(crate) memory_bytes: u64,
     pub(crate) threads: usize,
     pub(crate) stopping: Stopping,
+    /// Cells that send light back.
+    pub(crate) walls: usize,
 }
 
 /// Bytes of two rows of `columns` cells with a pulse in each direction of a set.
 fn ring_bytes<T: Real>(grid: Grid, columns: usize, set: &DirectionSet) -> u128 {
     PulseDistribution::<T>::bytes(grid.cells()) * (ROWS * columns * set.directions.len()) as u128
 }
+
+/// Bytes of a wall: its matrix in two forms, each once more while lists of them grow.
+const WALL_BYTES: u128 = 1600;
+/// Bytes of a cell in the layout of a scene.
+const LAYOUT_BYTES: u128 = 64;
 
 /// Bytes that a sweep takes whatever its strips.
 fn fixed_bytes<T: Real>(grid: Grid, directions: Directions, slices: usize, bounds: Bounds) -> u128 {
@@ -34,7 +41,8 @@ fn fixed_bytes<T: Real>(grid: Grid, directions: Directions, slices: usize, bound
     let values = cells * slices as u128 * 3 * 8;
     let solver = PulseSolver::<T>::bytes(grid, &bounds.stopping)
         + PulseDistribution::<T>::bytes(grid.cells()) * T::LANES as u128;
-    prepared + values + solver * bounds.threads as u128
+    let walls = if bounds.walls > 0 { cells * LAYOUT_BYTES + bounds.walls as u128 * WALL_BYTES } else { 0 };
+    prepared + values + walls + solver * bounds.threads as u128
 }
 
 /// The strips of inner columns for each set of directions, so that everything fits together.
@@ -98,7 +106,7 @@ mod tests {
                 directions,
                 &sets,
                 64,
-                Bounds { memory_bytes, threads: 2, stopping: Stopping::REFERENCE },
+                Bounds { memory_bytes, threads: 2, stopping: Stopping::REFERENCE, walls: 0 },
             )
         };
         let row = ring_bytes::<f64>(grid, 21, &sets[0]) as u64;
@@ -118,7 +126,8 @@ mod tests {
         let grid = Grid::new(101, 101).expect("a grid");
         let (directions, sets) = sets(64, 6);
         for threads in [2, 64] {
-            let bounds = Bounds { memory_bytes: 2_000_000_000, threads, stopping: Stopping::REFERENCE };
+            let bounds =
+                Bounds { memory_bytes: 2_000_000_000, threads, stopping: Stopping::REFERENCE, walls: 0 };
             let strips = strips::<f64>(grid, directions, &sets, 64, bounds).expect("strips");
             assert!(strips.iter().all(|s| s.len() <= 5), "{threads} threads: {strips:?}");
         }
@@ -133,7 +142,7 @@ mod tests {
             directions,
             &sets,
             8,
-            Bounds { memory_bytes: 1, threads: 2, stopping: Stopping::REFERENCE },
+            Bounds { memory_bytes: 1, threads: 2, stopping: Stopping::REFERENCE, walls: 0 },
         );
         assert_eq!(none, Ok(vec![Vec::new(); sets.len()]));
     }

@@ -49,7 +49,7 @@ pub fn sweep_part(
 ) -> Result<PartialVolume, LtgError> {
     let (grid, directions) = (field.grid(), field.scheme().directions());
     let slices = settings.checked_slices(directions)?;
-    check_fit(grid, directions, settings)?;
+    check_fit(grid, directions, walls_of(field), settings)?;
     let empty = || PartialVolume::empty(grid, directions, slices, settings.omega_step);
     let volume = match start {
         None => empty()?,
@@ -64,24 +64,35 @@ pub fn sweep_part(
     }
 }
 
-/// Whether a sweep with these settings can run on rayon's current thread pool, asked before anything large is made.
+/// Whether a sweep with these settings can run on rayon's current thread pool, asked before anything large is made. `walls` is how
+/// many cells send light back.
 ///
 /// # Errors
 /// What [`sweep`] would refuse.
-pub fn check_fit(grid: Grid, directions: Directions, settings: &LtgSettings) -> Result<(), LtgError> {
+pub fn check_fit(
+    grid: Grid,
+    directions: Directions,
+    walls: usize,
+    settings: &LtgSettings,
+) -> Result<(), LtgError> {
     let slices = settings.checked_slices(directions)?;
-    let bounds = bounds(settings);
+    let bounds = bounds(settings, walls);
     match settings.precision {
         Precision::F64 => plan::check::<f64>(grid, directions, &slices, settings.omega_step, bounds),
         Precision::F32 => plan::check::<f32>(grid, directions, &slices, settings.omega_step, bounds),
     }
 }
 
-fn bounds(settings: &LtgSettings) -> Bounds {
+fn walls_of(field: &Scattering<'_>) -> usize {
+    field.transmission().reflections().count()
+}
+
+fn bounds(settings: &LtgSettings, walls: usize) -> Bounds {
     Bounds {
         memory_bytes: settings.memory_bytes,
         threads: rayon::current_num_threads(),
         stopping: settings.stopping,
+        walls,
     }
 }
 
@@ -94,8 +105,13 @@ fn run<T: Real>(
 ) -> Result<PartialVolume, LtgError> {
     let grid = field.grid();
     let sets = volume.sets().to_vec();
-    let strips =
-        plan::strips::<T>(grid, volume.directions(), &sets, volume.slices().len(), bounds(settings))?;
+    let strips = plan::strips::<T>(
+        grid,
+        volume.directions(),
+        &sets,
+        volume.slices().len(),
+        bounds(settings, walls_of(field)),
+    )?;
     let passes: Vec<(usize, &Range<usize>)> =
         strips.iter().enumerate().flat_map(|(set, strips)| strips.iter().map(move |s| (set, s))).collect();
     let pass = |(set, strip): (usize, &Range<usize>), volume: &PartialVolume| {

@@ -10,7 +10,7 @@ pub(crate) const ROUNDING: f64 = 1e-9;
 pub(crate) struct Nearest {
     /// How far they are, cells.
     pub(crate) distance: f64,
-    /// Mean of the directions across the border there, y downwards; `[0, 0]` where they cancel.
+    /// Sum of the directions across the border there, all to the same side, y downwards; `[0, 0]` where they cancel.
     pub(crate) across: [f64; 2],
     /// Sum of the same directions at twice their angle, in which opposite ones agree: that of thin walls.
     pub(crate) doubled: [f64; 2],
@@ -81,9 +81,8 @@ fn foot(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
 /// Beside a side that is the side's normal, off a corner the direction from the corner, and on a corner, or where two sides are
 /// equally far, their mean.
 pub(crate) fn to_polygon(p: [f64; 2], corners: &[[f64; 2]]) -> Nearest {
-    let clockwise = signed_area(corners) > 0.0;
     let mut nearest = Nearest::NONE;
-    let mut feet: Vec<[f64; 2]> = Vec::new();
+    let mut feet: Option<([f64; 2], [f64; 2])> = None;
     for (i, &a) in corners.iter().enumerate() {
         let b = corners[(i + 1) % corners.len()];
         let q = foot(p, [a, b]);
@@ -94,38 +93,29 @@ pub(crate) fn to_polygon(p: [f64; 2], corners: &[[f64; 2]]) -> Nearest {
         }
         if distance < nearest.distance - ROUNDING {
             nearest = Nearest { distance, ..Nearest::NONE };
-            feet.clear();
+            feet = None;
         }
         let across = if distance > ROUNDING {
-            // Two sides that share a corner would count it twice.
-            if feet.iter().any(|f| math::hypot(f[0] - q[0], f[1] - q[1]) < ROUNDING) {
+            // Two sides that share a corner would count it twice: one side and the next, or the last and the first.
+            let is_foot = |f: [f64; 2]| math::hypot(f[0] - q[0], f[1] - q[1]) < ROUNDING;
+            if feet.is_some_and(|(first, last)| is_foot(first) || is_foot(last)) {
                 continue;
             }
-            feet.push(q);
+            feet = Some((feet.map_or(q, |(first, _)| first), q));
             [away[0] / distance, away[1] / distance]
         } else {
-            outwards(a, b, clockwise)
+            normal(a, b)
         };
         nearest.add(across);
     }
     nearest
 }
 
-/// Unit normal of a side that points out of the polygon, y downwards.
-fn outwards(a: [f64; 2], b: [f64; 2], clockwise: bool) -> [f64; 2] {
+/// Unit normal of a side, to the left of its way for all sides of a polygon.
+fn normal(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     let d = [b[0] - a[0], b[1] - a[1]];
     let length = math::hypot(d[0], d[1]);
-    if length == 0.0 {
-        return [0.0; 2];
-    }
-    let side = if clockwise { 1.0 } else { -1.0 };
-    [side * d[1] / length, -side * d[0] / length]
-}
-
-/// Twice the area; positive where the corners run clockwise as seen, y downwards.
-fn signed_area(corners: &[[f64; 2]]) -> f64 {
-    let next = corners.iter().cycle().skip(1);
-    corners.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum()
+    if length == 0.0 { [0.0; 2] } else { [d[1] / length, -d[0] / length] }
 }
 
 /// Whether a point lies in a polygon, by the even-odd rule; its border belongs to it.
@@ -162,6 +152,18 @@ mod tests {
             assert_eq!(along(3.0, 3.0), Some(45.0), "off the corner, inside");
             assert_eq!(along(1.0, 2.0), Some(90.0), "beside the left side");
             assert_eq!(along(5.0, 5.0), None, "in the middle");
+        }
+    }
+
+    /// The sides of a turned square are equally far from its middle up to rounding, and all four count.
+    #[test]
+    fn distances_that_differ_by_rounding_are_equal() {
+        let turned = |deg: f64| {
+            let (c, s) = (math::cos(math::radians(deg)), math::sin(math::radians(deg)));
+            SQUARE.map(|[x, y]| [x - 5.0, y - 5.0]).map(|[x, y]| [5.0 + c * x - s * y, 5.0 + s * x + c * y])
+        };
+        for deg in 0..90 {
+            assert_eq!(to_polygon([5.0, 5.0], &turned(f64::from(deg))).along_deg(), None, "{deg}");
         }
     }
 

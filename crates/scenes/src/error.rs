@@ -16,8 +16,8 @@ pub struct SceneError {
 /// What is wrong with a part of a scene, or with the whole.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum Fault {
-    /// More cells than a scene may have.
-    #[error("a scene of {width} x {height} cells is too large: expected at most {max} cells", max = crate::Scene::MAX_CELLS)]
+    /// No cells, or more than a scene may have.
+    #[error("a scene of {width} x {height} cells is not possible: expected 1 to {max} cells", max = crate::Scene::MAX_CELLS)]
     Size {
         /// Columns.
         width: usize,
@@ -30,9 +30,9 @@ pub enum Fault {
         /// The number.
         value: f64,
     },
-    /// A thickness or radius that is not positive.
-    #[error("the {what} is {value}: expected more than 0")]
-    NotPositive {
+    /// A thickness or radius that is not positive, or absurdly large.
+    #[error("the {what} is {value}: expected more than 0, at most 1e6")]
+    Extent {
         /// `radius` or `thickness`.
         what: &'static str,
         /// Its value.

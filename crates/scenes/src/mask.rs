@@ -1,7 +1,7 @@
 //! Cells marked one by one.
 
 use std::sync::Arc;
-use tigereye_core::Cell;
+use tigereye_core::{Cell, Grid};
 
 /// Marked cells of a rectangle, row-major: a bitmap. Copies share the marks.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,12 +39,14 @@ impl Mask {
 
     /// The direction of the surface in a cell of a scene that has the mask's upper left one at `at`, degrees from 0 to 180: at right
     /// angles to the free cells about it, a diagonal one counting where both beside it are free. `None` where they have no
-    /// direction: a single cell, or one with no free cell beside it. The wall is what is marked, or else everything else.
-    pub(crate) fn surface_deg(&self, at: Cell, cell: Cell, marked: bool) -> Option<f64> {
+    /// direction: a single cell, or one with no free cell beside it. The wall is what is marked, or else everything else. Beyond the
+    /// rim of the scene, where a bitmap cannot go on, lies what lies at the rim.
+    pub(crate) fn surface_deg(&self, grid: Grid, at: Cell, cell: Cell, marked: bool) -> Option<f64> {
         let free = |k: usize| {
             let (dx, dy) = tigereye_core::NEIGHBOUR_OFFSETS[k];
-            let within = |c: usize, d: isize, first: usize| c.checked_add_signed(d)?.checked_sub(first);
-            let is_marked = match (within(cell.x, dx, at.x), within(cell.y, dy, at.y)) {
+            let inside = |c: usize, d: isize, cells: usize| c.saturating_add_signed(d).min(cells - 1);
+            let (x, y) = (inside(cell.x, dx, grid.width()), inside(cell.y, dy, grid.height()));
+            let is_marked = match (x.checked_sub(at.x), y.checked_sub(at.y)) {
                 (Some(x), Some(y)) => self.contains(Cell::new(x, y)),
                 _ => false,
             };
@@ -73,26 +75,38 @@ mod tests {
         Mask::from_fn(rows[0].len(), rows.len(), |c| rows[c.y].as_bytes()[c.x] == b'#')
     }
 
+    /// That of a mask whose scene has its rim far away.
+    fn surface(mask: &Mask, x: usize, y: usize) -> Option<f64> {
+        mask.surface_deg(Grid::new(20, 20).expect("a grid"), Cell::new(5, 6), Cell::new(5 + x, 6 + y), true)
+    }
+
+    #[test]
+    fn surfaces_go_on_beyond_the_rim_of_the_scene() {
+        let floor = mask(&["....", "....", "####", "####"]);
+        let tight = Grid::new(4, 4).expect("a grid");
+        for x in 0..4 {
+            assert_eq!(floor.surface_deg(tight, Cell::new(0, 0), Cell::new(x, 2), true), Some(0.0), "{x}");
+        }
+        assert_eq!(surface(&floor, 3, 2), Some(135.0), "ends there");
+        let column = mask(&["#...", "#...", "#..."]);
+        let tight = Grid::new(4, 3).expect("a grid");
+        for y in 0..3 {
+            assert_eq!(column.surface_deg(tight, Cell::new(0, 0), Cell::new(0, y), true), Some(90.0), "{y}");
+        }
+    }
+
     #[test]
     fn surfaces_follow_the_marks() {
         let thin = mask(&[".....", "####.", "#..#.", "#..#.", "####."]);
-        assert_eq!(thin.surface_deg(Cell::new(0, 0), Cell::new(1, 1), true), Some(0.0));
-        assert_eq!(thin.surface_deg(Cell::new(0, 0), Cell::new(0, 3), true), Some(90.0));
-        assert_eq!(thin.surface_deg(Cell::new(0, 0), Cell::new(0, 1), true), Some(45.0), "upper left corner");
-        assert_eq!(
-            thin.surface_deg(Cell::new(0, 0), Cell::new(3, 1), true),
-            Some(135.0),
-            "upper right corner"
-        );
+        assert_eq!(surface(&thin, 1, 1), Some(0.0));
+        assert_eq!(surface(&thin, 0, 3), Some(90.0));
+        assert_eq!(surface(&thin, 0, 1), Some(45.0), "upper left corner");
+        assert_eq!(surface(&thin, 3, 1), Some(135.0), "upper right corner");
         let solid = mask(&[".....", ".###.", ".###.", ".###."]);
-        assert_eq!(solid.surface_deg(Cell::new(0, 0), Cell::new(2, 1), true), Some(0.0));
-        assert_eq!(solid.surface_deg(Cell::new(0, 0), Cell::new(3, 2), true), Some(90.0));
-        assert_eq!(solid.surface_deg(Cell::new(0, 0), Cell::new(1, 1), true), Some(45.0));
-        assert_eq!(
-            solid.surface_deg(Cell::new(0, 0), Cell::new(2, 2), true),
-            None,
-            "inside there is no direction"
-        );
+        assert_eq!(surface(&solid, 2, 1), Some(0.0));
+        assert_eq!(surface(&solid, 3, 2), Some(90.0));
+        assert_eq!(surface(&solid, 1, 1), Some(45.0));
+        assert_eq!(surface(&solid, 2, 2), None, "inside there is no direction");
     }
 
     #[test]
@@ -106,8 +120,8 @@ mod tests {
     #[test]
     fn single_cells_have_no_direction() {
         let dot = mask(&["...", ".#.", "..."]);
-        assert_eq!(dot.surface_deg(Cell::new(0, 0), Cell::new(1, 1), true), None);
+        assert_eq!(surface(&dot, 1, 1), None);
         let bar = mask(&["#..", "#..", "#.."]);
-        assert_eq!(bar.surface_deg(Cell::new(4, 2), Cell::new(4, 3), true), Some(90.0), "at its place");
+        assert_eq!(surface(&bar, 0, 1), Some(90.0), "at its place");
     }
 }

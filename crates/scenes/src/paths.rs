@@ -114,6 +114,9 @@ mod tests {
         assert_eq!(path.len(), 8);
         assert_eq!((path[0], path[7]), (Cell::new(0, 0), Cell::new(4, 3)));
         assert!(path.windows(2).all(|w| w[0].x.abs_diff(w[1].x).max(w[0].y.abs_diff(w[1].y)) == 1));
+        let hall = open(&[".....", ".....", "....."]);
+        let straight = [(0, 1), (1, 1), (2, 1), (3, 1), (4, 0)].map(|(x, y)| Cell::new(x, y));
+        assert_eq!(shortest_path(&hall, straight[0], straight[4]).as_deref(), Some(&straight[..]));
         let shut = open(&[".#.", ".#.", ".#."]);
         assert_eq!(shortest_path(&shut, Cell::new(0, 0), Cell::new(2, 2)), None);
         assert_eq!(shortest_path(&shut, Cell::new(1, 0), Cell::new(2, 2)), None, "from inside a wall");

@@ -80,6 +80,18 @@ impl Layout {
         self.surfaces.at(cell).is_some_and(|s| s.is_wall())
     }
 
+    /// Cells that hold a matrix: mirrors and diffuse walls that light reaches.
+    #[must_use]
+    pub fn reflecting(&self) -> usize {
+        self.surfaces.grid().iter().filter(|cell| self.reflects(*cell)).count()
+    }
+
+    /// Whether a cell sends light back. None arrives inside of thick walls.
+    fn reflects(&self, cell: Cell) -> bool {
+        matches!(self.surfaces.at(cell), Some(Surface::Mirror { .. } | Surface::Diffuse { .. }))
+            && (0..8).any(|k| self.beside(cell, k) == Beside::Open)
+    }
+
     fn beside(&self, cell: Cell, k: usize) -> Beside {
         match self.surfaces.grid().neighbour(cell, k).map(|next| *self.surfaces.at(next)) {
             Some(Some(Surface::Mirror { .. } | Surface::Diffuse { .. })) => Beside::Wall,
@@ -186,11 +198,7 @@ impl Scene {
             return None;
         };
         let sent = match surface {
-            Surface::Mirror { .. } | Surface::Diffuse { .. }
-                if (0..8).all(|k| layout.beside(cell, k) != Beside::Open) =>
-            {
-                return None;
-            }
+            _ if !layout.reflects(cell) => return None,
             Surface::Mirror { angle_deg } => specular(*angle_deg),
             Surface::Diffuse { angle_deg } => diffuse(*angle_deg),
             _ => return None,
@@ -216,10 +224,16 @@ impl Scene {
     fn surface(&self, cell: Cell, part: Option<usize>) -> Option<Surface> {
         let part = &self.parts[part?];
         let angle = |given: Option<f64>| {
-            given.map(|deg| deg.rem_euclid(180.0)).or_else(|| part.shape.surface_deg(cell))
+            given.map(|deg| deg.rem_euclid(180.0)).or_else(|| part.shape.surface_deg(self.grid, cell))
         };
         match part.material {
             Material::Clear { transmittance: 1.0 } => None,
+            // Where a crystal passes nothing on, it is a dark wall.
+            Material::Crystal { ref field, at, .. }
+                if *field.at(Cell::new(cell.x - at.x, cell.y - at.y)) == Tensor2::ZERO =>
+            {
+                Some(Surface::Absorbing)
+            }
             Material::Crystal { .. } => Some(Surface::Crystal),
             Material::Clear { transmittance: 0.0 } | Material::Absorber => Some(Surface::Absorbing),
             Material::Clear { transmittance } => Some(Surface::Filter { transmittance }),
@@ -288,10 +302,33 @@ mod tests {
         let layout = s.layout().expect("a layout");
         assert!(layout.is_wall(Cell::new(3, 3)) && !layout.is_wall(Cell::new(4, 3)));
         assert_eq!(transmission(&s).rates().iter().filter(|r| **r == 0.0).count(), 8);
-        assert_eq!(
-            (*layout.part_of.at(Cell::new(4, 3)), *layout.part_of.at(Cell::new(0, 0))),
-            (Some(1), None)
-        );
+        let door = Cell::new(4, 3);
+        assert_eq!(*layout.surfaces.at(door), None, "a door is empty space");
+        assert_eq!((*layout.part_of.at(door), *layout.part_of.at(Cell::new(0, 0))), (Some(1), None));
+    }
+
+    #[test]
+    fn crystals_are_dark_walls_where_their_tensor_is_zero() {
+        let field = Field::from_fn(Grid::new(9, 7).expect("a grid"), |c| {
+            if c.x < 4 { Tensor2::ZERO } else { Tensor2::IDENTITY }
+        });
+        let at = Cell::new(0, 0);
+        let s = scene(vec![
+            row(3.0, Material::Crystal { field, at, normalization: Normalization::Local }),
+            Part {
+                shape: Shape::Rectangle { from: [2.0, 3.0], to: [2.0, 3.0] },
+                material: Material::Mirror { reflectance: 1.0, angle_deg: Some(0.0) },
+            },
+        ]);
+        let layout = s.layout().expect("a layout");
+        assert_eq!(*layout.surfaces.at(Cell::new(1, 3)), Some(Surface::Absorbing));
+        assert_eq!(*layout.surfaces.at(Cell::new(5, 3)), Some(Surface::Crystal));
+        // No light gets round the mirror through the dark cells beside it.
+        let mirror = transmission(&s).reflection(Cell::new(2, 3)).expect("a mirror").clone();
+        let mut down = [0.0; 8];
+        down[6] = 1.0;
+        let sent = mirror.reflected(&down);
+        assert_eq!((sent[5], sent[6], sent[7]), (0.0, 0.0, 0.0), "{sent:?}");
     }
 
     #[test]

@@ -65,8 +65,7 @@ impl Shape {
         };
         let positive = |what, value: f64| match value {
             v if v > 0.0 && v <= LARGEST => Ok(()),
-            v if v > LARGEST => Err(Fault::Coordinate { value }),
-            _ => Err(Fault::NotPositive { what, value }),
+            _ => Err(Fault::Extent { what, value }),
         };
         match self {
             Self::Rectangle { from, to } => point(from).and(point(to)),
@@ -118,19 +117,19 @@ impl Shape {
     }
 
     /// The direction of the shape's surface nearest to a cell, degrees from 0 to 180; `None` where it has none: a single cell, the
-    /// middle of a disc or a square.
+    /// middle of a disc or a square. `grid` is the scene's: bitmaps go on beyond its rim.
     #[must_use]
-    pub fn surface_deg(&self, cell: Cell) -> Option<f64> {
+    pub fn surface_deg(&self, grid: Grid, cell: Cell) -> Option<f64> {
         match self {
             Self::Segment { from, to, .. } => {
                 let across = [from[1] - to[1], to[0] - from[0]];
                 Nearest::towards(0.0, across).along_deg()
             }
-            Self::Bitmap { at, mask } => mask.surface_deg(*at, cell, true),
-            Self::Outline { of, .. } => of.surface_deg(cell),
+            Self::Bitmap { at, mask } => mask.surface_deg(grid, *at, cell, true),
+            Self::Outline { of, .. } => of.surface_deg(grid, cell),
             Self::Outside(of) => match &**of {
-                Self::Bitmap { at, mask } => mask.surface_deg(*at, cell, false),
-                of => of.surface_deg(cell),
+                Self::Bitmap { at, mask } => mask.surface_deg(grid, *at, cell, false),
+                of => of.surface_deg(grid, cell),
             },
             shape => shape.border([cell.x as f64, cell.y as f64]).and_then(Nearest::along_deg),
         }
@@ -219,6 +218,10 @@ mod tests {
         all.iter().map(|c| (c.x, c.y)).collect()
     }
 
+    fn grid() -> Grid {
+        Grid::new(20, 20).expect("a grid")
+    }
+
     #[test]
     fn shapes_cover_the_cells_whose_centres_they_hold() {
         let r = Shape::Rectangle { from: [3.4, 1.0], to: [1.0, 2.6] };
@@ -234,6 +237,9 @@ mod tests {
             thickness: 1.0,
         };
         assert_eq!(covered(&o, 6, 6), [(1, 1), (2, 1), (3, 1), (1, 2), (3, 2), (1, 3), (2, 3), (3, 3)]);
+        // 1.0000000000000002: more than one by rounding alone.
+        let rounded = Shape::Rectangle { from: [1.1 + 0.1 - 0.2, 1.0], to: [3.0 - 1e-12, 1.0] };
+        assert_eq!(covered(&rounded, 6, 6), [(1, 1), (2, 1), (3, 1)]);
         let m = Shape::Bitmap { at: Cell::new(4, 5), mask: Mask::from_fn(2, 2, |c| c != Cell::new(1, 0)) };
         assert_eq!(covered(&m, 6, 6), [(4, 5)]);
         let out = Shape::Outside(Box::new(Shape::Rectangle { from: [0.0, 0.0], to: [5.0, 4.0] }));
@@ -244,18 +250,19 @@ mod tests {
     #[test]
     fn surfaces_lie_along_the_shape() {
         let s = Shape::Segment { from: [0.0, 4.0], to: [4.0, 0.0], thickness: 1.5 };
-        assert_eq!(s.surface_deg(Cell::new(2, 2)), Some(45.0), "up to the right");
+        assert_eq!(s.surface_deg(grid(), Cell::new(2, 2)), Some(45.0), "up to the right");
         let d = Shape::Disc { centre: [5.0, 5.0], radius: 3.0 };
-        assert_eq!(d.surface_deg(Cell::new(5, 2)), Some(0.0));
-        assert_eq!(d.surface_deg(Cell::new(3, 3)), Some(45.0));
-        assert_eq!(d.surface_deg(Cell::new(5, 5)), None, "no direction in the middle");
+        assert_eq!(d.surface_deg(grid(), Cell::new(5, 2)), Some(0.0));
+        assert_eq!(d.surface_deg(grid(), Cell::new(3, 3)), Some(45.0));
+        assert_eq!(d.surface_deg(grid(), Cell::new(5, 5)), None, "no direction in the middle");
     }
 
     #[test]
     fn the_outside_of_a_bitmap_has_the_surface_of_its_complement() {
         let room = Shape::Bitmap { at: Cell::new(2, 1), mask: Mask::from_fn(3, 4, |_| true) };
         let walls = Shape::Outside(Box::new(room));
-        let surface = |x, y| walls.contains(Cell::new(x, y)).then(|| walls.surface_deg(Cell::new(x, y)));
+        let surface =
+            |x, y| walls.contains(Cell::new(x, y)).then(|| walls.surface_deg(grid(), Cell::new(x, y)));
         assert_eq!((surface(3, 2), surface(5, 3), surface(1, 2)), (None, Some(Some(90.0)), Some(Some(90.0))));
         assert_eq!((surface(3, 0), surface(3, 5)), (Some(Some(0.0)), Some(Some(0.0))));
     }
@@ -263,7 +270,7 @@ mod tests {
     #[test]
     fn faulty_shapes_are_refused() {
         let disc = |radius| Shape::Disc { centre: [0.0; 2], radius };
-        assert_eq!(disc(-1.0).check(), Err(Fault::NotPositive { what: "radius", value: -1.0 }));
+        assert_eq!(disc(-1.0).check(), Err(Fault::Extent { what: "radius", value: -1.0 }));
         assert!(disc(f64::NAN).check().is_err() && disc(f64::INFINITY).check().is_err());
         let r = Shape::Rectangle { from: [f64::NAN, 0.0], to: [1.0, 1.0] };
         assert!(matches!(r.check(), Err(Fault::Coordinate { .. })));

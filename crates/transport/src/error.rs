@@ -36,6 +36,19 @@ pub enum TransportError {
         /// Row of the light.
         y: usize,
     },
+    /// A light whose sums would no longer be numbers.
+    #[error(
+        "the light at ({x}, {y}) is {largest:e} W/rad at most: expected no more than {:e}",
+        crate::light::BRIGHTEST
+    )]
+    TooBright {
+        /// Column of the light.
+        x: usize,
+        /// Row of the light.
+        y: usize,
+        /// Its largest sample, W/rad.
+        largest: f64,
+    },
     /// A light in a cell that sends light back.
     #[error("the light at ({x}, {y}) is inside a wall: expected a cell that passes light on")]
     LightInWall {

@@ -69,10 +69,13 @@ pub fn emitter(directions: Directions, theta0_rad: f64, m: f64) -> PolarProfile 
     })
 }
 
+/// Brightest sample of a light, W/rad: products with it stay numbers.
+pub(crate) const BRIGHTEST: f64 = 1e100;
+
 /// Checks that the lights can be propagated in a grid with a sampling.
 ///
 /// # Errors
-/// The first fault: no light, one outside the grid, two in a cell, a dark one, another sampling.
+/// The first fault: no light, one outside the grid, two in a cell, a dark one, one too bright for sums of it, another sampling.
 pub fn check_lights(lights: &[Light], grid: Grid, directions: Directions) -> Result<(), TransportError> {
     if lights.is_empty() {
         return Err(TransportError::NoLight);
@@ -103,6 +106,10 @@ pub fn check_lights(lights: &[Light], grid: Grid, directions: Directions) -> Res
                 }
                 if p.samples().iter().all(|&v| v <= 0.0) {
                     return Err(TransportError::DarkLight { x, y });
+                }
+                let largest = p.samples().iter().fold(0.0, |m: f64, &v| m.max(v));
+                if largest > BRIGHTEST {
+                    return Err(TransportError::TooBright { x, y, largest });
                 }
             }
         }
@@ -149,6 +156,8 @@ mod tests {
         assert_eq!(check(&[here.clone(), here]), Err(TransportError::LightTwice { x: 1, y: 1 }));
         let dark = Light::impulse(Cell::new(0, 2), dark);
         assert_eq!(check(&[dark]), Err(TransportError::DarkLight { x: 0, y: 2 }));
+        let bright = Light::continuous(Cell::new(2, 2), PolarProfile::constant(d, 1e101));
+        assert_eq!(check(&[bright]), Err(TransportError::TooBright { x: 2, y: 2, largest: 1e101 }));
         let pulse = Light::pulse(Cell::new(0, 0), 16);
         assert!(matches!(check(&[pulse]), Err(TransportError::PulseSample { sample: 16, samples: 16, .. })));
     }

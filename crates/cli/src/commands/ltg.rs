@@ -50,7 +50,7 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     if args.json {
         print_json(&summary)?
     } else {
-        print_text(&volume::sentence(&summary))?
+        print_text(&volume::sentence(&summary, &parameters["stop"]))?
     }
     Ok(0)
 }
@@ -91,7 +91,8 @@ fn compute(
 ) -> Result<(PartialVolume, Costs), CliError> {
     let (directions, shard) = (args.scheme.directions, args.shard.unwrap_or(Shard::WHOLE));
     // Before anything large is made.
-    check_fit(input.grid(), directions, settings).map_err(|e| fault(of_program(args, e)))?;
+    check_fit(input.grid(), directions, input.reflecting(), settings)
+        .map_err(|e| fault(of_program(args, e)))?;
     let (checkpoint, found) = match &args.checkpoint {
         Some(folder) => {
             let (checkpoint, found) = Checkpoint::open(folder, command_line(), identity.clone(), shard)?;

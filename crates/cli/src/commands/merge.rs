@@ -54,7 +54,7 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     if args.json {
         print_json(&summary)?
     } else {
-        print_text(&volume::sentence(&summary))?
+        print_text(&volume::sentence(&summary, &identity.parameters["stop"]))?
     }
     Ok(0)
 }

@@ -50,14 +50,11 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
     let parameters = parameters(args, &stopping, &input.normalization_name(normalization));
     let story = provenance(&command_line(), &parameters, input.blake3());
-    let mut frames = args
-        .outputs
-        .iter()
-        .any(|o| is_collection(o))
-        .then(|| Frames { story: story.clone(), images: Vec::new() });
     problem.check().map_err(|e| CliError::input("--light", e))?;
+    let collections = args.outputs.iter().filter(|o| is_collection(o));
+    let mut collections = collections.map(|o| Frames::new(o, &story)).collect::<Result<Vec<_>, _>>()?;
     let mut reel = args.outputs.iter().any(|o| is_animation(o)).then(|| Reel::new(input.grid().cells(), 1));
-    if let Some(frames) = &mut frames {
+    for frames in &mut collections {
         frames.add(&problem.before_first_step())?;
     }
     if let Some(reel) = &mut reel {
@@ -68,8 +65,9 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     let outcome = EightLobe
         .propagate_observed(&problem, &mut |view| {
             line.set_position(view.step() as u64);
-            if let Some(frames) = &mut frames {
-                fault = frames.add(&view.distribution()).err();
+            if !collections.is_empty() {
+                let light = view.distribution();
+                fault = collections.iter_mut().find_map(|frames| frames.add(&light).err());
             }
             if let Some(reel) = &mut reel {
                 reel.add(|| view.energies());
@@ -88,12 +86,10 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
         walls: input.surfaces(),
         reel: reel.as_ref(),
     };
-    for output in &args.outputs {
-        match &frames {
-            Some(frames) if is_collection(output) => frames.write(output)?,
-            _ => files::write(output, &encoded(output, args, &drawn, &story)?)?,
-        }
+    for output in args.outputs.iter().filter(|o| !is_collection(o)) {
+        files::write(output, &encoded(output, args, &drawn, &story)?)?;
     }
+    collections.into_iter().try_for_each(Frames::finish)?;
     report(args, &input, lights.len(), &outcome, start.elapsed().as_secs_f64())?;
     Ok(0)
 }
@@ -172,46 +168,52 @@ fn check_frames(output: &Path, args: &PropagateArgs) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The light after every step; the first before any step.
-struct Frames {
+/// The light after every step, the first before any step: `NAME.pvd` and its frames, images of energy and net flux, in the folder
+/// `NAME` beside it.
+struct Frames<'a> {
+    output: &'a Path,
     /// What made them.
-    story: String,
-    /// The files.
-    images: Vec<Vec<u8>>,
+    story: &'a str,
+    files: files::Staging,
 }
 
-impl Frames {
+impl<'a> Frames<'a> {
+    fn new(output: &'a Path, story: &'a str) -> Result<Self, CliError> {
+        Ok(Self { output, story, files: files::Staging::new(&folder_of_frames(output))? })
+    }
+
     fn add(&mut self, light: &LightDistribution) -> Result<(), CliError> {
-        if self.images.len() >= MAX_FRAMES {
+        let step = self.files.len();
+        if step >= MAX_FRAMES {
             let problem = format!("more than {MAX_FRAMES} steps: expected fewer for a .pvd (--steps)");
             return Err(CliError::input("-o", problem));
         }
         let mut image = tigereye_io::image_of_energy(light);
-        image.push_text(tigereye_io::PROVENANCE, &self.story);
-        self.images.push(vti::write(&image).map_err(|e| CliError::input("a frame", e))?);
-        Ok(())
+        image.push_text(tigereye_io::PROVENANCE, self.story);
+        let bytes = vti::write(&image).map_err(|e| CliError::input("a frame", e))?;
+        self.files.add(&frame_file(step), &bytes)
     }
 
-    /// Writes `NAME.pvd` and its frames, images of energy and net flux, into the folder `NAME` beside it. An older collection
-    /// goes first and the new one comes last, so that none names frames of two runs; older frames behind the last new one
-    /// go too.
-    fn write(&self, output: &Path) -> Result<(), CliError> {
-        let folder = folder_of_frames(output);
+    /// Lets everything appear. Until here an older collection is whole; then it goes first and the new one comes last, so that none
+    /// names frames of two runs, and older frames behind the last new one go too.
+    fn finish(mut self) -> Result<(), CliError> {
+        let (folder, steps) = (folder_of_frames(self.output), self.files.len());
         let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-        files::make_folder(&folder)?;
-        files::remove(output)?;
-        let file = |step: usize| format!("{step:04}.vti");
-        let mut list = Vec::new();
-        for (step, image) in self.images.iter().enumerate() {
-            files::write(&folder.join(file(step)), image)?;
-            list.push((step as f64, format!("{name}/{}", file(step))));
-        }
+        let list: Vec<(f64, String)> =
+            (0..steps).map(|step| (step as f64, format!("{name}/{}", frame_file(step)))).collect();
+        let fault = |e| CliError::input(&self.output.display().to_string(), e);
+        let bytes = pvd::write(&list).map_err(fault)?;
+        self.files.add_at(self.output.to_path_buf(), &bytes)?;
+        files::remove(self.output)?;
+        self.files.finish()?;
         let older =
-            (list.len()..MAX_FRAMES).map(|step| folder.join(file(step))).take_while(|path| path.is_file());
-        older.into_iter().try_for_each(|path| files::remove(&path))?;
-        let bytes = pvd::write(&list).map_err(|e| CliError::input(&output.display().to_string(), e))?;
-        files::write(output, &bytes)
+            (steps..MAX_FRAMES).map(|step| folder.join(frame_file(step))).take_while(|path| path.is_file());
+        older.into_iter().try_for_each(|path| files::remove(&path))
     }
+}
+
+fn frame_file(step: usize) -> String {
+    format!("{step:04}.vti")
 }
 
 /// The lights asked for, or a scene's own.
@@ -348,6 +350,11 @@ impl Drawn<'_> {
     }
 }
 
+/// With six digits behind the point, or six digits in all where it is long.
+fn watts(value: f64) -> String {
+    if value < 1e9 { format!("{value:.6}") } else { format!("{value:.6e}") }
+}
+
 fn report(
     args: &PropagateArgs,
     input: &MediumInput,
@@ -382,7 +389,9 @@ fn report(
         let energy = outcome.distribution.total_energy();
         let steps = counted(outcome.work.steps, "step");
         print_text(&format!(
-            "{steps} {stop_words}; energy in the grid {energy:.6} W, brightest cell {largest:.6} W\n"
+            "{steps} {stop_words}; energy in the grid {} W, brightest cell {} W\n",
+            watts(energy),
+            watts(largest)
         ))
     }
 }

@@ -9,6 +9,7 @@ use crate::{files, interrupt, system};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tigereye_experiments::report::{self, About};
+use tigereye_experiments::scene::is_scene_file;
 use tigereye_experiments::settings::{Settings, resolve, slug_of};
 use tigereye_experiments::{
     ExperimentError, ExperimentOutcome, Host, RunError, evaluate, library, provenance, spec,
@@ -93,6 +94,11 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<u8, CliError> {
 }
 
 pub(crate) fn run(args: &RunArgs) -> Result<u8, CliError> {
+    let scene = args.files.iter().map(|f| f.display().to_string()).find(|name| is_scene_file(name));
+    if let Some(name) = scene {
+        let problem = "is a scene: expected an experiment; `propagate` and `ltg` show scenes";
+        return Err(CliError::input(&name, problem));
+    }
     let sources = args.files.iter().map(|f| Source::from_file(f)).collect::<Result<Vec<_>, _>>()?;
     check_slugs(&sources)?;
     let again = |slug: &str| {

@@ -1,6 +1,7 @@
 //! Finished gradient volumes: files, pictures, and what is said about them.
 
-use crate::commands::propagate::PNG_SCALE;
+use crate::args::light::StopRule;
+use crate::commands::propagate::{PNG_SCALE, stop_name};
 use crate::error::CliError;
 use crate::files;
 use serde_json::Value;
@@ -9,6 +10,7 @@ use tigereye_core::{Field, LtgVolume, Surface};
 use tigereye_experiments::scene::{missing_label, where_result};
 use tigereye_io::{npy, vti};
 use tigereye_render::{HeatOptions, Scene, heat_map};
+use tigereye_transport::Stopping;
 
 /// Endings of files that hold volumes, or pictures of them.
 pub(super) const ENDINGS: [&str; 4] = ["vti", "npy", "png", "svg"];
@@ -92,14 +94,20 @@ fn picture(title: &str, volume: &LtgVolume, walls: Option<&Field<Option<Surface>
     heat_map(&where_result(&field, walls), &options)
 }
 
-/// A summary in one sentence.
-pub(super) fn sentence(summary: &Value) -> String {
+/// Plain steps of a pulse that has no stationary state.
+const CAUGHT: usize = Stopping::REFERENCE.max_iterations + 1;
+
+/// A summary in one sentence; `stop` is the stopping rule as the option spells it.
+pub(super) fn sentence(summary: &Value, stop: &Value) -> String {
     let number = |v: &Value| v.as_f64().unwrap_or(f64::NAN);
     if summary["sources"] == 0 {
         return "the field has no inner cells, or the shard none of them: every value is 0\n".to_owned();
     }
     let limited = match summary["limited"].as_u64() {
         None | Some(0) => String::new(),
+        Some(n) if stop == stop_name(StopRule::Stationary) => {
+            format!("; {n} sources came to no rest, theirs is the light after {CAUGHT} steps")
+        }
         Some(n) => format!("; {n} sources met --max-iterations before the threshold"),
     };
     format!(

@@ -63,8 +63,9 @@ pub fn lights_of(
             Ok(()) => None,
         };
         if let Some(fault) = fault {
-            let is_dark = matches!(fault, TransportError::DarkLight { .. });
-            let key = if is_dark { "profile:" } else { "cell:" };
+            let of_profile =
+                matches!(fault, TransportError::DarkLight { .. } | TransportError::TooBright { .. });
+            let key = if of_profile { "profile:" } else { "cell:" };
             faults.push(LightFault { index, key, problem: fault.to_string() });
         }
         lights.push(light);

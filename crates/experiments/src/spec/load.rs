@@ -86,6 +86,7 @@ fn in_words(error: &ron::Error, text: &str) -> String {
             format!("there is `{found}` where `(` was expected: is a bracket missing before it?")
         }
         E::Eof => "the file ends within a value".to_owned(),
+        E::ExceededRecursionLimit => "values are nested too deeply".to_owned(),
         E::TrailingCharacters => "expected the end of the file".to_owned(),
         E::NoSuchEnumVariant { expected, found, .. } => {
             format!("there is no `{found}` here: expected {}", one_of(expected))

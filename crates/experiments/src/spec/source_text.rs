@@ -64,19 +64,45 @@ impl<'a> SourceText<'a> {
         Self { text, code, bare, lines }
     }
 
-    /// Line and column, from 1, of the first `word` behind all `anchors`, each looked for behind the one before. One that is missing
-    /// is passed over.
+    /// Line and column, from 1, of `word` behind all `anchors`, each looked for behind the one before. One that is missing is
+    /// passed over.
     ///
-    /// A word in quotes is a string, one that ends in `:` is a key; any other stands by itself outside of strings.
+    /// A word in quotes is a string, one that ends in `:` is a key; any other stands by itself outside of strings. A key of the
+    /// file, and a name in what is behind it, are those within the fewest brackets: not what is called the same further inside.
     pub(crate) fn place_after(&self, anchors: &[&str], word: &str) -> (usize, usize) {
         let (mut from, mut place) = (0, 0);
-        for part in anchors.iter().chain(std::iter::once(&word)) {
-            if let Some(found) = self.find(part, from..self.text.len()) {
+        for (i, part) in anchors.iter().chain(std::iter::once(&word)).enumerate() {
+            let outermost = if i < 2 { self.outermost(part, from) } else { None };
+            if let Some(found) = outermost.or_else(|| self.find(part, from..self.text.len())) {
                 place = found;
                 from = found + 1;
             }
         }
         self.line_and_column(place)
+    }
+
+    /// The first byte of the key or string `word` that is within the fewest brackets, of those from `from` on to the bracket that
+    /// closes what `from` is in.
+    fn outermost(&self, word: &str, from: usize) -> Option<usize> {
+        if !word.starts_with('"') && !word.ends_with(':') {
+            return None;
+        }
+        let (mut best, mut depth, mut at): (Option<(usize, usize)>, _, _) = (None, 0_usize, from);
+        while let Some(found) = self.find(word, at..self.text.len()) {
+            for byte in self.bare.bytes().take(found).skip(at) {
+                match byte {
+                    b'(' | b'[' | b'{' => depth += 1,
+                    b')' | b']' | b'}' if depth == 0 => return best.map(|(place, _)| place),
+                    b')' | b']' | b'}' => depth -= 1,
+                    _ => {}
+                }
+            }
+            if best.is_none_or(|(_, least)| depth < least) {
+                best = Some((found, depth));
+            }
+            at = found + 1;
+        }
+        best.map(|(place, _)| place)
     }
 
     /// Where the items of the list behind the key `list` stand, in bytes.
@@ -226,6 +252,24 @@ mod tests {
         assert_eq!(source.place_after(&["runs:"], "\"a\""), (3, 2));
         assert_eq!(source.place_after(&["nothing:"], "y:"), (2, 3));
         assert_eq!(source.place_after(&[], "title:"), (1, 31));
+    }
+
+    #[test]
+    fn names_and_keys_are_the_outermost_ones() {
+        let source = SourceText::new(
+            "(parts: [(width: 1)], runs: {\"a\": (of: \"b\"), \"b\": 1}, figures: [(of: \"d\"), (name: \"c\", of: (\"e\")), (name: \"e\")], width: 2)",
+        );
+        let at = |anchors: &[&str], word: &str, behind: &str| {
+            let (line, column) = source.place_after(anchors, word);
+            assert_eq!(line, 1);
+            assert!(source.text[column - 1..].starts_with(behind), "{word}: {}", &source.text[column - 1..]);
+        };
+        at(&[], "width:", "width: 2");
+        at(&["runs:"], "\"b\"", "\"b\": 1");
+        at(&["figures:"], "\"e\"", "\"e\")], width");
+        at(&["runs:", "\"a\""], "of:", "of: \"b\"");
+        // What the list does not hold may stand behind it.
+        at(&["runs:"], "\"c\"", "\"c\", of");
     }
 
     #[test]

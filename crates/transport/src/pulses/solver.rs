@@ -196,7 +196,7 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
             Settled::Stationary(work) => Some(LaneOutcome { stop: StopReason::Converged, work }),
             Settled::Never => None,
         });
-        // Light that is caught in a loop grows for ever: it is what it is after so many plain steps. The search is not counted.
+        // Light that is caught away from the pulse grows for ever: it is what it is after so many plain steps. The search is not counted.
         self.stopping = Stopping::steps(limit.min(Stopping::REFERENCE.max_iterations + 1));
         if outcomes.contains(&None) { self.march::<V>(proof, outcomes) } else { self.finished(outcomes) }
     }

@@ -34,9 +34,13 @@ const FLOOR: f64 = 1.0 / 16.0;
 const GROWTH: f64 = 4.0;
 /// A remembered change that depends on newer ones up to this part of its squared norm is not used.
 const DEPENDENT: f64 = 1e-12;
-/// By what part of it the light that leaves the grid or is absorbed in a step may differ from what the pulse injects (1). Light
-/// that is caught in a loop grows for ever, while its relative change falls below any tolerance, and below rounding.
+/// By what part of it the light that leaves the grid or is absorbed in a step may differ from what the pulse injects. Light
+/// that is caught in a loop away from the pulse grows for ever, while its relative change falls below any tolerance, and below
+/// rounding. In a closed room nothing leaves, and the pulse injects less and less: there the difference itself must be below
+/// the tolerance, as a part of [`INJECTED`], or below rounding.
 const BALANCE: f64 = 1e-3;
+/// What rounding of all light leaves of the balance, as a part of what it leaves of a change: errors of single cells cancel.
+const ROUNDED: f64 = 0.1;
 /// What a pulse injects in one step at most, W.
 const INJECTED: f64 = core::f64::consts::TAU;
 /// Evaluations after which the search is given up: some ten times what rings of light, the slowest of the published fields,
@@ -122,7 +126,10 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
                     if found.energy[l] > T::RESIDENCE * INJECTED {
                         settled[l] = Some(Settled::Never);
                     } else if found.change[l] <= tolerance * found.energy[l]
-                        && (found.injected[l] - found.lost[l]).abs() <= BALANCE * found.injected[l]
+                        && (found.injected[l] - found.lost[l]).abs()
+                            <= (BALANCE * found.injected[l])
+                                .max(tolerance * INJECTED)
+                                .max(ROUNDED * T::SETTLED * found.energy[l])
                     {
                         settled[l] = Some(Settled::Stationary(work(sweeps + asked[l])));
                     }

@@ -27,8 +27,8 @@ fn ring_bytes<T: Real>(grid: Grid, columns: usize, set: &DirectionSet) -> u128 {
     PulseDistribution::<T>::bytes(grid.cells()) * (ROWS * columns * set.directions.len()) as u128
 }
 
-/// Bytes of a wall: its matrix in two forms, each once more while lists of them grow.
-const WALL_BYTES: u128 = 1600;
+/// Bytes of a wall: its matrix in two forms.
+const WALL_BYTES: u128 = 1200;
 /// Bytes of a cell in the layout of a scene.
 const LAYOUT_BYTES: u128 = 64;
 

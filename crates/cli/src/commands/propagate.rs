@@ -6,8 +6,9 @@ use crate::error::CliError;
 use crate::input::insert_reading;
 use crate::medium::MediumInput;
 use crate::{files, interrupt, system};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
+use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -99,12 +100,16 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
 fn progress_line(name: &str, stopping: &Stopping) -> ProgressBar {
     let (line, template) = match stopping.rule {
         StoppingRule::Steps(steps) => {
-            (ProgressBar::new(steps as u64), "{msg} [{bar:30}] step {pos} of {len}, {per_sec}, {eta} left")
+            (ProgressBar::new(steps as u64), "{msg} [{bar:30}] step {pos} of {len}, {rate}, {eta} left")
         }
-        _ => (ProgressBar::no_length(), "{msg} step {pos}, {per_sec}, {elapsed}"),
+        _ => (ProgressBar::no_length(), "{msg} step {pos}, {rate}, {elapsed}"),
     };
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    line.set_style(style.progress_chars("=> "));
+    let rate = |state: &ProgressState, out: &mut dyn Write| {
+        // A line that cannot be formatted is no loss.
+        let _ = write!(out, "{:.0} steps/s", state.per_sec());
+    };
+    line.set_style(style.with_key("rate", rate).progress_chars("=> "));
     line.set_message(name.to_owned());
     line
 }

@@ -19,5 +19,5 @@ pub fn use_everything(lattice: Lattice) {
             let _ = vtp::write(&points_from_image(image));
         }
     }
-    let _ = (nrrd::write(&volume, Frame::World, ""), nifti::write(&volume, ""));
+    let _ = (nrrd::write(&volume, Frame::World, ""), nifti::write(&volume, nifti::WrittenAs::Matrices, ""));
 }

@@ -14,6 +14,7 @@ use tigereye_experiments::provenance::hash_of_field;
 use tigereye_experiments::scene::is_scene_file;
 use tigereye_experiments::settings::{defined_plane, is_field_file, make_plane};
 use tigereye_experiments::spec::load_field;
+use tigereye_io::volume::Shear;
 
 /// What INPUT is, before a plane is chosen.
 #[derive(Debug)]
@@ -219,7 +220,12 @@ pub(crate) fn insert_reading(parameters: &mut Value, args: &ReadingArgs) {
     let reading = args.reading();
     let given = [
         ("array", reading.array.map(|v| json!(v))),
+        ("components", reading.components.map(|v| json!(v.text()))),
         ("order", reading.order.map(|v| json!(v))),
+        (
+            "shear",
+            reading.shear.map(|v| json!(if v == Shear::Engineering { "engineering" } else { "tensor" })),
+        ),
         ("frame", reading.frame.map(|v| json!(v.name()))),
         ("slice", reading.choice.slice.map(|(axis, index)| json!(format!("{}={index}", axis.name())))),
         ("plane", reading.choice.plane.map(|v| json!(v.name()))),

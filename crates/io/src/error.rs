@@ -127,6 +127,15 @@ pub enum IoError {
         expected: &'static str,
     },
 
+    /// An array whose first axis, or first two, are the components.
+    #[error(
+        "an array of shape {shape:?} has its components first: expected them last, as numpy.moveaxis(array, 0, -1) puts them"
+    )]
+    NpyComponentsFirst {
+        /// Shape as read.
+        shape: Vec<usize>,
+    },
+
     // ---- parts
     /// A `.part` file with something else where its format has a fixed meaning.
     #[error("byte {byte}: expected {expected}")]
@@ -423,6 +432,33 @@ pub enum IoError {
         /// Numbers per tuple.
         components: usize,
     },
+    /// Numbers without directions.
+    #[error("`{array}` holds principal values{}: they have no directions, expected the components of a tensor", if names.is_empty() { String::new() } else { format!(" ({names})") })]
+    Principal {
+        /// Name of the array.
+        array: String,
+        /// Names of its components.
+        names: String,
+    },
+    /// Arrays that are no components of one tensor.
+    #[error("the components `{first}` and others do not fit together: expected arrays of one number (or rows of equal length) on the same points, found {}", found.join(", "))]
+    UnequalComponents {
+        /// Name of the first array.
+        first: String,
+        /// Name and components of all.
+        found: Vec<String>,
+    },
+    /// Tensors that six components cannot hold.
+    #[error(
+        "the tensors are not symmetric: expected nine components for them (--write-order nifti, or another format)"
+    )]
+    NotSymmetric,
+    /// Engineering shears where every entry is a number of its own.
+    #[error("engineering shears: expected an order in which xy and yx are one component, found {order}")]
+    NoSharedShear {
+        /// The order of the components.
+        order: String,
+    },
     /// Tuples that are not what should be differentiated.
     #[error("`{array}` has {components} components: expected {expected}")]
     TupleSize {
@@ -434,7 +470,7 @@ pub enum IoError {
         expected: &'static str,
     },
     /// A frame that the file does not describe.
-    #[error("the file has no measurement frame: expected frame voxel or world")]
+    #[error("the file has no measurement frame: expected frame voxel, world or fsl")]
     NoMeasurementFrame,
     /// Voxel axes that are not at right angles, with tensors in another frame than theirs.
     #[error(

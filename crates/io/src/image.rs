@@ -23,6 +23,8 @@ pub struct ImageData {
     pub cell_active: ActiveArrays,
     /// What belongs to the whole data set.
     pub field_data: Vec<FieldEntry>,
+    /// Arrays that were passed over because they hold no numbers, name and type.
+    pub skipped: Vec<String>,
 }
 
 /// Names of the arrays a viewer shows first.
@@ -90,6 +92,7 @@ impl ImageData {
             point_active: ActiveArrays::default(),
             cell_active: ActiveArrays::default(),
             field_data: Vec::new(),
+            skipped: Vec::new(),
         }
     }
 

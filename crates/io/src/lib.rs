@@ -35,9 +35,10 @@ pub mod vtp;
 mod words;
 mod xml;
 
+pub(crate) use convert::choose_array;
 pub use convert::{
-    Association, LTG_ARRAY, LtgImage, PROVENANCE, SLICES, TENSOR_ARRAY, Wanted, image_from_light,
-    image_from_ltg, image_of_energy, ltg_from_image,
+    ArrayChoice, Association, LTG_ARRAY, LtgImage, PROVENANCE, SLICES, TENSOR_ARRAY, Wanted,
+    image_from_light, image_from_ltg, image_of_energy, ltg_from_image,
 };
 pub use error::IoError;
 pub use image::{ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData};

@@ -86,6 +86,8 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
         order: None,
         frame: (Frame::World, Known::Stated),
         array: "brightness".to_owned(),
+        component_names: Vec::new(),
         notes: vec!["brightness of a picture, 0 to 1, row 0 on top".to_owned()],
+        warnings: Vec::new(),
     })
 }

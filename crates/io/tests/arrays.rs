@@ -3,7 +3,7 @@
 
 use std::io::Write as _;
 use tigereye_core::Tensor2;
-use tigereye_io::volume::{Axis, Frame, Known, Lattice, PlaneChoice, Reading};
+use tigereye_io::volume::{Axis, Frame, Known, Lattice, PlaneChoice, Reading, TensorOrder};
 use tigereye_io::{IoError, Wanted, npy, picture};
 use zip::write::SimpleFileOptions;
 
@@ -18,7 +18,7 @@ fn lattice(shape: &[usize], wanted: Wanted) -> Result<Lattice, IoError> {
 }
 
 fn slice(lattice: Lattice, order: Option<&str>, slice: Option<(Axis, usize)>) -> Vec<Tensor2> {
-    let volume = lattice.tensors(Reading { order, frame: None }).unwrap();
+    let volume = lattice.tensors(Reading { order, ..Reading::default() }).unwrap();
     volume.slice(PlaneChoice { plane: None, slice }).unwrap().field.values().to_vec()
 }
 
@@ -43,7 +43,8 @@ fn pictures_of_tensors_have_row_0_on_top_and_are_not_mirrored() {
 fn volumes_are_indexed_as_nibabel_has_them() {
     let volume = lattice(&[4, 3, 2, 6], Wanted::Tensors).unwrap();
     assert_eq!((volume.size, volume.components), ([4, 3, 2], 6));
-    assert_eq!((volume.order, volume.frame), (None, (Frame::Voxel, Known::Assumed)));
+    let assumed = (Some((TensorOrder::LOWER, Known::Assumed)), (Frame::Voxel, Known::Assumed));
+    assert_eq!((volume.order, volume.frame), assumed);
     // Voxel (3, 0, 1) is tuple (3 * 3 + 0) * 2 + 1 of the array; it lies at the lower right of slice z = 1.
     let first = ((3 * 3) * 2 + 1) as f64 * 6.0;
     let plane = slice(volume, Some("dipy"), Some((Axis::Z, 1)));
@@ -72,13 +73,23 @@ fn numbers_and_vectors_are_read_where_they_are_wanted() {
     assert_eq!(three.vectors(choice, None).unwrap().field.values()[2], [6.0, 8.0]);
     for (shape, wanted) in [
         (&[2, 3][..], Wanted::Tensors),
-        (&[2, 3, 5], Wanted::Tensors),
+        (&[5, 8, 5], Wanted::Tensors),
         (&[2, 3, 4, 4], Wanted::Vectors),
         (&[6], Wanted::Scalars),
         (&[0, 3, 4], Wanted::Tensors),
     ] {
         let message = lattice(shape, wanted).unwrap_err().to_string();
         assert!(message.contains("an array of shape") && message.contains("expected ("), "{message}");
+    }
+    // Components first is said, never read as positions.
+    for (shape, wanted) in [
+        (&[2, 2, 20, 30][..], Wanted::Tensors),
+        (&[6, 20, 30, 10], Wanted::Tensors),
+        (&[3, 20, 30], Wanted::Tensors),
+        (&[2, 20, 30], Wanted::Vectors),
+    ] {
+        let message = lattice(shape, wanted).unwrap_err().to_string();
+        assert!(message.contains("components first") && message.contains("moveaxis"), "{message}");
     }
     let no_scalar = lattice(&[2, 2, 2], Wanted::Vectors).unwrap();
     assert!(matches!(no_scalar.scalars(PlaneChoice::default()), Err(IoError::TupleSize { .. })));

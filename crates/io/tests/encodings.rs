@@ -218,8 +218,12 @@ fn what_is_not_read_is_refused_by_name() {
     };
     refused(&text, "array `text` is not read: compressor=\"vtkLZMADataCompressor\"");
     let text = text.replace("vtkLZMADataCompressor", "vtkZLibDataCompressor");
-    refused(&text.replace("\"Int8\" Name", "\"Bit\" Name"), "array `Int8` is not read: type=\"Bit\"");
-    refused(&text.replace("\"Int8\" Name", "\"String\" Name"), "array `Int8` is not read: type=\"String\"");
+    // Arrays that hold no numbers are passed over, those of unknown types refused.
+    for (kind, words) in [("Bit", "`Int8` (Bit, no numbers)"), ("String", "`Int8` (String, no numbers)")] {
+        let image = vti::read(text.replace("\"Int8\" Name", &format!("\"{kind}\" Name")).as_bytes()).unwrap();
+        assert_eq!((image.skipped, image.point_arrays.len()), (vec![words.to_owned()], 9));
+    }
+    refused(&text.replace("\"Int8\" Name", "\"Int9\" Name"), "array `Int8` is not read: type=\"Int9\"");
     refused(
         &text.replace("Name=\"Int8\"", "Name=\"Int8\" TimeStep=\"0\""),
         "`Int8` is not read: TimeStep=\"0\"",

@@ -351,7 +351,10 @@ fn read_as_everything(bytes: &[u8]) {
             if let Ok(image) = image_from_volume(&volume, Frame::World) {
                 let _ = (legacy::write(&image, ""), vtp::write(&points_from_image(image)));
             }
-            let _ = (nrrd::write(&volume, Frame::World, ""), nifti::write(&volume, ""));
+            let _ = (
+                nrrd::write(&volume, Frame::World, ""),
+                nifti::write(&volume, nifti::WrittenAs::Matrices, ""),
+            );
         }
     }
     if let Ok(image) = &vti::read(bytes) {

@@ -156,7 +156,7 @@ fn volume(data: &std::path::Path, file: &str, order: Option<&str>) -> TensorVolu
         }
         _ => lattice_from_image(&vti::read(&bytes).unwrap(), None, Wanted::Tensors).unwrap(),
     };
-    lattice.tensors(Reading { order, frame: None }).unwrap()
+    lattice.tensors(Reading { order, ..Reading::default() }).unwrap()
 }
 
 /// The order that a file does not state, by its name.
@@ -216,7 +216,7 @@ fn layouts_of_one_field_give_one_slice() {
         let order = order_of(&file);
         let frame = order.is_some().then_some(Frame::Voxel);
         let lattice = volume(&data, &file, order).lattice().clone();
-        let other = lattice.tensors(Reading { order, frame }).unwrap();
+        let other = lattice.tensors(Reading { order, frame, ..Reading::default() }).unwrap();
         for plane in [Plane::Xy, Plane::Xz, Plane::Yz] {
             let choice = PlaneChoice { plane: Some(plane), slice: Some((plane.normal(), 4)) };
             let (a, b) = (dipy.slice(choice).unwrap(), other.slice(choice).unwrap());

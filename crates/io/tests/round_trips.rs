@@ -131,9 +131,10 @@ fn the_tensor_array_is_never_guessed() {
     );
     let message = field_of(&image, Some("absent")).unwrap_err().to_string();
     assert_eq!(message, "no array `absent`: the arrays are `Tensors` (9 components), `other` (4 components)");
-    image.point_arrays[0] = DataArray::new("v", 3, vec![0.0; 12]);
-    image.point_active.vectors = Some("v".into());
+    // Three numbers are a vector where something else may be the tensor, or where the file says so.
+    image.point_arrays[0] = DataArray::new("v", 3, vec![1.0; 12]);
     assert!(field_of(&image, None).is_ok_and(|read| read.field.values()[0].is_zero()), "the other one");
+    image.point_active.vectors = Some("v".into());
     image.point_arrays.pop();
     assert!(matches!(field_of(&image, None), Err(IoError::NoArray { .. })));
     image.point_arrays = vec![DataArray::new("five", 5, vec![0.0; 20])];

@@ -119,7 +119,7 @@ fn measurement_frames_turn_tensors() {
     );
     assert_eq!((lattice.spacing(), lattice.origin), ([2.0; 3], [5.0, 6.0, 7.0]));
     let slice = |frame| {
-        let volume = lattice.clone().tensors(Reading { order: None, frame }).unwrap();
+        let volume = lattice.clone().tensors(Reading { frame, ..Reading::default() }).unwrap();
         *volume.slice(PlaneChoice::default()).unwrap().field.at(Cell::new(0, 0))
     };
     // D = [[1, 2], [2, 4]] with x of the frame pointing to y and y to -x.
@@ -132,7 +132,7 @@ fn measurement_frames_turn_tensors() {
     let slice = volume.slice(PlaneChoice::default()).unwrap();
     // Voxel axis x points to y, so its component is yy.
     assert_eq!(*slice.field.at(Cell::new(0, 0)), Tensor2::symmetric(4.0, -2.0, 1.0));
-    let none = nrrd_one_voxel("").tensors(Reading { order: None, frame: Some(Frame::Measurement) });
+    let none = nrrd_one_voxel("").tensors(Reading { frame: Some(Frame::Measurement), ..Reading::default() });
     assert_eq!(none.unwrap_err(), IoError::NoMeasurementFrame);
     let skewed = nrrd_one_voxel("space directions: none (1,0,0) (0.5,1,0) (0,0,1)");
     let volume = skewed.tensors(Reading::default()).unwrap();
@@ -164,7 +164,7 @@ fn nifti_types_and_byte_orders_give_the_same_numbers() {
                 assert_eq!((lattice.size, lattice.components, lattice.scalar), ([2, 1, 1], 6, scalar));
                 let expected = [0., 2., 4., 6., 8., 10., 1., 3., 5., 7., 9., 11.];
                 assert_eq!(lattice.values, expected, "{scalar:?}, big endian {big}");
-                assert_eq!(lattice.order, None);
+                assert_eq!(lattice.order, Some((TensorOrder::LOWER, Known::Assumed)));
             }
         }
     }
@@ -179,7 +179,11 @@ fn nifti_intents_state_the_order() {
     assert_eq!(order(&[1, 1, 1, 1, 6], 1005, 3.0), Ok(Some((TensorOrder::LOWER, Known::Stated))));
     assert_eq!(order(&[1, 1, 1, 1, 3], 1005, 2.0), Ok(Some((TensorOrder::UPPER2, Known::Stated))));
     assert_eq!(order(&[1, 1, 1, 1, 9], 1004, 3.0), Ok(Some((TensorOrder::ROWS3, Known::Stated))));
-    assert_eq!(order(&[1, 1, 1, 1, 6], 0, 0.0), Ok(None));
+    assert_eq!(order(&[1, 1, 1, 1, 6], 0, 0.0), Ok(Some((TensorOrder::LOWER, Known::Assumed))));
+    // ITK leaves the size out, and writes images of six-vectors in the order it has them in memory.
+    assert_eq!(order(&[1, 1, 1, 1, 6], 1005, 0.0), Ok(Some((TensorOrder::LOWER, Known::Stated))));
+    assert_eq!(order(&[1, 1, 1, 1, 9], 1004, 0.0), Ok(Some((TensorOrder::ROWS3, Known::Stated))));
+    assert_eq!(order(&[1, 1, 1, 1, 6], 1007, 0.0), Ok(Some((TensorOrder::UPPER, Known::Assumed))));
     for (shape, intent, p1) in [
         (&[1, 1, 1, 1, 6][..], 1005, 2.0),
         (&[1, 1, 1, 1, 6], 1005, 7.0),
@@ -310,7 +314,7 @@ fn legacy_faults_name_the_byte() {
         ("DATASET STRUCTURED_POINTS\nORIGIN 0 0 0\nPOINT_DATA 1\n", "expected DIMENSIONS"),
         ("DATASET STRUCTURED_POINTS\nDIMENSIONS 1 1 1\nPOINT_DATA 2\n", "number of points"),
         ("DATASET STRUCTURED_POINTS\nDIMENSIONS 1 1 1\nPOINT_DATA 1\nTENSORS t float\n1 2 x\n", "`x`"),
-        ("DATASET STRUCTURED_POINTS\nDIMENSIONS 1 1 1\nPOINT_DATA 1\nTENSORS t bit\n1\n", "number type"),
+        ("DATASET STRUCTURED_POINTS\nDIMENSIONS 1 1 1\nPOINT_DATA 1\nTENSORS t bits\n1\n", "number type"),
         ("DATASET STRUCTURED_POINTS\nDIMENSIONS 1 1 1\nPOINT_DATA 1\nTENSORS t float\n1 2\n", "found ``"),
         ("DATASET STRUCTURED_POINTS\nDIMENSIONS 1 1 1\nTENSORS t float\n1 2\n", "POINT_DATA"),
     ] {
@@ -341,7 +345,9 @@ fn volume() -> TensorVolume {
         order: Some((TensorOrder::ROWS3, Known::Stated)),
         frame: (Frame::World, Known::Stated),
         array: "t".to_owned(),
+        component_names: Vec::new(),
         notes: Vec::new(),
+        warnings: Vec::new(),
     };
     lattice.tensors(Reading::default()).unwrap()
 }
@@ -424,7 +430,9 @@ fn scalars(size: [usize; 3], axes: [[f64; 3]; 3], origin: [f64; 3], world: &str)
         order: None,
         frame: (Frame::World, Known::Stated),
         array: "m".to_owned(),
+        component_names: Vec::new(),
         notes: Vec::new(),
+        warnings: Vec::new(),
     }
 }
 
@@ -472,7 +480,8 @@ fn positions_are_told_only_where_axes_run_forwards() {
         let mut lattice = scalars([2, 3, 1], axes, [10.0, 20.0, 30.0], world);
         lattice.components = 3;
         lattice.values = vec![1.0; 18];
-        lattice.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap().cut.origin
+        let reading = Reading { order: Some("nrrd"), ..Reading::default() };
+        lattice.tensors(reading).unwrap().slice(PlaneChoice::default()).unwrap().cut.origin
     };
     let left = [[-1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
     let down = [[1.0, 0.0, 0.0], [0.0, -2.0, 0.0], [0.0, 0.0, 3.0]];

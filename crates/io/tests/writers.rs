@@ -37,8 +37,11 @@ const FORMATS: [Format; 6] = [
         },
     },
     Format { name: "nrrd", through: |v| nrrd::read(&nrrd::write(v, Frame::World, "{\"a\\b\":\n1}")?, None) },
-    Format { name: "nii", through: |v| nifti::read(&nifti::write(v, "words")?) },
-    Format { name: "nii.gz", through: |v| nifti::read(&nifti::write_packed(v, "")?) },
+    Format { name: "nii", through: |v| nifti::read(&nifti::write(v, nifti::WrittenAs::Matrices, "words")?) },
+    Format {
+        name: "nii.gz",
+        through: |v| nifti::read(&nifti::write_packed(v, nifti::WrittenAs::Matrices, "")?),
+    },
 ];
 
 fn world(volume: &TensorVolume) -> Result<ImageData, IoError> {
@@ -135,7 +138,7 @@ fn worlds_that_are_not_the_patients_keep_their_axes() {
                   space directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (5,6,7)\n\
                   kinds: 3D-symmetric-matrix space space space\nencoding: ascii\n\n1 0 0 1 0 1\n";
     let volume = nrrd::read(header.as_bytes(), None).unwrap().tensors(Reading::default()).unwrap();
-    let back = nifti::read(&nifti::write(&volume, "").unwrap()).unwrap();
+    let back = nifti::read(&nifti::write(&volume, nifti::WrittenAs::Matrices, "").unwrap()).unwrap();
     assert_eq!(back.origin, [5.0, 6.0, 7.0]);
 }
 
@@ -160,10 +163,10 @@ fn thin_fields_come_back_from_every_format() {
 fn provenance_is_kept_by_formats_that_have_a_place() {
     let volume = TensorVolume::from_field(&field(true), [0.0; 2], [1.0; 2]);
     let story = "{\"command\":\"a \\\"b\\\"\"}";
-    let packed = nifti::write_packed(&volume, story).unwrap();
+    let packed = nifti::write_packed(&volume, nifti::WrittenAs::Matrices, story).unwrap();
     let mut bytes = Vec::new();
     flate2::read::GzDecoder::new(&packed[..]).read_to_end(&mut bytes).unwrap();
-    assert_eq!(bytes, nifti::write(&volume, story).unwrap());
+    assert_eq!(bytes, nifti::write(&volume, nifti::WrittenAs::Matrices, story).unwrap());
     let size = i32::from_le_bytes(bytes[352..356].try_into().unwrap());
     assert_eq!((bytes[348], size % 16, bytes[356]), (1, 0, 6));
     assert!(bytes[360..].starts_with(story.as_bytes()));
@@ -176,7 +179,7 @@ fn provenance_is_kept_by_formats_that_have_a_place() {
 fn what_formats_cannot_hold_is_refused() {
     let field = Field::from_fn(Grid::new(40000, 3).unwrap(), |_| Tensor2::ZERO);
     let long = TensorVolume::from_field(&field, [0.0; 2], [1.0; 2]);
-    let message = nifti::write(&long, "").unwrap_err().to_string();
+    let message = nifti::write(&long, nifti::WrittenAs::Matrices, "").unwrap_err().to_string();
     assert!(message.contains("40000 x 3 x 1") && message.contains("32767"), "{message}");
     let mut image = ImageData::empty([2, 1, 1]);
     assert!(matches!(legacy::write(&image, &"t".repeat(256)), Err(IoError::Unwritable { .. })));

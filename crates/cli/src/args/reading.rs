@@ -4,7 +4,8 @@ use super::values::{parse_count, parse_sigma, parse_size, parse_threshold};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use tigereye_experiments::input::{Derivation, Derived, Reading};
-use tigereye_io::volume::{Axis, Crop, Frame, Plane, PlaneChoice, parse_slice};
+use tigereye_io::nifti::WrittenAs;
+use tigereye_io::volume::{Axis, ComponentArrays, Crop, Frame, Plane, PlaneChoice, Shear, parse_slice};
 
 /// What files do not state, the plane of a volume, and what becomes of its values.
 #[derive(Clone, Debug, Default, Args)]
@@ -12,9 +13,16 @@ pub(crate) struct ReadingArgs {
     /// Array of a .vti, .vtp, .vtk or .npz to take the tensors from.
     #[arg(long, value_name = "NAME")]
     array: Option<String>,
-    /// Order of the components: vtk, nrrd, dipy, fsl, mrtrix, or names such as xx,xy,xz,yy,yz,zz.
+    /// A tensor from arrays of their own: XX=S_XX,YY=S_YY,XY=S_XY for single numbers, X=T_x,Y=T_y,Z=T_z for rows; with --derive gradient
+    /// the components of a vector.
+    #[arg(long, value_name = "XX=NAME,YY=NAME,XY=NAME[,...]", value_parser = ComponentArrays::parse)]
+    components: Option<ComponentArrays>,
+    /// Order of the components: vtk, nrrd, dipy, fsl, mrtrix, itk, voigt, abaqus, or names such as xx,yy,zz,xy.
     #[arg(long, value_name = "ORDER")]
     order: Option<String>,
+    /// What the numbers of shears are: components of the tensor, or engineering shears, twice as large.
+    #[arg(long, value_enum)]
+    shear: Option<ShearName>,
     /// The axes that the components are along. `convert` of a whole volume whose file states them writes tensors along
     /// these axes instead.
     #[arg(long, value_enum)]
@@ -63,7 +71,9 @@ impl ReadingArgs {
         });
         Reading {
             array: self.array.clone(),
+            components: self.components.clone(),
             order: self.order.clone(),
+            shear: self.shear.map(Into::into),
             frame: self.frame.map(Into::into),
             choice: PlaneChoice { plane: self.plane.map(Into::into), slice: self.slice },
             crop: self.crop,
@@ -117,6 +127,8 @@ pub(crate) enum FrameName {
     World,
     /// NRRD's measurement frame.
     Measurement,
+    /// FSL's: the voxel axes with x reversed where the determinant of the affine is positive.
+    Fsl,
 }
 
 impl From<FrameName> for Frame {
@@ -125,6 +137,25 @@ impl From<FrameName> for Frame {
             FrameName::Voxel => Self::Voxel,
             FrameName::World => Self::World,
             FrameName::Measurement => Self::Measurement,
+            FrameName::Fsl => Self::Fsl,
+        }
+    }
+}
+
+/// What the numbers of shears are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ShearName {
+    /// Components of the tensor.
+    Tensor,
+    /// Engineering shears: gamma_xy = 2 epsilon_xy.
+    Engineering,
+}
+
+impl From<ShearName> for Shear {
+    fn from(name: ShearName) -> Self {
+        match name {
+            ShearName::Tensor => Self::Tensor,
+            ShearName::Engineering => Self::Engineering,
         }
     }
 }
@@ -161,6 +192,27 @@ pub(crate) struct InfoArgs {
     pub(crate) json: bool,
 }
 
+/// Layouts of NIfTI files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum WriteOrder {
+    /// Symmetric or general matrices along the voxel axes, intents 1005 and 1004.
+    Nifti,
+    /// xx,xy,xz,yy,yz,zz along the axes of FSL's gradient tables.
+    Fsl,
+    /// xx,yy,zz,xy,xz,yz along the scanner's axes.
+    Mrtrix,
+}
+
+impl From<WriteOrder> for WrittenAs {
+    fn from(order: WriteOrder) -> Self {
+        match order {
+            WriteOrder::Nifti => Self::Matrices,
+            WriteOrder::Fsl => Self::Fsl,
+            WriteOrder::Mrtrix => Self::Mrtrix,
+        }
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct ConvertArgs {
     /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz .png) or a generator, NAME or NAME:key=value,key=value.
@@ -174,6 +226,10 @@ pub(crate) struct ConvertArgs {
     /// volumes written as .vti, .vtp or .vtk.
     #[arg(long)]
     pub(crate) invariants: bool,
+    /// Layout of the components of a .nii or .nii.gz: the standard's matrices (5-D), or six components (4-D) as FSL or MRtrix3 read
+    /// them.
+    #[arg(long, value_enum)]
+    pub(crate) write_order: Option<WriteOrder>,
     /// Replace an output that exists.
     #[arg(long)]
     pub(crate) force: bool,

@@ -73,6 +73,9 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
     if args.invariants && !format.has_arrays() {
         return Err(CliError::input(&name, "has no place for --invariants: expected .vti, .vtp or .vtk"));
     }
+    if args.write_order.is_some() && !matches!(format, Format::Nifti | Format::NiftiPacked) {
+        return Err(CliError::input(&name, "has no place for --write-order: expected .nii or .nii.gz"));
+    }
     let source = Source::open(&args.input, &args.reading)?;
     source.check_apart(std::slice::from_ref(&args.output))?;
     if let Source::File(file) = &source {
@@ -136,8 +139,10 @@ fn encoded(
             legacy::write(&image()?, &title)
         }
         Format::Nrrd => nrrd::write(volume, frame, &story),
-        Format::Nifti => nifti::write(volume, &story),
-        Format::NiftiPacked => nifti::write_packed(volume, &story),
+        Format::Nifti => nifti::write(volume, args.write_order.map(Into::into).unwrap_or_default(), &story),
+        Format::NiftiPacked => {
+            nifti::write_packed(volume, args.write_order.map(Into::into).unwrap_or_default(), &story)
+        }
         Format::ImageData | Format::Matrices | Format::Numpy => vti::write(&image()?),
     }
 }

@@ -151,7 +151,7 @@ fn archives_need_the_name_of_an_array_only_where_there_are_several() {
 fn nifti_of_six() -> Vec<u8> {
     let tensors = Field::from_fn(tigereye_core::Grid::new(2, 2).unwrap(), |_| Tensor2::IDENTITY);
     let volume = tigereye_io::volume::TensorVolume::from_field(&tensors, [0.0; 2], [1.0; 2]);
-    tigereye_io::nifti::write(&volume, "").unwrap()
+    tigereye_io::nifti::write(&volume, tigereye_io::nifti::WrittenAs::Matrices, "").unwrap()
 }
 
 /// What one has to be told before light runs: a guess that may be a vector field, cells that are not square, a mask of

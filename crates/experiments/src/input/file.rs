@@ -3,9 +3,11 @@
 use super::{Derivation, InputError, Reading};
 use crate::provenance::hash_of_bytes;
 use tigereye_io::volume::{
-    Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
+    Frame, Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
 };
-use tigereye_io::{IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, picture, vti, vtp};
+use tigereye_io::{
+    ArrayChoice, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, picture, vti, vtp,
+};
 
 /// What a data file holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,7 +66,7 @@ pub fn open(
     bytes_of: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
 ) -> Result<TensorFile, InputError> {
     if !is_readable(name) {
-        return Err(InputError::Ending);
+        return Err(InputError::of_extension(&format_of(name)));
     }
     reading.check()?;
     if format_of(name) == "png" && reading.derive.is_none() {
@@ -76,7 +78,7 @@ pub fn open(
         bytes_of(name).map_err(|words| InputError::Unread { words })
     };
     let (kind, mut lattice, mut hashed) =
-        lattice_of(name, reading.array.as_deref(), reading.wanted(), reading.limits(), &mut read)?;
+        lattice_of(name, reading.array_choice(), reading.wanted(), reading.limits(), &mut read)?;
     if reading.wanted() == Wanted::Tensors {
         lattice = lattice.with_mask_apart();
     }
@@ -111,7 +113,11 @@ pub fn open(
     let content = if reading.derive.is_some() || (lattice.components == 1 && reading.order.is_none()) {
         Content::Numbers(lattice)
     } else {
-        let words = tigereye_io::volume::Reading { order: reading.order.as_deref(), frame: reading.frame };
+        let words = tigereye_io::volume::Reading {
+            order: reading.order.as_deref(),
+            frame: reading.frame,
+            shear: reading.shear.unwrap_or_default(),
+        };
         Content::Tensors(lattice.tensors(words)?)
     };
     Ok(TensorFile { name: name.to_owned(), kind, blake3, content, mask_elsewhere, files })
@@ -134,13 +140,18 @@ type Read<'a> = dyn FnMut(&str) -> Result<Vec<u8>, InputError> + 'a;
 /// The format, the numbers, and the bytes they come from.
 fn lattice_of(
     name: &str,
-    array: Option<&str>,
+    array: ArrayChoice,
     wanted: Wanted,
     limits: Limits,
     read: &mut Read,
 ) -> Result<(&'static str, Lattice, Vec<u8>), InputError> {
-    if array.is_some() && !has_names(name) {
-        return Err(InputError::Needless { option: "--array", why: "the format has no names for arrays" });
+    let option = match array {
+        ArrayChoice::Usual => None,
+        ArrayChoice::Named(_) => Some("--array"),
+        ArrayChoice::Components(_) => Some("--components"),
+    };
+    if let Some(option) = option.filter(|_| !has_names(name)) {
+        return Err(InputError::Needless { option, why: "the format has no names for arrays" });
     }
     let bytes = read(name)?;
     let (kind, lattice) = match format_of(name).as_str() {
@@ -178,11 +189,17 @@ fn has_names(name: &str) -> bool {
     ["npz", "vti", "vtp", "vtk"].contains(&format_of(name).as_str())
 }
 
-fn from_archive(bytes: &[u8], array: Option<&str>, wanted: Wanted) -> Result<Lattice, IoError> {
-    let (name, bytes) = npy::array_of_archive(bytes, array)?;
-    let mut lattice = npy::read_lattice(&bytes, wanted)?;
-    lattice.array = name;
-    Ok(lattice)
+fn from_archive(bytes: &[u8], array: ArrayChoice, wanted: Wanted) -> Result<Lattice, IoError> {
+    match array {
+        ArrayChoice::Named(name) => {
+            let member = npy::array_of_archive(bytes, Some(name))?;
+            npy::lattice_of_members(&[member], None, wanted)
+        }
+        ArrayChoice::Components(components) => {
+            npy::lattice_of_members(&npy::arrays_of_archive(bytes)?, Some(components), wanted)
+        }
+        ArrayChoice::Usual => npy::lattice_of_members(&npy::arrays_of_archive(bytes)?, None, wanted),
+    }
 }
 
 /// A file in the folder of another one.
@@ -201,7 +218,7 @@ fn mask_lattice(
     if !is_readable(mask) {
         return Err(fault(InputError::Ending.to_string()));
     }
-    let (_, lattice, bytes) = match lattice_of(mask, None, Wanted::Scalars, limits, read) {
+    let (_, lattice, bytes) = match lattice_of(mask, ArrayChoice::Usual, Wanted::Scalars, limits, read) {
         Err(e @ InputError::Unread { .. }) => return Err(e),
         other => other.map_err(|e| fault(e.to_string()))?,
     };
@@ -230,10 +247,13 @@ impl TensorFile {
         reading.choice != PlaneChoice::default() || reading.choice.resolve(self.size()).is_ok()
     }
 
-    /// Why the component order looks wrong, and what would look right.
+    /// Why the component order looks wrong, and what would look right. A file that states its order is believed.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
         let Content::Tensors(volume) = &self.content else { return None };
+        if volume.order().1 == Known::Stated {
+            return None;
+        }
         let s = volume.suspicion()?;
         Some(format!(
             "{:.1} % of the tensors have a negative eigenvalue in this component order and {:.1} % in the order of \
@@ -245,27 +265,70 @@ impl TensorFile {
         ))
     }
 
-    /// What had to be assumed about the components, in a sentence.
+    /// What had to be assumed about the components, a sentence each.
     #[must_use]
-    pub fn assumption(&self) -> Option<String> {
-        let Content::Tensors(volume) = &self.content else { return None };
-        let (order, frame) = (volume.order(), volume.frame());
-        let three = volume.lattice().components == 3;
-        let vector = if three { "; a vector field needs --derive gradient" } else { "" };
-        let order_words = format!("component order {} (--order{vector})", order.0);
-        let frame_words = format!("components along the {} axes (--frame)", frame.0.name());
-        match (order.1 == Known::Assumed, frame.1 == Known::Assumed) {
-            (true, true) => Some(format!("assumed {order_words} and {frame_words}")),
-            (true, false) => Some(format!("assumed {order_words}")),
-            (false, true) => Some(format!("assumed {frame_words}")),
-            (false, false) => None,
+    pub fn assumptions(&self) -> Vec<String> {
+        match &self.content {
+            Content::Tensors(volume) => assumptions_of_tensors(volume),
+            Content::Numbers(lattice) if lattice.components > 1 => {
+                let (frame, known) = lattice.frame;
+                let words = match known {
+                    Known::Assumed => format!("assumed vectors along {} (--frame)", frame.words()),
+                    Known::Convention if frame == Frame::World && lattice.has_turned_axes() => {
+                        format!("took vectors along {}, as the format has them (--frame)", frame.words())
+                    }
+                    _ => return Vec::new(),
+                };
+                vec![words]
+            }
+            Content::Numbers(_) => Vec::new(),
         }
     }
 
     /// What everybody must hear: assumptions that options could replace, and warnings.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
-        let warning = self.warning().map(|w| format!("WARNING: {w}"));
-        self.assumption().into_iter().chain(warning).chain(self.mask_elsewhere.clone()).collect()
+        let lattice = match &self.content {
+            Content::Tensors(volume) => volume.lattice(),
+            Content::Numbers(lattice) => lattice,
+        };
+        let warnings = lattice.warnings.iter().cloned().chain(self.warning());
+        let warnings = warnings.map(|w| format!("WARNING: {w}"));
+        self.assumptions().into_iter().chain(warnings).chain(self.mask_elsewhere.clone()).collect()
     }
+}
+
+/// What was assumed about tensors, with the option that says it.
+fn assumptions_of_tensors(volume: &TensorVolume) -> Vec<String> {
+    let ((order, order_known), (frame, frame_known)) = (volume.order(), volume.frame());
+    let mut all = Vec::new();
+    if order_known == Known::Assumed {
+        let other = match order.components() {
+            3 => "; finite-element programs also write xx,yy,xy, and a vector field needs --derive gradient",
+            4 => "; plane strain is xx,yy,zz,xy",
+            _ => "",
+        };
+        all.push(format!("assumed component order {order} (--order{other})"));
+    }
+    if let Some(stated) = volume.contradicted_order() {
+        all.push(format!("WARNING: the file states the component order {stated}, taken as given: {order}"));
+    }
+    if frame_known == Known::Assumed {
+        all.push(format!("assumed components along {} (--frame)", frame.words()));
+    }
+    let by_voxels = frame == Frame::Voxel && frame_known == Known::Assumed;
+    if by_voxels && volume.lattice().is_of_scanner() && volume.lattice().reverses_x_for_fsl() {
+        all.push(
+            "WARNING: the determinant of the affine is positive: tensors fitted with FSL's gradient tables (bvecs) have x \
+             reversed here, as --frame fsl says; those along the voxel axes do not, as --frame voxel says"
+                .to_owned(),
+        );
+    }
+    if volume.suggests_strain() && !volume.lattice().notes.iter().any(|n| n.contains("engineering")) {
+        all.push(
+            "the names suggest strains: shears taken as components of the tensor (--shear engineering for gamma = 2 epsilon)"
+                .to_owned(),
+        );
+    }
+    all
 }

@@ -33,9 +33,17 @@ pub enum InputError {
     },
     /// An ending that tells no format.
     #[error(
-        "its ending is not readable: expected .txt, .npy, .npz, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz or .png"
+        "unknown file extension: expected .txt, .npy, .npz, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz or .png"
     )]
     Ending,
+    /// A format that another program converts.
+    #[error("{format} is not read: expected one of the readable formats; {help}")]
+    Foreign {
+        /// The format's name.
+        format: &'static str,
+        /// How to get there.
+        help: &'static str,
+    },
     /// What the file's reader says.
     #[error("{}{source}{}", detached.as_ref().map_or(String::new(), |d| format!("with its data in {d}: ")), hint(source))]
     File {
@@ -114,6 +122,50 @@ pub enum InputError {
     /// A size that no field has.
     #[error(transparent)]
     Field(#[from] FieldError),
+}
+
+/// Formats of tensors that are not read: their extensions, names, and what converts them.
+const FOREIGN: &[(&[&str], &str, &str)] = &[
+    (
+        &["mif", "mif.gz", "mih"],
+        "MRtrix's image format",
+        "`mrconvert IN.mif OUT.nii.gz` writes NIfTI (then --order mrtrix)",
+    ),
+    (&["mgz", "mgh"], "FreeSurfer's image format", "`mri_convert IN.mgz OUT.nii.gz` writes NIfTI"),
+    (&["hdr", "img"], "ANALYZE or a NIfTI pair", "nibabel, or `fslchfiletype NIFTI_GZ`, writes one .nii.gz"),
+    (&["dcm"], "DICOM", "dcm2niix writes the measurement as NIfTI, to which tensors are then fitted"),
+    (&["mnc"], "MINC", "`mnc2nii` writes NIfTI"),
+    (&["mha", "mhd"], "MetaImage", "ITK (SimpleITK.WriteImage) or 3D Slicer writes .nrrd or .nii.gz"),
+    (
+        &["xdmf", "xmf", "h5", "hdf5"],
+        "XDMF or HDF5",
+        "ParaView's Resample To Image, saved as .vti, reads it; h5py and numpy.save write an array as .npy",
+    ),
+    (&["exo", "e", "ex2", "exoii"], "Exodus II", "ParaView's Resample To Image, saved as .vti, reads it"),
+    (
+        &["odb"],
+        "Abaqus's result format",
+        "a script in Abaqus Python writes the stresses; save them as .npy or .vti",
+    ),
+    (
+        &[
+            "vtu", "vtr", "vts", "pvtu", "pvti", "vtm", "vtmb", "vthb", "vtkhdf", "frd", "msh", "inp",
+            "cgns", "med", "case", "rst", "bdf",
+        ],
+        "a mesh or a collection",
+        "ParaView's Resample To Image, saved as .vti, puts it on a lattice (for .frd, ccx2paraview first)",
+    ),
+    (&["mat"], "MATLAB's format", "scipy.io.loadmat and numpy.save write an array as .npy"),
+    (&["tif", "tiff", "jpg", "jpeg", "bmp"], "a picture", "any picture program saves it as .png"),
+    (&["pkl", "nc", "zarr", "parquet"], "an array store", "numpy.save writes an array as .npy"),
+];
+
+impl InputError {
+    /// What is wrong with an extension that is not read.
+    fn of_extension(extension: &str) -> Self {
+        let known = FOREIGN.iter().find(|(extensions, _, _)| extensions.contains(&extension));
+        known.map_or(Self::Ending, |&(_, format, help)| Self::Foreign { format, help })
+    }
 }
 
 /// Which option helps.

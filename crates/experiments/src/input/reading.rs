@@ -1,16 +1,20 @@
 //! What a user says about a file.
 
 use super::InputError;
-use tigereye_io::volume::{Crop, Frame, PlaneChoice};
-use tigereye_io::{Limits, Wanted};
+use tigereye_io::volume::{ComponentArrays, Crop, Frame, PlaneChoice, Shear};
+use tigereye_io::{ArrayChoice, Limits, Wanted};
 
 /// What files do not state, the plane of a volume, and what becomes of its values. The default says nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
     /// Array of a VTK file or `.npz` archive.
     pub array: Option<String>,
+    /// Arrays that hold one component each (or one row), where there is no array of tuples.
+    pub components: Option<ComponentArrays>,
     /// Component order: a tool's name or component names.
     pub order: Option<String>,
+    /// What the numbers of shears are; components of the tensor where nobody says otherwise.
+    pub shear: Option<Shear>,
     /// Axes that the components are along.
     pub frame: Option<Frame>,
     /// Plane and slice of a volume.
@@ -93,6 +97,13 @@ impl Reading {
     /// # Errors
     /// [`InputError::Needless`].
     pub fn check(&self) -> Result<(), InputError> {
+        if self.components.is_some() && (self.array.is_some() || self.order.is_some()) {
+            let option = if self.array.is_some() { "--array" } else { "--order" };
+            return Err(InputError::Needless {
+                option,
+                why: "--components names the arrays and their order",
+            });
+        }
         let Some(Derivation { kind, window, .. }) = self.derive else { return Ok(()) };
         let numbers = kind != Derived::Gradient;
         let needless = [
@@ -101,6 +112,7 @@ impl Reading {
                 "--order",
                 "--derive takes numbers or vectors, which have no component order",
             ),
+            (self.shear.is_some(), "--shear", "--derive takes numbers or vectors, which have no shears"),
             (
                 numbers && self.frame.is_some(),
                 "--frame",
@@ -115,6 +127,15 @@ impl Reading {
         match needless.into_iter().find(|(is_given, _, _)| *is_given) {
             Some((_, option, why)) => Err(InputError::Needless { option, why }),
             None => Ok(()),
+        }
+    }
+
+    /// Which array is meant.
+    #[must_use]
+    pub fn array_choice(&self) -> ArrayChoice<'_> {
+        match &self.components {
+            Some(components) => ArrayChoice::Components(components),
+            None => ArrayChoice::from(self.array.as_deref()),
         }
     }
 

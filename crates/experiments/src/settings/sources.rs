@@ -5,7 +5,7 @@ use crate::input::{self, Derivation, Derived, PlaneField, Reading};
 use crate::spec::{self, DeriveRule, FieldSource, Named, Sigma};
 use tigereye_core::{Cell, Field, Grid, Tensor2};
 use tigereye_fields::{Arguments, ExpressionField, Form, with_noise};
-use tigereye_io::volume::{Crop, Frame, Plane, PlaneChoice, parse_slice};
+use tigereye_io::volume::{ComponentArrays, Crop, Frame, Plane, PlaneChoice, Shear, parse_slice};
 
 /// The field of a source.
 ///
@@ -114,6 +114,8 @@ pub fn defined_plane(plane: PlaneField, reading: &Reading) -> Result<PlaneField,
     let of_files = [
         (choice.0 != Plane::Xy, "--plane"),
         (reading.order.is_some(), "--order"),
+        (reading.components.is_some(), "--components"),
+        (reading.shear.is_some(), "--shear"),
         (reading.frame.is_some(), "--frame"),
         (reading.array.is_some(), "--array"),
         (reading.derive.is_some(), "--derive"),
@@ -133,7 +135,9 @@ pub fn defined_plane(plane: PlaneField, reading: &Reading) -> Result<PlaneField,
 fn reading_of(source: &FieldSource) -> Result<Reading, String> {
     let FieldSource::File {
         array,
+        components,
         order,
+        shear,
         frame,
         slice,
         plane,
@@ -157,8 +161,18 @@ fn reading_of(source: &FieldSource) -> Result<Reading, String> {
         return Err(format!("mask_above {mask_above}: expected a finite number from 0"));
     }
     let frame = frame.as_ref().map(|name| {
-        Frame::from_name(name).ok_or_else(|| format!("frame `{name}`: expected voxel, world or measurement"))
+        Frame::from_name(name)
+            .ok_or_else(|| format!("frame `{name}`: expected voxel, world, measurement or fsl"))
     });
+    let shear = match shear.as_deref() {
+        None => None,
+        Some("tensor") => Some(Shear::Tensor),
+        Some("engineering") => Some(Shear::Engineering),
+        Some(other) => return Err(format!("shear `{other}`: expected tensor or engineering")),
+    };
+    let components = components
+        .as_ref()
+        .map(|text| ComponentArrays::parse(text).map_err(|e| format!("components `{text}`: {e}")));
     let plane = plane
         .as_ref()
         .map(|name| Plane::from_name(name).ok_or_else(|| format!("plane `{name}`: expected xy, xz or yz")));
@@ -166,7 +180,9 @@ fn reading_of(source: &FieldSource) -> Result<Reading, String> {
     let crop = crop.as_ref().map(|text| Crop::parse(text).map_err(|e| format!("crop `{text}`: {e}")));
     Ok(Reading {
         array: array.clone(),
+        components: components.transpose()?,
         order: order.clone(),
+        shear,
         frame: frame.transpose()?,
         choice: PlaneChoice { plane: plane.transpose()?, slice: slice.transpose()? },
         crop: crop.transpose()?,

@@ -143,10 +143,16 @@ pub enum FieldSource {
         /// Array of a VTK file or archive; `None`: its active tensors or its only tensor array.
         #[serde(default)]
         array: Option<String>,
+        /// Arrays that hold one component each, `XX=S_XX,YY=S_YY,XY=S_XY`, or one row, `X=T_x,Y=T_y`.
+        #[serde(default)]
+        components: Option<String>,
         /// Component order: a tool's name or component names.
         #[serde(default)]
         order: Option<String>,
-        /// Axes that the components are along: `voxel`, `world` or `measurement`.
+        /// What shears are: `tensor` (the default) or `engineering`.
+        #[serde(default)]
+        shear: Option<String>,
+        /// Axes that the components are along: `voxel`, `world`, `measurement` or `fsl`.
         #[serde(default)]
         frame: Option<String>,
         /// Slice of a volume, `z=10`.

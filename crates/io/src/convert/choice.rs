@@ -2,10 +2,18 @@
 
 use super::described;
 use crate::image::ActiveArrays;
+use crate::volume::{
+    ComponentArrays, Group, Naming, groups, joined, joined_rows, names_principal_values, naming, row_groups,
+};
 use crate::{DataArray, ImageData, IoError};
+use std::borrow::Cow;
 
 /// Name of the tensor array that is written.
 pub const TENSOR_ARRAY: &str = "Tensors";
+
+/// Arrays by which VTK says what points and cells are: no data.
+pub(crate) const VALID_POINTS: &str = "vtkValidPointMask";
+pub(crate) const GHOSTS: &str = "vtkGhostType";
 
 /// Where the tuples of an array sit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +34,24 @@ pub enum Wanted {
     Vectors,
     /// Single numbers.
     Scalars,
+}
+
+/// Which array the user names.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum ArrayChoice<'a> {
+    /// None: the active one of the wanted kind, or the only one that fits.
+    #[default]
+    Usual,
+    /// An array by its name.
+    Named(&'a str),
+    /// Components in arrays of their own.
+    Components(&'a ComponentArrays),
+}
+
+impl<'a> From<Option<&'a str>> for ArrayChoice<'a> {
+    fn from(name: Option<&'a str>) -> Self {
+        name.map_or(Self::Usual, Self::Named)
+    }
 }
 
 impl Wanted {
@@ -52,59 +78,142 @@ impl Wanted {
             Self::Scalars => names.scalars.as_ref(),
         }
     }
-}
 
-/// The named array, or the active one, or the only array whose tuples fit.
-pub(crate) fn choose_array<'a>(
-    image: &'a ImageData,
-    array: Option<&str>,
-    wanted: Wanted,
-) -> Result<Found<'a>, IoError> {
-    match array {
-        Some(name) => named(image, name),
-        None => only(image, wanted),
+    /// How well an array suits: 0 not at all, then the better the larger.
+    fn suits(self, array: &DataArray, active: &ActiveArrays) -> u8 {
+        let data = ![VALID_POINTS, GHOSTS].contains(&array.name.as_str());
+        if !data || !self.fits(array.components) {
+            return 0;
+        }
+        let is_vector = active.vectors.as_ref() == Some(&array.name);
+        match (self, naming(&array.component_names, array.components)) {
+            (Self::Tensors, Naming::Tensor(_)) => 2,
+            (Self::Tensors, Naming::Principal) => 0,
+            // Three numbers without names of a tensor's components are a vector rather than a tensor.
+            (Self::Tensors, Naming::Other) if array.components == 3 => 0,
+            (Self::Tensors, _)
+                if array.components == 3 && (is_vector || names_principal_values(&array.name)) =>
+            {
+                0
+            }
+            (Self::Tensors, _) => 1 + u8::from(array.components > 3),
+            (Self::Vectors, Naming::Tensor(_) | Naming::Principal) => 0,
+            (Self::Vectors | Self::Scalars, _) => 1,
+        }
     }
 }
 
-type Found<'a> = (Association, &'a DataArray);
+type Found<'a> = (Association, Cow<'a, DataArray>);
 
-fn all(image: &ImageData) -> impl Iterator<Item = Found<'_>> {
-    let points = image.point_arrays.iter().map(|a| (Association::Points, a));
-    points.chain(image.cell_arrays.iter().map(|a| (Association::Cells, a)))
+/// The array that the user names, or the active one, or the one that suits best; separate arrays of single components are joined.
+pub(crate) fn choose_array<'a>(
+    image: &'a ImageData,
+    choice: ArrayChoice,
+    wanted: Wanted,
+) -> Result<Found<'a>, IoError> {
+    match choice {
+        ArrayChoice::Named(name) => named(image, name).map(|(on, a)| (on, Cow::Borrowed(a))),
+        ArrayChoice::Components(components) => by_components(image, components),
+        ArrayChoice::Usual => usual(image, wanted),
+    }
 }
 
-fn named<'a>(image: &'a ImageData, name: &str) -> Result<Found<'a>, IoError> {
+fn of(image: &ImageData, on: Association) -> (&[DataArray], &ActiveArrays) {
+    match on {
+        Association::Points => (&image.point_arrays, &image.point_active),
+        Association::Cells => (&image.cell_arrays, &image.cell_active),
+    }
+}
+
+const BOTH: [Association; 2] = [Association::Points, Association::Cells];
+
+fn all(image: &ImageData) -> impl Iterator<Item = (Association, &DataArray)> {
+    BOTH.into_iter().flat_map(|on| of(image, on).0.iter().map(move |a| (on, a)))
+}
+
+fn named<'a>(image: &'a ImageData, name: &str) -> Result<(Association, &'a DataArray), IoError> {
     all(image).find(|(_, a)| a.name == name).ok_or_else(|| missing(image, &format!("array `{name}`")))
 }
 
-fn only(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
-    let active = |association| match association {
-        Association::Points => &image.point_active,
-        Association::Cells => &image.cell_active,
+fn by_components<'a>(image: &'a ImageData, components: &ComponentArrays) -> Result<Found<'a>, IoError> {
+    let found = components.arrays().map(|name| named(image, name)).collect::<Result<Vec<_>, _>>()?;
+    let (on, first) = found[0];
+    let arrays: Vec<&DataArray> = found.iter().map(|f| f.1).collect();
+    let joined = components.joined(&arrays).filter(|_| found.iter().all(|f| f.0 == on));
+    let unfit =
+        || IoError::UnequalComponents { first: first.name.clone(), found: described(arrays.iter().copied()) };
+    joined.map(|array| (on, Cow::Owned(array))).ok_or_else(unfit)
+}
+
+fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
+    let is_active = |(on, a): &(Association, &DataArray)| {
+        let active = of(image, *on).1;
+        wanted.active(active) == Some(&a.name) && wanted.suits(a, active) > 0
     };
-    let is_active =
-        |(on, a): &Found| wanted.active(active(*on)) == Some(&a.name) && wanted.fits(a.components);
-    if let Some(found) = all(image).find(is_active) {
-        return Ok(found);
+    if let Some((on, found)) = all(image).find(is_active) {
+        return Ok((on, Cow::Borrowed(found)));
     }
-    for on in [Association::Points, Association::Cells] {
-        let fits = |a: &DataArray| {
-            let vectors = active(on).vectors.as_ref() == Some(&a.name);
-            wanted.fits(a.components) && (wanted != Wanted::Tensors || !vectors)
-        };
-        let candidates: Vec<Found> = all(image).filter(|&(o, a)| o == on && fits(a)).collect();
+    for on in BOTH {
+        let (arrays, active) = of(image, on);
+        let best = arrays.iter().map(|a| wanted.suits(a, active)).max().unwrap_or(0);
+        // Three numbers are a tensor only where nothing else is.
+        let is_last_resort = best < 2 && wanted == Wanted::Tensors || best == 0;
+        if is_last_resort && let Some(found) = separate(arrays, wanted)? {
+            return Ok((on, Cow::Owned(found)));
+        }
+        let candidates: Vec<&DataArray> =
+            arrays.iter().filter(|a| best > 0 && wanted.suits(a, active) == best).collect();
         match candidates[..] {
             [] => {}
-            [found] => return Ok(found),
-            _ => {
-                let candidates = described(candidates.iter().map(|f| f.1));
-                return Err(IoError::AmbiguousArray { candidates });
-            }
+            [found] => return Ok((on, Cow::Borrowed(found))),
+            _ => return Err(IoError::AmbiguousArray { candidates: described(candidates) }),
         }
     }
-    Err(missing(image, wanted.words()))
+    let principal = |a: &DataArray| {
+        naming(&a.component_names, a.components) == Naming::Principal || names_principal_values(&a.name)
+    };
+    match all(image).find(|(_, a)| wanted == Wanted::Tensors && a.components > 1 && principal(a)) {
+        Some((_, a)) => {
+            Err(IoError::Principal { array: a.name.clone(), names: a.component_names.join(", ") })
+        }
+        None => Err(missing(image, wanted.words())),
+    }
+}
+
+/// The tensor, or the vector, whose components are arrays of their own and called so.
+fn separate(arrays: &[DataArray], wanted: Wanted) -> Result<Option<DataArray>, IoError> {
+    let with = |n: usize| arrays.iter().filter(|a| a.components == n).collect::<Vec<&DataArray>>();
+    let mut found = match wanted {
+        Wanted::Tensors => [entries(&with(1)), rows(&with(3), 3), rows(&with(2), 2)].concat(),
+        Wanted::Vectors => [rows(&with(1), 3), rows(&with(1), 2)].concat(),
+        Wanted::Scalars => Vec::new(),
+    };
+    match found.len() {
+        0 | 1 => Ok(found.pop()),
+        _ => Err(IoError::AmbiguousArray { candidates: described(&found) }),
+    }
+}
+
+/// Tensors whose entries are arrays of one number.
+fn entries(arrays: &[&DataArray]) -> Vec<DataArray> {
+    let names: Vec<&str> = arrays.iter().map(|a| a.name.as_str()).collect();
+    let of_group = |group: Group| {
+        let parts: Vec<&DataArray> = group.members.iter().map(|&i| arrays[i]).collect();
+        let spelt = group.order.to_string();
+        joined(&spelt.split(',').collect::<Vec<_>>(), &parts)
+    };
+    groups(&names).into_iter().filter_map(of_group).collect()
+}
+
+/// Tensors whose rows, or vectors whose components, are arrays.
+fn rows(arrays: &[&DataArray], length: usize) -> Vec<DataArray> {
+    let names: Vec<&str> = arrays.iter().map(|a| a.name.as_str()).collect();
+    let of_group = |members: Vec<usize>| joined_rows(&members.iter().map(|&i| arrays[i]).collect::<Vec<_>>());
+    row_groups(&names, length).into_iter().filter_map(of_group).collect()
 }
 
 fn missing(image: &ImageData, wanted: &str) -> IoError {
-    IoError::NoArray { wanted: wanted.to_owned(), available: described(all(image).map(|f| f.1)) }
+    let mut available = described(all(image).map(|f| f.1));
+    available.extend(image.skipped.iter().cloned());
+    IoError::NoArray { wanted: wanted.to_owned(), available }
 }

@@ -4,8 +4,8 @@ mod choice;
 mod light;
 mod ltg;
 
-pub(crate) use choice::choose_array;
-pub use choice::{Association, TENSOR_ARRAY, Wanted};
+pub use choice::{ArrayChoice, Association, TENSOR_ARRAY, Wanted};
+pub(crate) use choice::{GHOSTS, VALID_POINTS, choose_array};
 pub use light::{image_from_light, image_of_energy};
 pub use ltg::{LTG_ARRAY, LtgImage, SLICES, image_from_ltg, ltg_from_image};
 

@@ -9,20 +9,21 @@ const SETS: &str = "DATASET STRUCTURED_POINTS, STRUCTURED_GRID or RECTILINEAR_GR
 /// Reads everything before the attributes.
 pub(super) fn read(cursor: &mut Cursor) -> Result<ImageData, IoError> {
     let (byte, word) = cursor.word(SETS)?;
-    if word != b"DATASET" {
+    if !word.eq_ignore_ascii_case(b"DATASET") {
         return Err(fault(byte, word, SETS));
     }
     let (byte, word) = cursor.word(SETS)?;
-    let mut image = match word {
+    let kind = word.to_ascii_uppercase();
+    let kind = kind.as_slice();
+    let mut image = match kind {
         b"STRUCTURED_POINTS" => ImageData::empty([1; 3]),
         b"STRUCTURED_GRID" | b"RECTILINEAR_GRID" => ImageData::empty([1; 3]),
         _ => return Err(fault(byte, word, SETS)),
     };
-    let kind = word;
     let mut sized = false;
     let mut placed = kind == b"STRUCTURED_POINTS";
     while let Some(word) = cursor.peek() {
-        match word {
+        match word.to_ascii_uppercase().as_slice() {
             b"FIELD" => super::attributes::read_field_data(cursor, &mut image)?,
             b"DIMENSIONS" => {
                 image.dimensions = dimensions(cursor)?;
@@ -96,7 +97,7 @@ fn points(cursor: &mut Cursor, image: &mut ImageData) -> Result<(), IoError> {
 fn coordinates(cursor: &mut Cursor, axis: usize, image: &mut ImageData) -> Result<(), IoError> {
     const NAMES: [&str; 3] = ["X_COORDINATES", "Y_COORDINATES", "Z_COORDINATES"];
     let (byte, word) = cursor.word(NAMES[axis])?;
-    if word != NAMES[axis].as_bytes() {
+    if !word.eq_ignore_ascii_case(NAMES[axis].as_bytes()) {
         return Err(fault(byte, word, NAMES[axis]));
     }
     let at = cursor.at();

@@ -1,6 +1,6 @@
 //! The 348 bytes that head a NIfTI-1 file.
 
-use crate::volume::TensorOrder;
+use crate::volume::Content;
 use crate::{ByteOrder, IoError, Limits, ScalarType};
 
 /// Bytes of the header.
@@ -11,6 +11,8 @@ const MAX_OFFSET: f64 = (1_u64 << 26) as f64;
 /// Intents.
 pub(super) const SYMMETRIC: i16 = 1005;
 pub(super) const MATRIX: i16 = 1004;
+/// Displacements and other vectors.
+const VECTORS: [i16; 2] = [1006, 1007];
 
 /// Steps along the voxel axes, and the first voxel.
 pub(super) type Position = ([[f64; 3]; 3], [f64; 3]);
@@ -24,13 +26,15 @@ pub(super) struct Header {
     pub(super) offset: u64,
     pub(super) size: [usize; 3],
     pub(super) components: usize,
-    /// Order of the components, where the intent states it.
-    pub(super) tensor: Option<TensorOrder>,
+    /// What the intent makes of the components.
+    pub(super) content: Content,
     pub(super) kind: &'static str,
     /// Slope and intercept, where they do something.
     pub(super) scaling: Option<(f64, f64)>,
     /// And which part of the header it is from.
     pub(super) position: (Position, &'static str),
+    /// The distance by which voxels lie elsewhere by the qform than by the sform, where it is more than rounding.
+    pub(super) disagreement: Option<f64>,
 }
 
 /// Fields by their place.
@@ -82,7 +86,7 @@ impl Header {
         let dim: [i16; 8] = std::array::from_fn(|i| fields.short(40 + 2 * i));
         let shape = shape(dim)?;
         let scalar = scalar(&fields)?;
-        let (components, tensor, kind) = meaning(&fields, dim[0], shape)?;
+        let (components, content, kind) = meaning(&fields, dim[0], shape)?;
         let cells = shape[..3].iter().map(|&n| n as u128).product::<u128>();
         if cells > u128::from(limits.cells) {
             return Err(IoError::TooManyCells { byte: 40, cells, limit: limits.cells });
@@ -102,10 +106,11 @@ impl Header {
             offset: offset as u64,
             size: [shape[0], shape[1], shape[2]],
             components,
-            tensor,
+            content,
             kind,
             scaling: (scales && (slope, intercept) != (1.0, 0.0)).then_some((slope, intercept)),
             position: position(&fields)?,
+            disagreement: disagreement(&fields, [shape[0], shape[1], shape[2]]),
         })
     }
 
@@ -168,12 +173,8 @@ fn scalar(fields: &Bytes) -> Result<ScalarType, IoError> {
     }
 }
 
-/// Components, their order where the intent states it, and a name.
-fn meaning(
-    fields: &Bytes,
-    axes: i16,
-    shape: [usize; 7],
-) -> Result<(usize, Option<TensorOrder>, &'static str), IoError> {
+/// Components, what they are, and a name.
+fn meaning(fields: &Bytes, axes: i16, shape: [usize; 7]) -> Result<(usize, Content, &'static str), IoError> {
     let (intent, p1, p2) = (fields.short(68), fields.float(56), fields.float(60));
     if shape[5] != 1 || shape[6] != 1 || (shape[3] != 1 && shape[4] != 1) {
         let found = format!("{shape:?}");
@@ -185,50 +186,97 @@ fn meaning(
         ));
     }
     let components = shape[3] * shape[4];
-    let stated = |order: TensorOrder, kind| {
-        if components == order.components() && shape[4] == components {
-            Ok((components, Some(order), kind))
+    let stated = |expected: usize, content, kind| {
+        if components == expected && shape[4] == components {
+            Ok((components, content, kind))
         } else {
             Err(fault(50, "dim[5]", shape[4], "as many components as the intent's matrix has"))
         }
     };
+    // ITK leaves the size of the matrix 0.
+    let size = |p: f64, components: usize| match (p, shape[4]) {
+        (0.0, n) if n == components => true,
+        (p, _) => p == if matches!(components, 3 | 4) { 2.0 } else { 3.0 },
+    };
+    const SYMMETRIC_WORDS: &str = "symmetric matrix (intent 1005)";
+    const MATRIX_WORDS: &str = "matrix (intent 1004)";
     match intent {
-        SYMMETRIC if p1 == 3.0 => stated(TensorOrder::LOWER, "symmetric matrix (intent 1005)"),
-        SYMMETRIC if p1 == 2.0 => stated(TensorOrder::UPPER2, "symmetric matrix (intent 1005)"),
+        SYMMETRIC if size(p1, 6) => stated(6, Content::NiftiSymmetric, SYMMETRIC_WORDS),
+        SYMMETRIC if size(p1, 3) => stated(3, Content::NiftiSymmetric, SYMMETRIC_WORDS),
         SYMMETRIC => Err(fault(56, "intent_p1", p1, "2 or 3, the size of the symmetric matrix")),
-        MATRIX if (p1, p2) == (3.0, 3.0) => stated(TensorOrder::ROWS3, "matrix (intent 1004)"),
-        MATRIX if (p1, p2) == (2.0, 2.0) => stated(TensorOrder::ROWS2, "matrix (intent 1004)"),
+        MATRIX if size(p1, 9) && size(p2, 9) => stated(9, Content::NiftiMatrix, MATRIX_WORDS),
+        MATRIX if size(p1, 4) && size(p2, 4) => stated(4, Content::NiftiMatrix, MATRIX_WORDS),
         MATRIX => Err(fault(56, "intent_p1", p1, "2 x 2 or 3 x 3, the size of the matrix")),
-        _ if components == 1 => Ok((1, None, "scalar image")),
-        _ if axes <= 4 => Ok((components, None, "components along the fourth axis")),
-        _ => Ok((components, None, "components along the fifth axis")),
+        _ if components == 1 => Ok((1, Content::NiftiNumbers, "scalar image")),
+        _ if VECTORS.contains(&intent) => {
+            Ok((components, Content::NiftiVector, "vectors (intent 1006 or 1007)"))
+        }
+        _ if axes <= 4 => Ok((components, Content::NiftiNumbers, "components along the fourth axis")),
+        _ => Ok((components, Content::NiftiNumbers, "components along the fifth axis")),
     }
 }
 
 /// The sform where there is one, else the qform, else the voxel sizes.
 fn position(fields: &Bytes) -> Result<(Position, &'static str), IoError> {
-    let pixdim: [f64; 8] = fields.floats(76);
-    let (qform, sform) = (fields.short(252), fields.short(254));
-    let finite = |values: &[f64]| values.iter().all(|v| v.is_finite());
-    if sform > 0 {
-        let m: [f64; 12] = fields.floats(280);
-        if !finite(&m) {
-            return Err(fault(280, "srow_x", "a number that is not finite", "a finite matrix"));
-        }
-        let axes = [0, 1, 2].map(|a| [m[a], m[4 + a], m[8 + a]]);
-        return Ok(((axes, [m[3], m[7], m[11]]), "the sform"));
+    if let Some(sform) = sform(fields)? {
+        return Ok((sform, "the sform"));
     }
-    let steps = [1, 2, 3].map(|i| if pixdim[i] > 0.0 && pixdim[i].is_finite() { pixdim[i] } else { 1.0 });
-    if qform > 0 {
-        let q: [f64; 6] = fields.floats(256);
-        if !finite(&q) {
-            return Err(fault(256, "quatern_b", "a number that is not finite", "finite numbers"));
-        }
-        let flip = if pixdim[0] < 0.0 { -1.0 } else { 1.0 };
-        return Ok(((rotated([q[0], q[1], q[2]], steps, flip), [q[3], q[4], q[5]]), "the qform"));
+    if let Some(qform) = qform(fields)? {
+        return Ok((qform, "the qform"));
     }
-    let axes = [[steps[0], 0.0, 0.0], [0.0, steps[1], 0.0], [0.0, 0.0, steps[2]]];
+    let [x, y, z] = steps(fields);
+    let axes = [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];
     Ok(((axes, [0.0; 3]), "the voxel sizes alone (no sform, no qform)"))
+}
+
+fn sform(fields: &Bytes) -> Result<Option<Position>, IoError> {
+    if fields.short(254) <= 0 {
+        return Ok(None);
+    }
+    let m: [f64; 12] = fields.floats(280);
+    if !m.iter().all(|v| v.is_finite()) {
+        return Err(fault(280, "srow_x", "a number that is not finite", "a finite matrix"));
+    }
+    let axes = [0, 1, 2].map(|a| [m[a], m[4 + a], m[8 + a]]);
+    Ok(Some((axes, [m[3], m[7], m[11]])))
+}
+
+fn qform(fields: &Bytes) -> Result<Option<Position>, IoError> {
+    if fields.short(252) <= 0 {
+        return Ok(None);
+    }
+    let q: [f64; 6] = fields.floats(256);
+    if !q.iter().all(|v| v.is_finite()) {
+        return Err(fault(256, "quatern_b", "a number that is not finite", "finite numbers"));
+    }
+    let flip = if fields.float(76) < 0.0 { -1.0 } else { 1.0 };
+    Ok(Some((rotated([q[0], q[1], q[2]], steps(fields), flip), [q[3], q[4], q[5]])))
+}
+
+/// Voxel sizes; 1 where the header has none.
+fn steps(fields: &Bytes) -> [f64; 3] {
+    let pixdim: [f64; 8] = fields.floats(76);
+    [1, 2, 3].map(|i| if pixdim[i] > 0.0 && pixdim[i].is_finite() { pixdim[i] } else { 1.0 })
+}
+
+/// Distance of the two positions of a corner voxel, of a voxel's size, that is a disagreement: quaternions in single precision are off by less.
+const APART: f64 = 0.05;
+
+/// How far the qform puts a corner of the volume from where the sform has it, where both are there and that is more than rounding.
+fn disagreement(fields: &Bytes, size: [usize; 3]) -> Option<f64> {
+    let (Ok(Some(a)), Ok(Some(b))) = (sform(fields), qform(fields)) else { return None };
+    let corner = |(axes, origin): &Position, which: usize| {
+        let steps = [0, 1, 2].map(|axis| if which >> axis & 1 == 1 { (size[axis] - 1) as f64 } else { 0.0 });
+        [0, 1, 2].map(|i| origin[i] + (0..3).map(|axis| axes[axis][i] * steps[axis]).sum::<f64>())
+    };
+    let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    let apart = |which: usize| {
+        let (p, q) = (corner(&a, which), corner(&b, which));
+        length([p[0] - q[0], p[1] - q[1], p[2] - q[2]])
+    };
+    let largest = (0..8).map(apart).fold(0.0, f64::max);
+    let voxel = steps(fields).into_iter().fold(f64::INFINITY, f64::min);
+    (largest > APART * voxel).then_some(largest)
 }
 
 /// Axes from the three imaginary parts of a unit quaternion; the third axis may be reversed.

@@ -2,21 +2,21 @@
 //!
 //! Read: both byte orders, all integer and floating-point types of up to 64 bits, scaling, sform and qform; symmetric and
 //! general matrices as the standard has them (5-D, intents 1005 and 1004), and 4-D or 5-D images of several components, whose
-//! order the file does not state. Refused by name: NIfTI-2, ANALYZE and `.hdr`/`.img` pairs, complex and colour numbers,
+//! order the file does not state; ITK's, whose intent has no size. Refused by name: NIfTI-2, ANALYZE and `.hdr`/`.img` pairs, complex and colour numbers,
 //! time series.
 //!
-//! Written: symmetric or general matrices (5-D, intents 1005 and 1004) in double precision along the voxel axes, an sform, and
-//! what made the file as an extension of comments.
+//! Written, in the precision of the input: symmetric or general matrices (5-D, intents 1005 and 1004) along the voxel axes, or six
+//! components along the fourth axis as FSL or MRtrix3 have them; an sform, and what made the file as an extension of comments.
 //!
 //! Standard: nifti1.h of the NIfTI Data Format Working Group, 2003.
 
 mod header;
 mod write;
 
-pub use write::{write, write_packed};
+pub use write::{WrittenAs, write, write_packed};
 
 use crate::inflate::{gunzip, is_gzip};
-use crate::volume::{Frame, Known, Lattice, World};
+use crate::volume::{Lattice, World};
 use crate::{ByteOrder, IoError, Limits, ScalarType};
 use header::{Header, LENGTH};
 
@@ -72,12 +72,18 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<Lattice, IoError
         world: World::Scanner("right-anterior-superior".to_owned()),
         measurement: None,
         mask: None,
-        order: header.tensor.map(|order| (order, Known::Stated)),
-        // The standard leaves the axes open; dipy and FSL write voxel axes.
-        frame: (Frame::Voxel, Known::Assumed),
+        order: header.content.order(header.components),
+        frame: header.content.frame(header.components),
         array: header.kind.to_owned(),
+        component_names: Vec::new(),
         notes,
+        warnings: header.disagreement.map(apart).into_iter().collect(),
     })
+}
+
+/// Words for a qform that lies elsewhere than the sform.
+fn apart(distance: f64) -> String {
+    format!("its qform and sform disagree by up to {distance:.3} of its unit: the sform is used")
 }
 
 /// Numbers stored component by component, voxel by voxel. A component at a time is decoded, so that little more than the

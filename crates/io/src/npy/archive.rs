@@ -20,41 +20,82 @@ fn fault(problem: impl Into<String>, expected: &'static str) -> IoError {
 /// # Errors
 /// [`IoError::Archive`], which lists the arrays.
 pub fn array_of_archive(bytes: &[u8], name: Option<&str>) -> Result<(String, Vec<u8>), IoError> {
-    let unreadable = |e: zip::result::ZipError| fault(shortened(e.to_string().as_bytes()), ARCHIVE);
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(unreadable)?;
-    if archive.len() > MAX_ARRAYS {
-        return Err(fault(format!("{} arrays", archive.len()), "at most 4096"));
-    }
-    let files: Vec<String> =
-        archive.file_names().filter(|n| n.ends_with(".npy")).map(str::to_owned).collect();
-    let listed = || {
-        let names: Vec<String> =
-            files.iter().take(20).map(|n| format!("`{}`", shortened(plain(n).as_bytes()))).collect();
-        if names.is_empty() { "no array".to_owned() } else { format!("the arrays are {}", names.join(", ")) }
-    };
-    let chosen = match (name, &files[..]) {
-        (Some(name), _) => files.iter().find(|f| plain(f) == name || *f == name),
+    let mut archive = Archive::open(bytes)?;
+    let chosen = match (name, &archive.files[..]) {
+        (Some(name), files) => files.iter().find(|f| plain(f) == name || *f == name),
         (None, [only]) => Some(only),
-        (None, _) => return Err(fault(listed(), "the name of one")),
+        (None, _) => return Err(fault(archive.listed(), "the name of one")),
     };
-    let chosen = chosen.ok_or_else(|| {
+    let chosen = chosen.cloned().ok_or_else(|| {
         let name = shortened(name.unwrap_or_default().as_bytes());
-        fault(format!("no array `{name}`, {}", listed()), "one of these")
+        fault(format!("no array `{name}`, {}", archive.listed()), "one of these")
     })?;
-    let entry = archive.by_name(chosen).map_err(unreadable)?;
-    let most =
-        entry.compressed_size().saturating_mul(DEFLATE_RATIO).min(8 * Limits::default().values + (1 << 20));
-    let declared = entry.size();
-    if declared > most {
-        return Err(fault(
-            format!("`{}` declares {declared} bytes", shortened(chosen.as_bytes())),
-            "no more than deflate can hold",
-        ));
+    archive.bytes_of(&chosen)
+}
+
+/// Names and bytes of all `.npy` files of an archive.
+///
+/// # Errors
+/// [`IoError::Archive`], and [`IoError::TooManyValues`] for more bytes together than the default limit of one array.
+pub fn arrays_of_archive(bytes: &[u8]) -> Result<Vec<(String, Vec<u8>)>, IoError> {
+    let mut archive = Archive::open(bytes)?;
+    let (mut all, mut total) = (Vec::new(), 0_u64);
+    for file in archive.files.clone() {
+        let (name, data) = archive.bytes_of(&file)?;
+        total += data.len() as u64;
+        let limit = Limits::default().values;
+        if total > 8 * limit + (1 << 20) {
+            return Err(IoError::TooManyValues { array: name, byte: 0, limit });
+        }
+        all.push((name, data));
     }
-    let mut data = Vec::new();
-    let read = entry.take(declared).read_to_end(&mut data);
-    read.map_err(|e| fault(format!("`{}`: {e}", shortened(chosen.as_bytes())), ARCHIVE))?;
-    Ok((plain(chosen).to_owned(), data))
+    if all.is_empty() { Err(fault(archive.listed(), "at least one")) } else { Ok(all) }
+}
+
+/// An archive that is open, and the names of its `.npy` files.
+struct Archive<'a> {
+    zip: ZipArchive<Cursor<&'a [u8]>>,
+    files: Vec<String>,
+}
+
+fn unreadable(e: zip::result::ZipError) -> IoError {
+    fault(shortened(e.to_string().as_bytes()), ARCHIVE)
+}
+
+impl<'a> Archive<'a> {
+    fn open(bytes: &'a [u8]) -> Result<Self, IoError> {
+        let zip = ZipArchive::new(Cursor::new(bytes)).map_err(unreadable)?;
+        if zip.len() > MAX_ARRAYS {
+            return Err(fault(format!("{} arrays", zip.len()), "at most 4096"));
+        }
+        let files = zip.file_names().filter(|n| n.ends_with(".npy")).map(str::to_owned).collect();
+        Ok(Self { zip, files })
+    }
+
+    /// The arrays in words, the first twenty of them.
+    fn listed(&self) -> String {
+        let names: Vec<String> =
+            self.files.iter().take(20).map(|n| format!("`{}`", shortened(plain(n).as_bytes()))).collect();
+        if names.is_empty() { "no array".to_owned() } else { format!("the arrays are {}", names.join(", ")) }
+    }
+
+    fn bytes_of(&mut self, file: &str) -> Result<(String, Vec<u8>), IoError> {
+        let name = || shortened(file.as_bytes());
+        let entry = self.zip.by_name(file).map_err(unreadable)?;
+        let most = entry
+            .compressed_size()
+            .saturating_mul(DEFLATE_RATIO)
+            .min(8 * Limits::default().values + (1 << 20));
+        let declared = entry.size();
+        if declared > most {
+            let problem = format!("`{}` declares {declared} bytes", name());
+            return Err(fault(problem, "no more than deflate can hold"));
+        }
+        let mut data = Vec::new();
+        let read = entry.take(declared).read_to_end(&mut data);
+        read.map_err(|e| fault(format!("`{}`: {e}", name()), ARCHIVE))?;
+        Ok((plain(file).to_owned(), data))
+    }
 }
 
 fn plain(file: &str) -> &str {

@@ -17,7 +17,7 @@ mod lattice;
 mod read;
 mod write;
 
-pub use archive::array_of_archive;
-pub use lattice::read_lattice;
+pub use archive::{array_of_archive, arrays_of_archive};
+pub use lattice::{lattice_of_members, read_lattice};
 pub use read::{NpyArray, read_array, read_tensors};
 pub use write::{write_array, write_light, write_ltg, write_tensors};

@@ -2,6 +2,7 @@
 
 use super::{KINDS, Kind, Layout};
 use crate::error::shortened;
+use crate::volume::order_of;
 use crate::{ByteOrder, IoError, Limits, ScalarType, Wanted};
 
 /// Most axes of an array, as in teem.
@@ -43,7 +44,10 @@ pub(super) struct Header {
     sizes: Vec<u64>,
     kinds: Vec<String>,
     kinds_line: usize,
+    /// Labels of the axes; empty where there are none.
+    labels: Vec<String>,
     directions: Vec<Option<[f64; 3]>>,
+    directions_line: usize,
     spacings: Vec<f64>,
     origin: Option<[f64; 3]>,
     limits: Limits,
@@ -122,6 +126,22 @@ impl<'a> Fields<'a> {
         }
     }
 
+    /// Refuses fields that are given twice: programs differ in which of them they take.
+    fn check_once(&self) -> Result<(), IoError> {
+        for (i, e) in self.entries.iter().enumerate() {
+            if self.entries[..i].iter().any(|before| before.name == e.name) {
+                let found = shortened(e.name.as_bytes());
+                return Err(IoError::NrrdField {
+                    line: e.line,
+                    field: "field",
+                    found,
+                    expected: "every field once",
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// The value of a field by its name without blanks.
     fn get(&self, names: &[&str]) -> Option<&Entry<'a>> {
         self.entries.iter().find(|e| names.contains(&e.name.as_str()))
@@ -151,6 +171,7 @@ impl Entry<'_> {
 impl Header {
     pub(super) fn parse(bytes: &[u8], limits: Limits) -> Result<Self, IoError> {
         let fields = Fields::parse(bytes)?;
+        fields.check_once()?;
         let scalar = scalar(fields.required(&["type"], "type", TYPES)?)?;
         let encoding = encoding(fields.required(&["encoding"], "encoding", ENCODINGS)?)?;
         let sizes = sizes(&fields)?;
@@ -210,7 +231,9 @@ impl Header {
             sizes,
             kinds: kinds.map_or_else(Vec::new, |e| e.value.split_whitespace().map(str::to_owned).collect()),
             kinds_line: kinds.map_or(fields.lines, |e| e.line),
+            labels: fields.get(&["labels"]).map_or_else(Vec::new, |e| labels(e.value)),
             directions,
+            directions_line,
             spacings: fields.get(&["spacings"]).map_or(Ok(Vec::new()), |e| spacings(e, axes))?,
             origin: fields.get(&["spaceorigin"]).map(origin).transpose()?.flatten(),
             limits,
@@ -240,7 +263,6 @@ impl Header {
         let kind = |name: &String| KINDS.into_iter().find(|k| k.name.eq_ignore_ascii_case(name));
         let tensors: Vec<(usize, Kind)> =
             self.kinds.iter().enumerate().filter_map(|(i, k)| Some((i, kind(k)?))).collect();
-        let is_domain = |k: &String| DOMAIN_KINDS.iter().any(|d| k.eq_ignore_ascii_case(d));
         let is_vector = |k: &String| VECTOR_KINDS.iter().any(|v| k.eq_ignore_ascii_case(v));
         let (axis, kind) = match (wanted, &tensors[..]) {
             (Wanted::Scalars, _) => return self.scalar_layout(),
@@ -252,10 +274,10 @@ impl Header {
                 }
             },
             (Wanted::Tensors, [(axis, kind)]) => (*axis, Some(*kind)),
-            (Wanted::Tensors, []) => match self.sizes.iter().position(|s| matches!(s, 6 | 7 | 9)) {
-                Some(0) if self.sizes.len() > 2 && !self.kinds.first().is_some_and(is_domain) => (0, None),
-                _ => return Err(fault(&self.kinds.join(" "), KIND_NAMES)),
-            },
+            (Wanted::Tensors, []) => {
+                let axis = self.axis_of_numbers();
+                (axis.ok_or_else(|| fault(&self.kinds.join(" "), KIND_NAMES))?, None)
+            }
             (Wanted::Tensors, _) => return Err(fault(&self.kinds.join(" "), "one tensor axis")),
         };
         let tuple = kind.map_or(self.sizes[axis], |k| k.tuple() as u64);
@@ -270,6 +292,63 @@ impl Header {
         let lattice = (0..self.sizes.len()).filter(|&a| a != axis).collect();
         let layout = Layout { kind, masked, axis, tuple: tuple as usize, lattice, size: [1; 3], inner };
         self.sized(layout)
+    }
+
+    /// The axis of tuples where no kind of tensors names it: labels do, or it has 6, 7 or 9 numbers of another kind than the lattice's, or
+    /// it is the first without a kind.
+    fn axis_of_numbers(&self) -> Option<usize> {
+        let size = |axis: usize| self.sizes[axis];
+        let named = |axis: usize| order_of(&self.component_names(axis, size(axis) as usize)).is_some();
+        let is_domain = |axis: usize| {
+            self.kinds.get(axis).is_some_and(|k| DOMAIN_KINDS.iter().any(|d| k.eq_ignore_ascii_case(d)))
+        };
+        let is_tuple = |axis: usize| {
+            self.kinds.get(axis).is_some_and(|k| {
+                k.eq_ignore_ascii_case("list") || VECTOR_KINDS.iter().any(|v| k.eq_ignore_ascii_case(v))
+            })
+        };
+        let fits = |axis: usize| matches!(size(axis), 6 | 7 | 9) && self.sizes.len() > 2;
+        let axes = || (0..self.sizes.len()).filter(|&a| !is_domain(a));
+        axes()
+            .find(|&a| named(a))
+            .or_else(|| axes().find(|&a| is_tuple(a) && fits(a)))
+            .or_else(|| Some(0).filter(|&a| !is_domain(a) && fits(a)))
+    }
+
+    /// Names of the components on an axis, where its label lists as many: `xx,xy,xz,yy,yz,zz`.
+    pub(super) fn component_names(&self, axis: usize, components: usize) -> Vec<String> {
+        let Some(label) = self.labels.get(axis) else { return Vec::new() };
+        let separators = [',', ';', '|', ' ', '\t'];
+        let names: Vec<String> =
+            label.split(separators).filter(|w| !w.is_empty()).map(str::to_owned).collect();
+        if names.len() == components { names } else { Vec::new() }
+    }
+
+    /// Refuses space directions that are no axes of a space: `none` on an axis of the lattice, a vector on the axis of tuples, and
+    /// vectors that lie in a plane.
+    pub(super) fn check_directions(&self, layout: &Layout) -> Result<(), IoError> {
+        if !self.has_directions() {
+            return Ok(());
+        }
+        let fault = |found: String, expected| IoError::NrrdField {
+            line: self.directions_line,
+            field: "space directions",
+            found,
+            expected,
+        };
+        let on = |axis: usize| self.directions[axis];
+        if let Some(axis) = layout.lattice.iter().find(|&&a| on(a).is_none()) {
+            return Err(fault(format!("none for axis {axis}"), "`none` for the axis of components only"));
+        }
+        let tuples = (0..self.sizes.len()).find(|a| !layout.lattice.contains(a));
+        if let Some(axis) = tuples.filter(|&a| on(a).is_some()) {
+            return Err(fault(format!("a vector for axis {axis}"), "`none` for the axis of components"));
+        }
+        let (axes, _) = self.geometry(layout);
+        if determinant(axes).abs() > DEPENDENT * axes.map(length).iter().product::<f64>() {
+            return Ok(());
+        }
+        Err(fault("dependent vectors".to_owned(), "linearly independent vectors"))
     }
 
     /// Single numbers: every axis is the lattice's.
@@ -452,6 +531,24 @@ fn measurement(e: &Entry) -> Result<Option<[f64; 9]>, IoError> {
 fn spacings(e: &Entry, axes: usize) -> Result<Vec<f64>, IoError> {
     let numbers: Option<Vec<f64>> = e.value.split_whitespace().map(|w| w.parse().ok()).collect();
     numbers.filter(|n| n.len() == axes).ok_or_else(|| e.fault("spacings", "a number or nan for every axis"))
+}
+
+/// Volume of a box over the product of its edges below which these count as lying in a plane: files hold six digits.
+const DEPENDENT: f64 = 1e-6;
+
+fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {
+    a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}
+
+/// Labels in double quotes, one for every axis.
+fn labels(text: &str) -> Vec<String> {
+    text.split('"').skip(1).step_by(2).map(str::to_owned).collect()
 }
 
 /// The unit vector at right angles to two others.

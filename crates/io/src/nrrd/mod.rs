@@ -4,7 +4,7 @@
 //! (2D and 3D, symmetric or not, with or without mask); space directions, origin, measurement frame. Refused by name: hex
 //! and bzip2, blocks, data spread over several files.
 //!
-//! Written: attached gzip data in double precision, along the world's axes.
+//! Written: attached gzip data in the precision of the input, along the world's axes.
 //!
 //! Format: <http://teem.sourceforge.net/nrrd/format.html>.
 
@@ -14,7 +14,7 @@ mod write;
 
 pub use write::write;
 
-use crate::volume::{Frame, Known, Lattice, TensorOrder, World};
+use crate::volume::{Content, Frame, Known, Lattice, Naming, TensorOrder, World, naming};
 use crate::{IoError, Limits, Wanted};
 use header::Header;
 
@@ -47,6 +47,7 @@ pub fn read_with_limits(
 ) -> Result<Lattice, IoError> {
     let header = Header::parse(bytes, limits)?;
     let layout = header.layout(wanted)?;
+    header.check_directions(&layout)?;
     let values = match (&header.data_file, detached) {
         (None, _) => data::read(&header, &bytes[header.end..], header.end)?,
         (Some(_), Some(data)) => data::read(&header, data, 0)?,
@@ -61,15 +62,19 @@ pub fn read_with_limits(
         notes.push(format!("no kind names a tensor: axis {} of size {} taken", layout.axis, layout.tuple));
     }
     let world = header.space.clone().unwrap_or_else(|| "unnamed".to_owned());
+    let components = layout.tuple - usize::from(layout.masked);
+    let content = if layout.kind.is_some() { Content::NrrdTensor } else { Content::NrrdNumbers };
     let frame = match header.measurement {
         Some(_) => (Frame::Measurement, Known::Stated),
-        None if header.has_directions() => (Frame::World, Known::Assumed),
+        None if header.has_directions() => content.frame(components),
         None => (Frame::Voxel, Known::Assumed),
     };
+    let component_names =
+        if wanted == Wanted::Scalars { Vec::new() } else { header.component_names(layout.axis, components) };
     let (axes, origin) = header.geometry(&layout);
     Ok(Lattice {
         size: layout.size,
-        components: layout.tuple - usize::from(layout.masked),
+        components,
         values,
         scalar: header.scalar,
         axes,
@@ -77,10 +82,12 @@ pub fn read_with_limits(
         world: World::Scanner(world),
         measurement: header.measurement,
         mask,
-        order: layout.order(),
+        order: layout.order(&component_names, components),
         frame,
         array: layout.kind.map_or("numbers", |k| k.name).to_owned(),
+        component_names,
         notes,
+        warnings: Vec::new(),
     })
 }
 
@@ -128,11 +135,12 @@ struct Layout {
 }
 
 impl Layout {
-    /// That of the kind. Where no kind says it, seven numbers are taken as the format's own masked kind.
-    fn order(&self) -> Option<(TensorOrder, Known)> {
-        match self.kind {
-            Some(kind) => Some((kind.order, Known::Stated)),
-            None => self.masked.then_some((TensorOrder::UPPER, Known::Assumed)),
+    /// By the names of the components, else that of the kind, else by the tables.
+    fn order(&self, names: &[String], components: usize) -> Option<(TensorOrder, Known)> {
+        match (naming(names, components), self.kind) {
+            (Naming::Tensor(order), _) => Some((order, Known::Stated)),
+            (_, Some(kind)) => Some((kind.order, Known::Stated)),
+            (_, None) => Content::NrrdNumbers.order(components),
         }
     }
 

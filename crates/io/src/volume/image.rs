@@ -1,25 +1,32 @@
 //! Between VTK image data and volumes.
 
-use super::{Frame, IDENTITY, Known, Lattice, TensorOrder, TensorVolume, World};
-use crate::convert::{Association, TENSOR_ARRAY, Wanted, choose_array};
+use super::{Content, Frame, IDENTITY, Known, Lattice, Naming, TensorVolume, World, naming};
+use crate::convert::{ArrayChoice, Association, GHOSTS, TENSOR_ARRAY, VALID_POINTS, Wanted, choose_array};
 use crate::points::PointLattice;
-use crate::{ImageData, IoError, PolyData};
+use crate::{DataArray, ImageData, IoError, PolyData};
 
-/// The array by which VTK's resampling filters mark points that lay outside their input, with 0.
-const VALID_POINTS: &str = "vtkValidPointMask";
+/// Bits of `vtkGhostType`: points that are hidden, and cells that are hidden or replaced by finer ones
+/// (vtkDataSetAttributes.h of VTK 9). Duplicates of other pieces are data like any other.
+const HIDDEN_POINT: u8 = 2;
+const HIDDEN_CELL: u8 = 32 | 8;
 
 /// Takes an array out of poly data whose points form a lattice, x fastest.
 ///
 /// # Errors
 /// [`IoError::NoLattice`], and as [`lattice_from_image`]. Cell arrays belong to polygons and are not looked at.
-pub fn lattice_from_points(data: PolyData, array: Option<&str>, wanted: Wanted) -> Result<Lattice, IoError> {
+pub fn lattice_from_points<'a>(
+    data: PolyData,
+    array: impl Into<ArrayChoice<'a>>,
+    wanted: Wanted,
+) -> Result<Lattice, IoError> {
     let lattice = PointLattice::find(&data.points).map_err(|point| IoError::NoLattice { point })?;
     let mut image = ImageData::empty(lattice.size);
     lattice.place(&mut image);
     image.point_arrays = data.point_arrays;
     image.point_active = data.point_active;
+    image.skipped = data.skipped;
     let mut found = lattice_from_image(&image, array, wanted)?;
-    found.notes = vec!["a point array of VTK poly data whose points form a lattice".to_owned()];
+    found.notes[0] = "a point array of VTK poly data whose points form a lattice".to_owned();
     let left_out: Vec<String> = data.cell_arrays.into_iter().map(|a| format!("`{}`", a.name)).collect();
     if !left_out.is_empty() {
         found.notes.push(format!("arrays of polygons left out: {}", left_out.join(", ")));
@@ -27,32 +34,24 @@ pub fn lattice_from_points(data: PolyData, array: Option<&str>, wanted: Wanted) 
     Ok(found)
 }
 
-/// Takes an array out of an image: the named one, or the active one of the wanted kind, or the only one whose tuples fit.
-/// Cell arrays form a lattice of cell centres. Points that VTK marked as invalid are masked.
+/// Takes an array out of an image: the named one, or the active one of the wanted kind, or the only one whose tuples fit; where there is
+/// none, the one whose components are arrays of their own (`S_XX`, `S_YY`, `S_XY`). Cell arrays form a lattice of cell centres. Points
+/// that VTK marked as invalid or hidden are masked.
 ///
 /// # Errors
-/// [`IoError::NoArray`], [`IoError::AmbiguousArray`], [`IoError::ArraySize`].
-pub fn lattice_from_image(
+/// [`IoError::NoArray`], [`IoError::AmbiguousArray`], [`IoError::Principal`], [`IoError::UnequalComponents`],
+/// [`IoError::ArraySize`].
+pub fn lattice_from_image<'a>(
     image: &ImageData,
-    array: Option<&str>,
+    array: impl Into<ArrayChoice<'a>>,
     wanted: Wanted,
 ) -> Result<Lattice, IoError> {
-    let (association, array) = choose_array(image, array, wanted)?;
+    let (association, array) = choose_array(image, array.into(), wanted)?;
     let size = match association {
         Association::Points => image.dimensions,
         Association::Cells => image.cell_dimensions(),
     };
-    let expected = size.iter().fold(array.components as u128, |n, &s| n.saturating_mul(s as u128));
-    let found = array.values.len() as u128;
-    if found != expected {
-        return Err(IoError::ArraySize {
-            array: array.name.clone(),
-            byte: 0,
-            found,
-            expected,
-            unit: "numbers",
-        });
-    }
+    check_size(&array, size)?;
     let d = image.direction.unwrap_or(IDENTITY);
     let axes = [0, 1, 2].map(|a| [0, 1, 2].map(|i| d[3 * i + a] * image.spacing[a]));
     let mut origin = image.origin;
@@ -65,43 +64,116 @@ pub fn lattice_from_image(
         }
     }
     let kind = if association == Association::Points { "point" } else { "cell" };
-    let names: Vec<String> = array.component_names.iter().map(|n| n.to_ascii_lowercase()).collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
-    let valid = image
-        .point_array(VALID_POINTS)
-        .filter(|m| m.components == 1 && m.values.len() == size.iter().product());
-    let active = if association == Association::Points { &image.point_active } else { &image.cell_active };
-    let named = TensorOrder::by_names(&names, array.components).ok();
+    let mut notes = vec![format!("a {kind} array of VTK image data")];
+    let (mask, note) = mask_of(image, association);
+    notes.extend(note);
+    let (content, order) = meaning(image, association, &array);
+    let array = array.into_owned();
     Ok(Lattice {
         size,
         components: array.components,
-        values: array.values.clone(),
+        values: array.values,
         scalar: array.scalar,
         axes,
         origin,
         world: World::Viewer,
         measurement: None,
-        mask: valid.filter(|_| association == Association::Points).map(|m| m.values.clone()),
-        order: named
-            .map(|order| (order, Known::Stated))
-            .or_else(|| usual(array.components, active.tensors.as_ref() == Some(&array.name))),
-        frame: (Frame::World, Known::Stated),
-        array: array.name.clone(),
-        notes: vec![format!("a {kind} array of VTK image data")],
+        mask,
+        order,
+        frame: content.frame(array.components),
+        array: array.name,
+        component_names: array.component_names,
+        notes,
+        warnings: Vec::new(),
     })
 }
 
-/// VTK's own orders of tensors: what the attribute `Tensors` means. Without it, six numbers may have another order, and
-/// three may as well be a vector.
-fn usual(components: usize, is_active: bool) -> Option<(TensorOrder, Known)> {
-    match components {
-        3 => None,
-        6 => Some((TensorOrder::VTK, if is_active { Known::Stated } else { Known::Assumed })),
-        _ => {
-            let known = if is_active { Known::Stated } else { Known::Convention };
-            TensorOrder::usual(components).map(|order| (order, known))
-        }
+fn check_size(array: &DataArray, size: [usize; 3]) -> Result<(), IoError> {
+    let expected = size.iter().fold(array.components as u128, |n, &s| n.saturating_mul(s as u128));
+    let found = array.values.len() as u128;
+    if found == expected {
+        return Ok(());
     }
+    let array = array.name.clone();
+    Err(IoError::ArraySize { array, byte: 0, found, expected, unit: "numbers" })
+}
+
+/// What an array is, and the order of its components: by their names, else by the tables.
+fn meaning(
+    image: &ImageData,
+    association: Association,
+    array: &DataArray,
+) -> (Content, Option<(super::TensorOrder, Known)>) {
+    let active = if association == Association::Points { &image.point_active } else { &image.cell_active };
+    let is_active = active.tensors.as_ref() == Some(&array.name);
+    let content = if is_active { Content::VtkTensors } else { Content::VtkArray };
+    let order = match naming(&array.component_names, array.components) {
+        Naming::Tensor(order) => Some((order, Known::Stated)),
+        // Only six and nine numbers are VTK's tensors.
+        _ => content.order(array.components).or_else(|| Content::VtkArray.order(array.components)),
+    };
+    (content, order)
+}
+
+/// What VTK left out: points that lay outside of what was resampled, hidden points and cells. A point is hidden with all cells around
+/// it, a cell with any of its points, as VTK shows them.
+fn mask_of(image: &ImageData, association: Association) -> (Option<Vec<f64>>, Option<String>) {
+    let flags = |arrays: &[DataArray], size: [usize; 3], name: &str, is_out: &dyn Fn(f64) -> bool| {
+        let array = arrays.iter().find(|a| a.name == name && a.components == 1)?;
+        let fits = array.values.len() == size.iter().product::<usize>();
+        fits.then(|| array.values.iter().map(|&v| is_out(v)).collect::<Vec<bool>>())
+    };
+    let bits = |mask: u8| move |v: f64| v as u8 & mask != 0;
+    let (points, cells) = (image.dimensions, image.cell_dimensions());
+    let hidden_points = flags(&image.point_arrays, points, GHOSTS, &bits(HIDDEN_POINT));
+    let hidden_cells = flags(&image.cell_arrays, cells, GHOSTS, &bits(HIDDEN_CELL));
+    let invalid = flags(&image.point_arrays, points, VALID_POINTS, &|v| v == 0.0);
+    let (size, own, others) = match association {
+        Association::Points => {
+            let around = hidden_cells.map(|h| spread(&h, cells, points, true));
+            (points, [invalid, hidden_points.clone()], around)
+        }
+        Association::Cells => {
+            let any = hidden_points.map(|h| spread(&h, points, cells, false));
+            (cells, [None, hidden_cells.clone()], any)
+        }
+    };
+    let all: Vec<Vec<bool>> = own.into_iter().flatten().chain(others).collect();
+    if all.is_empty() {
+        return (None, None);
+    }
+    let out = |i: usize| all.iter().any(|flags| flags[i]);
+    let mask: Vec<f64> = (0..size.iter().product()).map(|i| if out(i) { 0.0 } else { 1.0 }).collect();
+    let hidden = mask.iter().filter(|m| **m == 0.0).count();
+    let what = if association == Association::Points { "points" } else { "cells" };
+    let note =
+        (hidden > 0).then(|| format!("{hidden} {what} hidden or invalid in VTK ({GHOSTS}, {VALID_POINTS})"));
+    (Some(mask), note)
+}
+
+/// Flags of cells at points, or of points at cells: whether all (or any) of those that touch are set.
+fn spread(flags: &[bool], from: [usize; 3], to: [usize; 3], all: bool) -> Vec<bool> {
+    let range = |axis: usize, at: usize| -> std::ops::Range<usize> {
+        match to[axis].cmp(&from[axis]) {
+            std::cmp::Ordering::Equal => at..at + 1,
+            // A point between cells.
+            std::cmp::Ordering::Greater => at.saturating_sub(1)..(at + 1).min(from[axis]),
+            // A cell between points.
+            std::cmp::Ordering::Less => at..at + 2,
+        }
+    };
+    let flag = |[x, y, z]: [usize; 3]| flags[(z * from[1] + y) * from[0] + x];
+    let at = |i: usize| [i % to[0], i / to[0] % to[1], i / (to[0] * to[1])];
+    let touching = |i: usize| {
+        let [x, y, z] = at(i);
+        let (rx, ry, rz) = (range(0, x), range(1, y), range(2, z));
+        let mut neighbours = rz.flat_map(|z| {
+            let rx = rx.clone();
+            ry.clone().flat_map(move |y| rx.clone().map(move |x| [x, y, z]))
+        });
+        if all { neighbours.all(flag) } else { neighbours.any(flag) }
+    };
+    (0..to.iter().product()).map(touching).collect()
 }
 
 /// An image of the whole volume: nine named components, the active tensors. In the frame world the voxel axes keep

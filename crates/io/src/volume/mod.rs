@@ -7,16 +7,23 @@
 //! Frames. Every voxel axis has a direction in the world of the file (`axes`). Components are along the voxel axes, along
 //! the world's axes, or along those of NRRD's measurement frame.
 
+mod components;
+mod convention;
 mod image;
+mod names;
 mod order;
 mod output;
 mod plane;
 mod suspicion;
 
+pub use components::ComponentArrays;
+pub(crate) use components::{joined, joined_rows};
+pub use convention::{ALIASES, Alias, CONVENTIONS, Content, Convention, documentation};
 pub(crate) use image::points_of_image;
 pub use image::{image_from_volume, lattice_from_image, lattice_from_points, points_from_image};
+pub(crate) use names::{Group, Naming, groups, names_principal_values, naming, order_of, row_groups};
 pub use order::TensorOrder;
-pub(crate) use output::symmetric;
+pub(crate) use output::{symmetric, written_scalar};
 pub use plane::{Axis, Crop, Cut, Plane, PlaneChoice, Slice, parse_slice};
 pub use suspicion::{Suspicion, negative_share};
 
@@ -34,13 +41,19 @@ pub enum Frame {
     World,
     /// NRRD's measurement frame.
     Measurement,
+    /// The axes of FSL's gradient tables, and of tensors fitted with them: the voxel axes, the first reversed where the
+    /// determinant of the affine is positive (FSL, "What conventions do the bvecs use?", FDT user guide).
+    Fsl,
 }
 
 impl Frame {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Voxel, Self::World, Self::Measurement, Self::Fsl];
+
     /// The frame of a name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
-        [Self::Voxel, Self::World, Self::Measurement].into_iter().find(|f| f.name() == name)
+        Self::ALL.into_iter().find(|f| f.name() == name)
     }
 
     /// The name the command line uses.
@@ -50,8 +63,30 @@ impl Frame {
             Self::Voxel => "voxel",
             Self::World => "world",
             Self::Measurement => "measurement",
+            Self::Fsl => "fsl",
         }
     }
+
+    /// The axes in words.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Voxel => "the voxel axes",
+            Self::World => "the world axes",
+            Self::Measurement => "the measurement axes",
+            Self::Fsl => "the axes of FSL's gradient tables",
+        }
+    }
+}
+
+/// What the numbers of shear components are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shear {
+    /// Components of the tensor.
+    #[default]
+    Tensor,
+    /// Engineering shears, twice the components: gamma_xy = 2 epsilon_xy.
+    Engineering,
 }
 
 /// How something about a file is known.
@@ -76,6 +111,17 @@ impl Known {
             Self::Given => "as given",
             Self::Convention => "this program's convention for the format",
             Self::Assumed => "ASSUMED: the file does not say",
+        }
+    }
+
+    /// The same in a word.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Stated => "stated",
+            Self::Given => "given",
+            Self::Convention => "by convention",
+            Self::Assumed => "assumed",
         }
     }
 }
@@ -134,8 +180,12 @@ pub struct Lattice {
     pub frame: (Frame, Known),
     /// Name of the array, or the words by which the format calls it.
     pub array: String,
+    /// Names of the components as the file has them; empty where it has none.
+    pub component_names: Vec<String>,
     /// What else was read or assumed, a sentence each.
     pub notes: Vec<String>,
+    /// What looks wrong in the file, a sentence each.
+    pub warnings: Vec<String>,
 }
 
 /// What the user says about components.
@@ -145,6 +195,8 @@ pub struct Reading<'a> {
     pub order: Option<&'a str>,
     /// The frame of the components.
     pub frame: Option<Frame>,
+    /// What shear components are.
+    pub shear: Shear,
 }
 
 /// Tensors on a lattice, with what was read and what was assumed.
@@ -156,11 +208,12 @@ pub struct TensorVolume {
 }
 
 impl Lattice {
-    /// The tensors, with the user's words before the file's, and the file's before what is usual: six components
-    /// are the lower triangle (dipy, NIfTI), other numbers as [`TensorOrder::usual`]; order `mrtrix` means the frame world.
+    /// The tensors, with the user's words before the file's, and the file's before what is usual for the format
+    /// ([`CONVENTIONS`]). An alias of the order may bring the frame of its program, where the file does not state one.
     ///
     /// # Errors
-    /// [`IoError::NoTensor`], [`IoError::Order`], [`IoError::NoMeasurementFrame`].
+    /// [`IoError::NoTensor`], [`IoError::Principal`], [`IoError::Order`], [`IoError::NoMeasurementFrame`], and
+    /// [`IoError::NoSharedShear`] for engineering shears where xy and yx are two numbers.
     pub fn tensors(self, reading: Reading) -> Result<TensorVolume, IoError> {
         let this = self.with_mask_apart();
         this.tensors_of_tuples(reading)
@@ -180,28 +233,105 @@ impl Lattice {
         self
     }
 
-    fn tensors_of_tuples(self, reading: Reading) -> Result<TensorVolume, IoError> {
+    fn tensors_of_tuples(mut self, reading: Reading) -> Result<TensorVolume, IoError> {
         let order = match (reading.order, self.order) {
             (Some(text), _) => (TensorOrder::parse(text, self.components)?, Known::Given),
+            (None, _) if self.holds_principal_values() => {
+                return Err(IoError::Principal { array: self.array, names: self.component_names.join(", ") });
+            }
             (None, Some(order)) => order,
-            (None, None) => (self.assumed_order()?, Known::Assumed),
+            (None, None) => {
+                return Err(IoError::NoTensor { array: self.array, components: self.components });
+            }
         };
-        let by_mrtrix = reading.order.is_some_and(|o| o.trim().eq_ignore_ascii_case("mrtrix"));
-        let frame = match reading.frame {
-            Some(frame) => (frame, Known::Given),
-            None if by_mrtrix && self.frame.1 == Known::Assumed => (Frame::World, Known::Assumed),
-            None => self.frame,
+        let of_program = reading.order.and_then(Alias::named).and_then(|alias| alias.frame);
+        let frame = match (reading.frame, of_program) {
+            (Some(frame), _) => (frame, Known::Given),
+            (None, Some(frame)) if self.frame.1 == Known::Assumed => (frame, Known::Convention),
+            _ => self.frame,
         };
         if frame.0 == Frame::Measurement && self.measurement.is_none() {
             return Err(IoError::NoMeasurementFrame);
         }
+        if reading.shear == Shear::Engineering {
+            self.halve_shears(order.0)?;
+        }
         Ok(TensorVolume { lattice: self, order, frame })
     }
 
-    fn assumed_order(&self) -> Result<TensorOrder, IoError> {
-        let usual =
-            if self.components == 6 { Some(TensorOrder::LOWER) } else { TensorOrder::usual(self.components) };
-        usual.ok_or_else(|| IoError::NoTensor { array: self.array.clone(), components: self.components })
+    /// The same lattice with the numbers of an array that names its components.
+    #[must_use]
+    pub(crate) fn with_array(self, array: crate::DataArray) -> Self {
+        let order = match naming(&array.component_names, array.components) {
+            Naming::Tensor(order) => Some((order, Known::Stated)),
+            _ => None,
+        };
+        Self {
+            components: array.components,
+            values: array.values,
+            scalar: array.scalar,
+            order,
+            array: array.name,
+            component_names: array.component_names,
+            ..self
+        }
+    }
+
+    /// Whether the names say that the numbers have no directions.
+    fn holds_principal_values(&self) -> bool {
+        match naming(&self.component_names, self.components) {
+            Naming::Principal => true,
+            Naming::Unnamed => self.components == 3 && names_principal_values(&self.array),
+            Naming::Tensor(_) | Naming::Other => false,
+        }
+    }
+
+    /// Engineering shears to components of the tensor.
+    fn halve_shears(&mut self, order: TensorOrder) -> Result<(), IoError> {
+        if !order.has_shared_shears() {
+            return Err(IoError::NoSharedShear { order: order.to_string() });
+        }
+        for tuple in self.values.chunks_exact_mut(self.components) {
+            order.shears().for_each(|at| tuple[at] *= 0.5);
+        }
+        self.notes.push("engineering shears halved".to_owned());
+        Ok(())
+    }
+
+    /// Whether FSL's axes have the first voxel axis reversed: the determinant of the affine, in a world that runs to the right,
+    /// anterior and superior, is positive.
+    #[must_use]
+    pub fn reverses_x_for_fsl(&self) -> bool {
+        let [a, b, c] = self.directions_by_axis();
+        let signs = self.world.signs().unwrap_or([1.0; 3]);
+        let determinant = a[0] * (b[1] * c[2] - b[2] * c[1])
+            + a[1] * (b[2] * c[0] - b[0] * c[2])
+            + a[2] * (b[0] * c[1] - b[1] * c[0]);
+        determinant * signs.iter().product::<f64>() > 0.0
+    }
+
+    /// Whether the world is a patient's or scanner's.
+    #[must_use]
+    pub const fn is_of_scanner(&self) -> bool {
+        matches!(self.world, World::Scanner(_))
+    }
+
+    /// Whether a voxel axis does not run along the world's axis of its own number.
+    #[must_use]
+    pub fn has_turned_axes(&self) -> bool {
+        self.directions() != IDENTITY
+    }
+
+    /// Unit vectors along the voxel axes, one after the other.
+    fn directions_by_axis(&self) -> [[f64; 3]; 3] {
+        let d = self.directions();
+        [0, 1, 2].map(|a| [d[a], d[a + 3], d[a + 6]])
+    }
+
+    /// The signs that turn the voxel axes into FSL's.
+    fn fsl_signs(&self) -> [f64; 9] {
+        let x = if self.reverses_x_for_fsl() { -1.0 } else { 1.0 };
+        [x, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
     }
 
     /// Takes a mask of another file: a voxel keeps the smaller of both confidences. Where an axis of one lattice runs
@@ -311,6 +441,7 @@ impl Lattice {
     pub(crate) fn to_voxel(&self, frame: Frame) -> Result<Option<[f64; 9]>, IoError> {
         let measured = match (frame, self.measurement) {
             (Frame::Voxel, _) => return Ok(None),
+            (Frame::Fsl, _) => return Ok(self.reverses_x_for_fsl().then(|| self.fsl_signs())),
             (Frame::Measurement, Some(m)) => m,
             _ => IDENTITY,
         };
@@ -396,6 +527,20 @@ impl TensorVolume {
         self
     }
 
+    /// The order that the file states, where the user says another one.
+    #[must_use]
+    pub fn contradicted_order(&self) -> Option<TensorOrder> {
+        let stated = self.lattice.order.filter(|(_, known)| *known == Known::Stated)?.0;
+        (self.order.1 == Known::Given && stated != self.order.0).then_some(stated)
+    }
+
+    /// Whether a name suggests strains, whose shears may be engineering ones, while a shear is one number.
+    #[must_use]
+    pub fn suggests_strain(&self) -> bool {
+        let names = self.lattice.component_names.iter().chain([&self.lattice.array]);
+        self.order.0.has_shared_shears() && names.into_iter().any(|n| names::names_strain(n))
+    }
+
     /// Voxels whose mask is zero.
     #[must_use]
     pub fn masked_out(&self) -> usize {
@@ -409,7 +554,7 @@ impl TensorVolume {
         let (order, frame) = (self.order, self.frame);
         let words = [
             format!("component order {} ({})", order.0, order.1.words()),
-            format!("components along the {} axes ({})", frame.0.name(), frame.1.words()),
+            format!("components along {} ({})", frame.0.words(), frame.1.words()),
         ];
         story.splice(1..1, words);
         story
@@ -420,6 +565,7 @@ impl TensorVolume {
         let turn = match (self.frame.0, self.lattice.measurement) {
             (Frame::World, _) => return Ok(None),
             (Frame::Measurement, Some(m)) => m,
+            (Frame::Fsl, _) => product(&self.lattice.orthogonal_directions()?, &self.lattice.fsl_signs()),
             _ => self.lattice.orthogonal_directions()?,
         };
         Ok((turn != IDENTITY).then_some(turn))

@@ -1,5 +1,6 @@
 //! Which number of a tuple is which entry of a 3x3 tensor.
 
+use super::Alias;
 use crate::IoError;
 use std::fmt;
 
@@ -15,24 +16,38 @@ pub struct TensorOrder {
 
 impl TensorOrder {
     /// Nine components, row by row.
-    pub const ROWS3: Self = Self::of([0, 1, 2, 3, 4, 5, 6, 7, 8], 9);
+    pub const ROWS3: Self = Self::symmetric([0, 1, 2, 3, 4, 5, 6, 7, 8], 9);
     /// Six components as VTK has them: XX YY ZZ XY YZ XZ.
-    pub const VTK: Self = Self::of([0, 3, 5, 3, 1, 4, 5, 4, 2], 6);
-    /// Six components, the upper triangle by rows, of NRRD and FSL: XX XY XZ YY YZ ZZ.
-    pub const UPPER: Self = Self::of([0, 1, 2, 1, 3, 4, 2, 4, 5], 6);
+    pub const VTK: Self = Self::symmetric([0, 3, 5, 3, 1, 4, 5, 4, 2], 6);
+    /// Six components, the upper triangle by rows, of NRRD, ITK and FSL: XX XY XZ YY YZ ZZ.
+    pub const UPPER: Self = Self::symmetric([0, 1, 2, 1, 3, 4, 2, 4, 5], 6);
     /// Six components, the lower triangle by rows, of NIfTI's SYMMATRIX and dipy: XX XY YY XZ YZ ZZ.
-    pub const LOWER: Self = Self::of([0, 1, 3, 1, 2, 4, 3, 4, 5], 6);
+    pub const LOWER: Self = Self::symmetric([0, 1, 3, 1, 2, 4, 3, 4, 5], 6);
     /// Six components as MRtrix3 has them: XX YY ZZ XY XZ YZ.
-    pub const MRTRIX: Self = Self::of([0, 3, 4, 3, 1, 5, 4, 5, 2], 6);
+    pub const MRTRIX: Self = Self::symmetric([0, 3, 4, 3, 1, 5, 4, 5, 2], 6);
+    /// Six components in Voigt's order: XX YY ZZ YZ XZ XY.
+    pub const VOIGT: Self = Self::symmetric([0, 5, 4, 5, 1, 3, 4, 3, 2], 6);
     /// Four components of a plane tensor, row by row.
     pub const ROWS2: Self = Self::plane([0, 1, 2, 3], 4);
     /// Three components of a symmetric plane tensor: XX XY YY.
     pub const UPPER2: Self = Self::plane([0, 1, 1, 2], 3);
+    /// Three components of a symmetric plane tensor in Voigt's order: XX YY XY.
+    pub const VOIGT2: Self = Self::plane([0, 2, 2, 1], 3);
+    /// Four components of plane strain and axial symmetry: XX YY ZZ XY.
+    pub const PLANE_STRAIN: Self = Self {
+        entries: [Some(0), Some(3), None, Some(3), Some(1), None, None, None, Some(2)],
+        components: 4,
+    };
     /// The orders of six components in use, with the tools that write them.
-    pub const SIX: [(&'static str, Self); 4] =
-        [("vtk", Self::VTK), ("nrrd, fsl", Self::UPPER), ("dipy", Self::LOWER), ("mrtrix", Self::MRTRIX)];
+    pub const SIX: [(&'static str, Self); 5] = [
+        ("vtk", Self::VTK),
+        ("nrrd, itk, fsl", Self::UPPER),
+        ("dipy", Self::LOWER),
+        ("mrtrix", Self::MRTRIX),
+        ("voigt", Self::VOIGT),
+    ];
 
-    const fn of(indices: [usize; 9], components: usize) -> Self {
+    const fn symmetric(indices: [usize; 9], components: usize) -> Self {
         let (mut entries, mut i) = ([None; 9], 0);
         while i < 9 {
             entries[i] = Some(indices[i]);
@@ -46,68 +61,55 @@ impl TensorOrder {
         Self { entries, components }
     }
 
-    /// The order a number of components has where nobody says otherwise and it is not six.
-    #[must_use]
-    pub const fn usual(components: usize) -> Option<Self> {
-        match components {
-            9 => Some(Self::ROWS3),
-            4 => Some(Self::ROWS2),
-            3 => Some(Self::UPPER2),
-            _ => None,
-        }
-    }
-
-    /// An alias (`vtk`, `nrrd`, `dipy`, `fsl`, `mrtrix`) or the components themselves, `xx,xy,xz,yy,yz,zz`.
+    /// An alias of [`ALIASES`](super::ALIASES) or the components themselves, `xx,xy,xz,yy,yz,zz`, in any spelling that files use
+    /// (`11,12,13,22,23,33`).
     ///
     /// # Errors
-    /// [`IoError::Order`] for anything else, or for another number of components.
+    /// [`IoError::Order`] for anything else, and for an alias or names that do not fit the number of components.
     pub fn parse(text: &str, components: usize) -> Result<Self, IoError> {
         let fault = |expected: &'static str| IoError::Order { order: shorten(text), components, expected };
-        let lower = text.trim().to_ascii_lowercase();
-        let six = match lower.as_str() {
-            "vtk" => Self::VTK,
-            "nrrd" | "fsl" => Self::UPPER,
-            "dipy" => Self::LOWER,
-            "mrtrix" => Self::MRTRIX,
-            _ => return Self::listed(&lower, components).map_err(fault),
-        };
-        let order = if components == 6 { Some(six) } else { Self::usual(components) };
-        order.ok_or_else(|| fault("6 components (or 9, 4, 3) for a tool's name"))
+        if let Some(alias) = Alias::named(text) {
+            return alias.order(components).ok_or_else(|| fault(alternatives(components)));
+        }
+        Self::listed(text, components).map_err(fault)
     }
 
     fn listed(text: &str, components: usize) -> Result<Self, &'static str> {
-        const WORDS: &str = "vtk, nrrd, dipy, fsl, mrtrix or component names such as xx,xy,xz,yy,yz,zz";
+        // A component more than there can be is enough to refuse it.
         let words: Vec<&str> = text.split(',').map(str::trim).take(10).collect();
-        if !words.iter().all(|w| ENTRIES.contains(w)) {
-            return Err(WORDS);
-        }
-        Self::by_names(&words, components)
-    }
-
-    /// The order by the names of all components; a symmetric tensor names only one of xy and yx.
-    pub(super) fn by_names(names: &[&str], components: usize) -> Result<Self, &'static str> {
-        if names.len() != components {
+        let entries = super::names::entries(&words).ok_or(
+            "vtk, nrrd, dipy, fsl, mrtrix, itk, voigt, abaqus or component names such as xx,xy,xz,yy,yz,zz",
+        )?;
+        if entries.len() != components {
             return Err("a name for every component");
         }
-        let mut entries = [None; 9];
-        for (at, name) in names.iter().enumerate() {
-            let entry = ENTRIES.iter().position(|e| e == name).ok_or("names from xx to zz")?;
-            if entries[entry].replace(at).is_some() {
+        Self::by_entries(&entries)
+    }
+
+    /// The order by the entry (row by row) of every component; a symmetric tensor has only one of xy and yx. Entries that no component
+    /// gives are zero: those outside of the plane, or the shears across it in plane strain.
+    pub(crate) fn by_entries(list: &[usize]) -> Result<Self, &'static str> {
+        let mut given = [None; 9];
+        for (at, &entry) in list.iter().enumerate() {
+            if given[entry].replace(at).is_some() {
                 return Err("every component once");
             }
         }
-        let given = entries;
+        let mut entries = given;
         for i in 0..3 {
             for j in 0..3 {
                 entries[3 * i + j] = given[3 * i + j].or(given[3 * j + i]);
             }
         }
-        let plane = entries[0].is_some() && entries[1].is_some() && entries[4].is_some();
-        let out: usize = [2, 5, 6, 7, 8].iter().filter(|&&e| entries[e].is_some()).count();
-        if !plane || (out != 0 && out != 5) {
-            return Err("xx, xy and yy, and either all or none of xz, yz and zz");
+        let has = |i: usize, j: usize| entries[3 * i + j].is_some();
+        let plane = |i: usize, j: usize| has(i, i) && has(j, j) && has(i, j);
+        let floating = (0..3).any(|i| (0..3).any(|j| has(i, j) && !(has(i, i) && has(j, j))));
+        if floating || !(plane(0, 1) || plane(0, 2) || plane(1, 2)) {
+            return Err(
+                "the normal components and the shear of a plane (xx, xy and yy), and others only with their normal components",
+            );
         }
-        Ok(Self { entries, components })
+        Ok(Self { entries, components: list.len() })
     }
 
     /// Numbers per tuple.
@@ -116,16 +118,34 @@ impl TensorOrder {
         self.components
     }
 
-    /// Whether the tensors are those of a plane: the z row and column are zero.
+    /// Whether a component stands for two entries, so that an engineering shear is one number: the entries xy and yx, and so on.
     #[must_use]
-    pub const fn is_plane(&self) -> bool {
-        self.entries[8].is_none()
+    pub fn has_shared_shears(&self) -> bool {
+        [(1, 3), (2, 6), (5, 7)]
+            .into_iter()
+            .any(|(a, b)| self.entries[a].is_some() && self.entries[a] == self.entries[b])
+    }
+
+    /// The components that are shears, each once.
+    pub(crate) fn shears(self) -> impl Iterator<Item = usize> {
+        (0..self.components).filter(move |&c| [1, 2, 3, 5, 6, 7].iter().any(|&e| self.entries[e] == Some(c)))
     }
 
     /// The 3x3 tensor of a tuple, row by row; a missing component is not a number.
     #[must_use]
     pub fn tensor(&self, tuple: &[f64]) -> [f64; 9] {
         self.entries.map(|e| e.map_or(0.0, |i| tuple.get(i).copied().unwrap_or(f64::NAN)))
+    }
+}
+
+/// What `--order` may be for a number of components.
+const fn alternatives(components: usize) -> &'static str {
+    match components {
+        9 => "an order of nine components: vtk, nrrd, dipy, or names such as xx,xy,xz,yx,yy,yz,zx,zy,zz",
+        6 => "an order of six components: vtk, nrrd, dipy, fsl, mrtrix, itk, voigt, abaqus, or names",
+        4 => "an order of four components: nrrd (xx,xy,yx,yy), or names such as xx,yy,zz,xy",
+        3 => "an order of three components: nrrd (xx,xy,yy), voigt (xx,yy,xy), or names",
+        _ => "names of all components",
     }
 }
 
@@ -158,6 +178,9 @@ mod tests {
             (TensorOrder::ROWS3, "xx,xy,xz,yx,yy,yz,zx,zy,zz"),
             (TensorOrder::ROWS2, "xx,xy,yx,yy"),
             (TensorOrder::UPPER2, "xx,xy,yy"),
+            (TensorOrder::VOIGT, "xx,yy,zz,yz,xz,xy"),
+            (TensorOrder::VOIGT2, "xx,yy,xy"),
+            (TensorOrder::PLANE_STRAIN, "xx,yy,zz,xy"),
         ] {
             assert_eq!(order.to_string(), text);
             assert_eq!(TensorOrder::parse(text, order.components()), Ok(order));
@@ -165,6 +188,13 @@ mod tests {
         assert_eq!(TensorOrder::parse("xx,yx,yy,zx,zy,zz", 6), Ok(TensorOrder::LOWER));
         assert_eq!(TensorOrder::parse("FSL", 6), Ok(TensorOrder::UPPER));
         assert_eq!(TensorOrder::parse("dipy", 9), Ok(TensorOrder::ROWS3));
+        assert_eq!(TensorOrder::parse("11,22,12", 3), Ok(TensorOrder::VOIGT2));
+        assert_eq!(TensorOrder::parse("voigt", 3), Ok(TensorOrder::VOIGT2));
+        // A model in the plane xz, and a tensor without the shears across its plane.
+        let upright = TensorOrder::parse("xx,zz,xz", 3).map(|o| o.tensor(&[1.0, 2.0, 3.0]));
+        assert_eq!(upright, Ok([1.0, 0.0, 3.0, 0.0, 0.0, 0.0, 3.0, 0.0, 2.0]));
+        let strain = TensorOrder::PLANE_STRAIN.tensor(&[5.0, -1.0, 7.0, 2.0]);
+        assert_eq!(strain, [5.0, 2.0, 0.0, 2.0, -1.0, 0.0, 0.0, 0.0, 7.0]);
     }
 
     #[test]
@@ -175,6 +205,12 @@ mod tests {
             ("xx,xy,xz,yy,yz,zz", 9),
             ("xx,xx,yy", 3),
             ("xx,xy,xz,yy", 4),
+            ("vtk", 3),
+            ("vtk", 4),
+            ("dipy", 3),
+            ("fsl", 9),
+            ("mrtrix", 3),
+            ("itk", 4),
             ("xx,yy,zz", 3),
             ("vtk", 7),
         ] {

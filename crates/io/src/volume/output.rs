@@ -1,6 +1,6 @@
 //! What writers of volumes share.
 
-use super::{Frame, IDENTITY, Known, Lattice, TensorOrder, TensorVolume, World, turned};
+use super::{Frame, IDENTITY, Known, Lattice, TensorOrder, TensorVolume, World, product, turned};
 use crate::{IoError, ScalarType};
 use tigereye_core::{Field, Tensor2};
 
@@ -27,7 +27,9 @@ impl Lattice {
             order: Some((order, Known::Convention)),
             frame: (Frame::World, Known::Convention),
             array: "2x2 blocks".to_owned(),
+            component_names: Vec::new(),
             notes: vec!["first row on top, in the frame x right, y up".to_owned()],
+            warnings: Vec::new(),
         }
     }
 }
@@ -48,13 +50,20 @@ impl TensorVolume {
         Self { lattice, order: (order, Known::Stated), frame }
     }
 
-    /// All tensors along the axes of `frame` (world or voxel), row by row; those of voxels with mask 0 are zero.
+    /// All tensors along the axes of `frame` (world, voxel or FSL's), row by row; those of voxels with mask 0 are zero.
     ///
     /// # Errors
     /// [`IoError::SkewedAxes`] where components must be turned and cannot be.
     pub(crate) fn along(&self, frame: Frame) -> Result<Vec<[f64; 9]>, IoError> {
-        let turn =
-            if frame == Frame::Voxel { self.lattice.to_voxel(self.frame.0)? } else { self.to_world()? };
+        let turn = match frame {
+            Frame::Voxel => self.lattice.to_voxel(self.frame.0)?,
+            Frame::Fsl => {
+                let signs = self.lattice.fsl_signs();
+                let to_voxel = self.lattice.to_voxel(self.frame.0)?;
+                Some(to_voxel.map_or(signs, |k| product(&signs, &k))).filter(|k| *k != IDENTITY)
+            }
+            Frame::World | Frame::Measurement => self.to_world()?,
+        };
         let tensor = |(voxel, t): (usize, [f64; 9])| {
             if self.is_masked(voxel) { [0.0; 9] } else { turn.as_ref().map_or(t, |k| turned(k, &t)) }
         };
@@ -79,6 +88,18 @@ impl TensorVolume {
     pub(crate) fn turned_directions(&self) -> Option<[f64; 9]> {
         let directions = self.lattice.directions();
         (directions != IDENTITY).then_some(directions)
+    }
+}
+
+/// The type to write numbers of a file in: its own precision, as programs expect it (teem's `tend` takes no double).
+pub(crate) const fn written_scalar(read: ScalarType) -> ScalarType {
+    match read {
+        ScalarType::Float32
+        | ScalarType::Int8
+        | ScalarType::UInt8
+        | ScalarType::Int16
+        | ScalarType::UInt16 => ScalarType::Float32,
+        _ => ScalarType::Float64,
     }
 }
 

@@ -94,11 +94,12 @@ fn read_piece(piece: &Element, arrays: &mut ArrayReader, data: &mut ImageData) -
         match child.name.as_str() {
             "PointData" => {
                 let points = tuples(data.dimensions);
-                (data.point_active, data.point_arrays) = read_arrays(child, arrays, points)?;
+                (data.point_active, data.point_arrays) =
+                    read_arrays(child, arrays, points, &mut data.skipped)?;
             }
             "CellData" => {
                 let cells = tuples(data.cell_dimensions());
-                (data.cell_active, data.cell_arrays) = read_arrays(child, arrays, cells)?;
+                (data.cell_active, data.cell_arrays) = read_arrays(child, arrays, cells, &mut data.skipped)?;
             }
             _ => return Err(child.unexpected("<PointData> or <CellData>")),
         }

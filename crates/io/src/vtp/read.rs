@@ -76,11 +76,12 @@ fn read_piece(
     for child in &piece.children {
         match child.name.as_str() {
             "PointData" => {
-                (data.point_active, data.point_arrays) = read_arrays(child, arrays, counts.points)?;
+                (data.point_active, data.point_arrays) =
+                    read_arrays(child, arrays, counts.points, &mut data.skipped)?;
             }
             "CellData" => {
                 let cells = counts.verts + counts.lines + counts.strips + counts.polys;
-                (data.cell_active, data.cell_arrays) = read_arrays(child, arrays, cells)?;
+                (data.cell_active, data.cell_arrays) = read_arrays(child, arrays, cells, &mut data.skipped)?;
             }
             "Points" => data.points = points(child, arrays, counts.points)?,
             "Verts" => data.verts = cells(child, arrays, counts.verts, counts.points)?,

@@ -13,8 +13,14 @@ const SCALARS: &str = "Int8 to UInt64, Float32 or Float64";
 
 /// What an array element holds.
 pub(crate) enum Content {
-    Numbers { components: usize, values: Vec<f64>, scalar: ScalarType },
+    Numbers {
+        components: usize,
+        values: Vec<f64>,
+        scalar: ScalarType,
+    },
     Text(Vec<String>),
+    /// An array of this type, which holds no numbers; not decoded.
+    Skipped(String),
 }
 
 /// Name and place of an array, for messages.
@@ -83,10 +89,10 @@ impl<'d> ArrayReader<'d> {
             return Err(element.wrong("NumberOfComponents", "an integer from 1 to 65536"));
         }
         let given = integer(element, "NumberOfTuples", u64::MAX)?;
+        if matches!(kind, "Bit" | "Variant" | "UnicodeString") || (kind == "String" && tuples.is_some()) {
+            return Ok(Content::Skipped(shortened(kind.as_bytes())));
+        }
         if kind == "String" {
-            if tuples.is_some() {
-                return Err(place.unsupported("type", kind, SCALARS));
-            }
             return self.strings(element, &place, given.map(|n| u128::from(n) * u128::from(components)));
         }
         let scalar = ScalarType::from_name(kind).ok_or_else(|| place.unsupported("type", kind, SCALARS))?;

@@ -9,6 +9,6 @@ mod tree;
 mod writer;
 
 pub(crate) use arrays::{ArrayReader, Content};
-pub(crate) use sections::{data_set, only_piece, read_arrays, read_field_data};
+pub(crate) use sections::{data_set, only_piece, read_arrays, read_field_data, skipped_words};
 pub(crate) use tree::{Document, Element};
 pub(crate) use writer::{Kind, Writer, spaced};

@@ -38,11 +38,12 @@ pub(crate) fn only_piece(set: &Element) -> Result<&Element, IoError> {
     }
 }
 
-/// The arrays of `<PointData>` or `<CellData>`, and which are active.
+/// The arrays of `<PointData>` or `<CellData>`, and which are active. Arrays without numbers are passed over and named in `skipped`.
 pub(crate) fn read_arrays(
     element: &Element,
     arrays: &mut ArrayReader,
     tuples: u64,
+    skipped: &mut Vec<String>,
 ) -> Result<(ActiveArrays, Vec<DataArray>), IoError> {
     let active = |kind: &str| element.attribute(kind).filter(|n| !n.is_empty()).map(str::to_owned);
     let active =
@@ -52,14 +53,23 @@ pub(crate) fn read_arrays(
         if child.name != "DataArray" && child.name != "Array" {
             return Err(child.unexpected("<DataArray>"));
         }
-        // With `tuples` given, strings are refused by name.
-        if let Content::Numbers { components, values, scalar } = arrays.read(child, Some(tuples))? {
-            let name = child.attribute("Name").unwrap_or_default().to_owned();
-            let component_names = component_names(child, components);
-            list.push(DataArray { name, components, component_names, values, scalar });
+        let name = child.attribute("Name").unwrap_or_default().to_owned();
+        match arrays.read(child, Some(tuples))? {
+            Content::Numbers { components, values, scalar } => {
+                let component_names = component_names(child, components);
+                list.push(DataArray { name, components, component_names, values, scalar });
+            }
+            Content::Skipped(kind) => skipped.push(skipped_words(&name, &kind)),
+            // Strings of points and cells are skipped before they are decoded.
+            Content::Text(_) => {}
         }
     }
     Ok((active, list))
+}
+
+/// An array that was passed over, for messages.
+pub(crate) fn skipped_words(name: &str, kind: &str) -> String {
+    format!("`{}` ({kind}, no numbers)", crate::error::shortened(name.as_bytes()))
 }
 
 fn component_names(element: &Element, components: usize) -> Vec<String> {
@@ -89,6 +99,7 @@ pub(crate) fn read_field_data(
             Content::Numbers { components, values, scalar } => {
                 FieldValues::Numbers { components, values, scalar }
             }
+            Content::Skipped(_) => continue,
         };
         list.push(FieldEntry { name: child.attribute("Name").unwrap_or_default().to_owned(), values });
     }

@@ -1,0 +1,291 @@
+//! What the names of components say: which entry of a tensor each one is.
+//!
+//! Programs spell them `XX`, `xx`, `11`, `00`, `S11`, `SXX`, `sigma_xx`, `stress_XX`, `S-XY`, `(1,2)`. The two index characters are
+//! read, and what stands before or after them is not: the quantity's own name differs between normal and shear components
+//! (`sigma_xx`, `tau_xy`).
+
+use super::TensorOrder;
+
+/// What the names of an array's components mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Naming {
+    /// There are none, or none that say anything.
+    Unnamed,
+    /// Entries of a tensor.
+    Tensor(TensorOrder),
+    /// Principal values or others without directions: `Min`, `Mid`, `Max`, `Sigma 1`.
+    Principal,
+    /// Names that are none of these, such as `X`, `Y`, `Z` of a vector.
+    Other,
+}
+
+/// An index pair as it is spelt.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Pair([char; 2]);
+
+impl Pair {
+    fn of(a: char, b: char) -> Option<Self> {
+        let letter = |c| matches!(c, 'x' | 'y' | 'z');
+        let digit = |c| matches!(c, '0'..='3');
+        (letter(a) && letter(b) || digit(a) && digit(b)).then_some(Self([a, b]))
+    }
+
+    /// Row-major index of the entry; digits count from `first`.
+    fn entry(self, first: u32) -> Option<usize> {
+        let index = |c: char| match c {
+            'x' => Some(0),
+            'y' => Some(1),
+            'z' => Some(2),
+            _ => c.to_digit(10)?.checked_sub(first).filter(|&i| i < 3),
+        };
+        Some(3 * index(self.0[0])? as usize + index(self.0[1])? as usize)
+    }
+}
+
+/// Lower-case runs of letters and digits.
+fn words_of(name: &str) -> Vec<String> {
+    let name = name.to_lowercase();
+    name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_owned).collect()
+}
+
+/// The index pair at the end of a name, or alone at its beginning, and what stands before it (or after it).
+fn pair_of(name: &str) -> Option<(Pair, String)> {
+    let words = words_of(name);
+    let rest = |kept: &[String]| kept.join("_");
+    let (last, before) = words.split_last()?;
+    let letters: Vec<char> = last.chars().collect();
+    if let [single] = letters[..]
+        && let Some((other, stem)) = before.split_last()
+        && let Some(pair) = other.chars().next().filter(|_| other.chars().count() == 1)
+        && let Some(pair) = Pair::of(pair, single)
+    {
+        return Some((pair, rest(stem)));
+    }
+    if let [stem @ .., a, b] = &letters[..]
+        && let Some(pair) = Pair::of(*a, *b)
+        // `xxx` and `s111` are no pairs.
+        && stem.last().is_none_or(|c| Pair::of(*c, *b).is_none())
+    {
+        let stem: String = stem.iter().collect();
+        let all: Vec<String> = before.iter().cloned().chain((!stem.is_empty()).then_some(stem)).collect();
+        return Some((pair, rest(&all)));
+    }
+    // `XX stress`.
+    let (first, behind) = words.split_first()?;
+    let [a, b] = first.chars().collect::<Vec<_>>()[..] else { return None };
+    Some((Pair::of(a, b)?, rest(behind)))
+}
+
+/// Names as entries of a tensor, row by row; `None` where one of them is no index pair, or where the digits count from nowhere.
+fn entries_of(pairs: &[Pair]) -> Option<Vec<usize>> {
+    let has = |digit: char| pairs.iter().any(|p| p.0.contains(&digit));
+    let first = match (has('0'), has('3')) {
+        (true, true) => return None,
+        (true, false) => 0,
+        _ => 1,
+    };
+    pairs.iter().map(|p| p.entry(first)).collect()
+}
+
+/// Words for values that have no direction.
+const MAGNITUDES: [&str; 10] =
+    ["min", "mid", "max", "minimum", "middle", "maximum", "intermediate", "worst", "principal", "eigenvalue"];
+/// What principal values are called where a number says which.
+const NUMBERED: [&str; 9] = ["sigma", "s", "p", "e", "eps", "lambda", "l", "ev", "principal"];
+
+/// Whether a name is that of a principal value: `Min`, `Sigma 1`, `lambda_2`, `S3`.
+fn is_principal(name: &str) -> bool {
+    let words = words_of(name);
+    let joined = words.concat();
+    let numbered = joined.strip_suffix(['1', '2', '3']).is_some_and(|stem| NUMBERED.contains(&stem));
+    numbered || joined == "sigma" || words.iter().any(|w| MAGNITUDES.contains(&w.trim_end_matches('s')))
+}
+
+/// What the names of the components of one array say.
+pub(crate) fn naming(names: &[String], components: usize) -> Naming {
+    if names.len() != components || names.iter().all(|n| n.trim().is_empty()) {
+        return Naming::Unnamed;
+    }
+    if let Some(order) = order_of(names) {
+        return Naming::Tensor(order);
+    }
+    if names.iter().all(|n| is_principal(n)) { Naming::Principal } else { Naming::Other }
+}
+
+/// The order that names of all components spell.
+pub(crate) fn order_of<S: AsRef<str>>(names: &[S]) -> Option<TensorOrder> {
+    let pairs: Option<Vec<Pair>> = names.iter().map(|n| Some(pair_of(n.as_ref())?.0)).collect();
+    TensorOrder::by_entries(&entries_of(&pairs?)?).ok()
+}
+
+/// The entries that names spell, row by row.
+pub(crate) fn entries<S: AsRef<str>>(names: &[S]) -> Option<Vec<usize>> {
+    let pairs: Option<Vec<Pair>> = names.iter().map(|n| Some(pair_of(n.as_ref())?.0)).collect();
+    entries_of(&pairs?)
+}
+
+/// Whether an array called so holds principal values: `S_Principal`, `eigenvalues`.
+pub(crate) fn names_principal_values(array: &str) -> bool {
+    words_of(array).iter().any(|w| matches!(w.as_str(), "principal" | "eigenvalues" | "eigenvalue" | "evals"))
+}
+
+/// Whether a name is that of a strain, whose shears may be engineering ones: `strain`, `TOSTRAIN`, `eps_xy`, `gamma_xy`, `E11`, `LE12`.
+pub(crate) fn names_strain(name: &str) -> bool {
+    let words = words_of(name);
+    let short = pair_of(name).map(|(_, stem)| stem).unwrap_or_default();
+    let is = |w: &str| {
+        let word = w.trim_end_matches('s');
+        word.starts_with("strain")
+            || word.ends_with("strain")
+            || matches!(w, "eps" | "epsilon" | "gamma" | "ε" | "γ")
+    };
+    words.iter().any(|w| is(w)) || is(&short) || matches!(short.as_str(), "e" | "le" | "ee" | "pe")
+}
+
+/// A group of arrays of single numbers that are the components of one tensor.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Group {
+    /// Indices of the arrays among those asked about.
+    pub(crate) members: Vec<usize>,
+    /// The entries they are.
+    pub(crate) order: TensorOrder,
+}
+
+/// Stems that mean one tensor where normal and shear components are called differently.
+const SAME_QUANTITY: [[&str; 2]; 4] = [["sigma", "tau"], ["σ", "τ"], ["eps", "gamma"], ["ε", "γ"]];
+
+/// Arrays called `S_XX`, `S_YY`, `S_XY` are one tensor: the groups of names that share what stands before their index pairs.
+pub(crate) fn groups(names: &[&str]) -> Vec<Group> {
+    let mut stems: Vec<(String, Vec<usize>, Vec<Pair>)> = Vec::new();
+    for (at, name) in names.iter().enumerate() {
+        let Some((pair, stem)) = pair_of(name) else { continue };
+        let same = SAME_QUANTITY.iter().find(|[_, shear]| *shear == stem);
+        let stem = same.map_or(stem, |[normal, _]| (*normal).to_owned());
+        match stems.iter_mut().find(|(s, _, _)| *s == stem) {
+            Some((_, members, pairs)) => {
+                members.push(at);
+                pairs.push(pair);
+            }
+            None => stems.push((stem, vec![at], vec![pair])),
+        }
+    }
+    let group = |(_, members, pairs): (String, Vec<usize>, Vec<Pair>)| {
+        let order = TensorOrder::by_entries(&entries_of(&pairs)?).ok()?;
+        Some(Group { members, order })
+    };
+    stems.into_iter().filter_map(group).collect()
+}
+
+/// Arrays of vectors called `T_x`, `T_y`, `T_z` (or `row1`, `row2`) are the rows of one tensor, arrays of numbers called so the components
+/// of one vector: the indices of the arrays of every complete group, in the order of the rows.
+pub(crate) fn row_groups(names: &[&str], rows: usize) -> Vec<Vec<usize>> {
+    let mut stems: Vec<(String, Vec<(char, usize)>)> = Vec::new();
+    for (at, name) in names.iter().enumerate() {
+        let words = match *name {
+            // Velocities are called so.
+            "u" | "U" => "velocity_x".to_owned(),
+            "v" | "V" => "velocity_y".to_owned(),
+            "w" | "W" => "velocity_z".to_owned(),
+            _ => words_of(name).join("_"),
+        };
+        let Some(last) = words.chars().last().filter(|c| matches!(c, 'x' | 'y' | 'z' | '0'..='3')) else {
+            continue;
+        };
+        let stem = words[..words.len() - last.len_utf8()].trim_end_matches('_').to_owned();
+        // `x` and `y` alone are positions.
+        if stem.is_empty() {
+            continue;
+        }
+        match stems.iter_mut().find(|(s, _)| *s == stem) {
+            Some((_, members)) => members.push((last, at)),
+            None => stems.push((stem, vec![(last, at)])),
+        }
+    }
+    let sequences: [&[char]; 3] = [&['x', 'y', 'z'], &['1', '2', '3'], &['0', '1', '2']];
+    let complete = |(_, mut members): (String, Vec<(char, usize)>)| {
+        members.sort_unstable();
+        let letters: Vec<char> = members.iter().map(|m| m.0).collect();
+        let fits = sequences.iter().any(|s| s[..rows.min(3)] == letters[..]);
+        fits.then(|| members.into_iter().map(|m| m.1).collect())
+    };
+    stems.into_iter().filter_map(complete).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn named(names: &str) -> Naming {
+        let names: Vec<String> = names.split(' ').map(str::to_owned).collect();
+        naming(&names, names.len())
+    }
+
+    #[test]
+    fn every_spelling_of_an_index_pair_is_read() {
+        let voigt = TensorOrder::parse("xx,yy,zz,yz,xz,xy", 6).map(Naming::Tensor);
+        for names in [
+            "XX YY ZZ YZ XZ XY",
+            "xx yy zz yz xz xy",
+            "11 22 33 23 13 12",
+            "00 11 22 12 02 01",
+            "S11 S22 S33 S23 S13 S12",
+            "SXX SYY SZZ SYZ SXZ SXY",
+            "sigma_xx sigma_yy sigma_zz tau_yz tau_xz tau_xy",
+            "stress_XX stress_YY stress_ZZ stress_YZ stress_XZ stress_XY",
+            "S-11 S-22 S-33 S-32 S-31 S-21",
+            "(1,1) (2,2) (3,3) (2,3) (1,3) (1,2)",
+            "s.x.x s.y.y s.z.z s.y.z s.x.z s.x.y",
+            "σxx σyy σzz τyz τxz τxy",
+            "XX-stress YY-stress ZZ-stress YZ-stress XZ-stress XY-stress",
+        ] {
+            assert_eq!(Ok(named(names)), voigt, "{names}");
+        }
+        let plane = TensorOrder::parse("xx,yy,xy", 3).map(Naming::Tensor);
+        for names in ["11 22 12", "00 11 01", "max_xx max_yy max_xy"] {
+            assert_eq!(Ok(named(names)), plane, "{names}");
+        }
+    }
+
+    #[test]
+    fn names_without_directions_are_no_tensor() {
+        for names in [
+            "Min Mid Max Worst",
+            "Sigma-1 Sigma-2 Sigma-3",
+            "S1 S2 S3",
+            "lambda_1 lambda_2 lambda_3",
+            "Max Min",
+        ] {
+            assert_eq!(named(names), Naming::Principal, "{names}");
+        }
+        for names in
+            ["X Y Z", "u v w", "a b c", "XX XX YY", "XX YY ZZ", "00 33 03", "xxx xxy xyy", "S111 S222 S121"]
+        {
+            assert_eq!(named(names), Naming::Other, "{names}");
+        }
+        assert_eq!(naming(&[], 3), Naming::Unnamed);
+        assert_eq!(naming(&vec![String::new(); 3], 3), Naming::Unnamed);
+    }
+
+    #[test]
+    fn separate_arrays_are_grouped_by_what_their_names_share() {
+        let found = groups(&["S_XX", "pressure", "S_YY", "E_XX", "S_XY", "E_YY"]);
+        assert_eq!(found.len(), 1, "E has no shear: {found:?}");
+        assert_eq!(found[0].members, [0, 2, 4]);
+        let shear = groups(&["sigma_xx", "sigma_yy", "tau_xy"]);
+        assert_eq!(shear.len(), 1);
+        let rows = row_groups(&["T_y", "grad", "T_x", "T_z"], 3);
+        assert_eq!(rows, [[2, 0, 3]]);
+        assert!(row_groups(&["u_x", "u_y"], 3).is_empty());
+        assert_eq!(row_groups(&["x", "y", "u", "v"], 2), [[2, 3]]);
+    }
+
+    #[test]
+    fn strains_are_known_by_name() {
+        for name in ["strain", "TOSTRAIN", "eps_xy", "gamma_xy", "E11", "LE12", "plastic_strain_xx"] {
+            assert!(names_strain(name), "{name}");
+        }
+        for name in ["stress", "S11", "sigma_xx", "energy", "constrained"] {
+            assert!(!names_strain(name), "{name}");
+        }
+    }
+}

@@ -98,6 +98,7 @@ pub enum Scope {
 /// Where a tensor field comes from.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
+#[expect(clippy::large_enum_variant, reason = "an experiment has a handful")]
 pub enum FieldSource {
     /// A generator with its parameters, as `tigereye field list` shows them.
     Generator {

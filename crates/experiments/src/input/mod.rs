@@ -45,13 +45,15 @@ pub enum InputError {
         detached: Option<String>,
     },
     /// Numbers or vectors where tensors are needed.
-    #[error("holds {components} a voxel: expected tensors, or --derive gradient, hessian or structure")]
+    #[error(
+        "holds {components} a voxel: expected tensors, or --derive gradient, strain-rate, hessian, structure or orientation"
+    )]
     NoTensors {
         /// Words for what is there.
         components: &'static str,
     },
     /// A picture, which holds brightness.
-    #[error("is a picture: expected --derive structure or hessian")]
+    #[error("is a picture: expected --derive structure, orientation or hessian")]
     Picture,
     /// Tuples that cannot be differentiated as asked.
     #[error("holds {components} numbers a voxel: expected {expected} for --derive {name}")]
@@ -83,7 +85,7 @@ pub enum InputError {
     },
     /// A tensor with a component that is infinite or not a number.
     #[error(
-        "the tensor of cell ({x}, {y}) is not finite ({count} such tensors): expected numbers, or --not-finite zero"
+        "the tensor of cell ({x}, {y}) is not finite ({count} such tensors): expected numbers, a --mask that leaves them out, or --not-finite zero"
     )]
     NotFinite {
         /// Column of the first one.
@@ -95,7 +97,7 @@ pub enum InputError {
     },
     /// The same in a volume that is taken whole.
     #[error(
-        "the tensor of voxel ({}, {}, {}) is not finite ({count} such tensors): expected numbers, or --not-finite zero", voxel[0], voxel[1], voxel[2]
+        "the tensor of voxel ({}, {}, {}) is not finite ({count} such tensors): expected numbers, a --mask that leaves them out, or --not-finite zero", voxel[0], voxel[1], voxel[2]
     )]
     NotFiniteVoxel {
         /// Indices of the first one.

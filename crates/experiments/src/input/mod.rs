@@ -33,7 +33,7 @@ pub enum InputError {
     },
     /// An ending that tells no format.
     #[error(
-        "its ending is not readable: expected .txt, .npy, .npz, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz or .png"
+        "its ending is not readable: expected .txt, .npy, .npz, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz, .png, or .csv, .dat, .vec or .jvc for tables of vectors"
     )]
     Ending,
     /// What the file's reader says.
@@ -52,6 +52,11 @@ pub enum InputError {
         /// Words for what is there.
         components: &'static str,
     },
+    /// Text with vectors at positions, where tensors or numbers are needed.
+    #[error(
+        "is a table of vectors at positions (x, y, u, v), no 2x2 blocks: expected --derive gradient or strain-rate"
+    )]
+    VectorTable,
     /// A picture, which holds brightness.
     #[error("is a picture: expected --derive structure, orientation or hessian")]
     Picture,

@@ -115,7 +115,8 @@ impl Input {
             Source::File(file) => file,
         };
         let plane = file.plane(&reading.reading()).map_err(|e| told(&file.name, e))?;
-        let remarks = file.remarks();
+        let mut remarks = file.remarks();
+        remarks.extend(plane.remarks.iter().cloned());
         let input = Self::placed(file.name, plane, remarks, file.kind, file.blake3);
         Ok(Self { files: file.files, ..input })
     }
@@ -128,7 +129,7 @@ impl Input {
         blake3: String,
     ) -> Self {
         let oblong = plane.oblong();
-        let PlaneField { field, story, origin, spacing } = plane;
+        let PlaneField { field, story, origin, spacing, .. } = plane;
         Self {
             name,
             field,
@@ -237,7 +238,7 @@ pub(crate) fn insert_reading(parameters: &mut Value, args: &ReadingArgs) {
             "window",
             reading
                 .derive
-                .filter(|d| d.kind == Derived::Structure)
+                .filter(|d| d.kind.has_window())
                 .map(|d| json!(d.window.unwrap_or(Derived::USUAL_WINDOW))),
         ),
         ("mask", reading.mask.map(|v| json!(v))),

@@ -38,7 +38,7 @@ pub struct Digest {
 struct FieldDigest {
     width: usize,
     height: usize,
-    mean_fractional_anisotropy: String,
+    mean_planar_anisotropy: String,
     largest_component: String,
 }
 
@@ -115,7 +115,7 @@ pub(crate) fn digest(settings: &Settings, results: &Results, outcome: &Experimen
         let digest = FieldDigest {
             width: f.grid().width(),
             height: f.grid().height(),
-            mean_fractional_anisotropy: rounded(mean_anisotropy(f)),
+            mean_planar_anisotropy: rounded(mean_anisotropy(f)),
             largest_component: rounded(largest),
         };
         (name.clone(), digest)

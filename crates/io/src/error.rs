@@ -67,6 +67,56 @@ pub enum IoError {
         line: usize,
     },
 
+    // ---- tables of vectors
+    /// A row of a table with other columns than the first, or too few.
+    #[error(
+        "line {line}, column {column}: found {found} numbers, expected {expected}: x, y, u, v and as many as in the first row"
+    )]
+    TableRow {
+        /// Line, from 1.
+        line: usize,
+        /// Where the row ends, from 1.
+        column: usize,
+        /// Numbers in this row.
+        found: usize,
+        /// Numbers that are needed.
+        expected: usize,
+    },
+    /// A vector between the positions of the others.
+    #[error(
+        "line {line}: {axis} = {value} is off the lattice: expected positions in equal steps, here of {step}"
+    )]
+    Position {
+        /// Line, from 1.
+        line: usize,
+        /// `x` or `y`.
+        axis: char,
+        /// The position.
+        value: f64,
+        /// Mean step of the positions.
+        step: f64,
+    },
+    /// Two vectors at one position.
+    #[error("line {line}: a second vector at the position of line {before}")]
+    SamePosition {
+        /// Line, from 1.
+        line: usize,
+        /// Line of the first one.
+        before: usize,
+    },
+    /// Vectors at few of the positions that their coordinates span.
+    #[error(
+        "{vectors} vectors on a lattice of {width} x {height} positions: expected a vector at most of them"
+    )]
+    SparsePositions {
+        /// Vectors in the file.
+        vectors: usize,
+        /// Different x.
+        width: usize,
+        /// Different y.
+        height: usize,
+    },
+
     // ---- sizes
     /// A header that declares more cells than the limit.
     #[error("byte {byte}: {cells} cells are declared, the limit is {limit}")]

@@ -12,7 +12,7 @@ use tigereye_io::volume::{
     points_from_image,
 };
 use tigereye_io::{
-    DataArray, ImageData, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, vti, vtp,
+    DataArray, ImageData, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, vectors_text, vti, vtp,
 };
 
 #[test]
@@ -226,6 +226,25 @@ fn small_vtp() -> Vec<u8> {
     vtp::write(&points_from_image(small_image())).unwrap()
 }
 
+fn small_table() -> Vec<u8> {
+    b"# x\ty\tu\tv\tflags\tmask\n0\t1\t.1\t2\t0\t0\n1\t1\t3\t4\t1\t0\n0\t0\tnan\tnan\t0\t1\n1\t0\t7\t8\t0\t0\n".to_vec()
+}
+
+/// Two far positions make no lattice of all the nodes between them.
+#[test]
+fn tables_of_vectors_take_no_more_than_their_lines() {
+    let far: String = (0..1000).map(|i| format!("{i} {i} 1 2\n")).collect();
+    let message = vectors_text::read(far.as_bytes()).unwrap_err().to_string();
+    assert!(message.contains("1000 vectors on a lattice of 1000 x 1000 positions"), "{message}");
+    assert!(!vectors_text::is_table(far.as_bytes()));
+    for text in
+        ["0 0 1 2\n1e308 -1e308 1 2\n-1e308 1e308 1 2\n", "0 0 1 2\n5e-324 5e-324 1 2\n", "x y u v\n1 2\n"]
+    {
+        let _ = vectors_text::is_table(text.as_bytes());
+        assert!(vectors_text::read(text.as_bytes()).is_err(), "{text}");
+    }
+}
+
 fn small_volumes() -> [Vec<u8>; 3] {
     let tensors = "1 2 3 4 5 6 ".repeat(4);
     let nrrd = format!(
@@ -344,6 +363,11 @@ fn read_as_everything(bytes: &[u8]) {
         vtp::read_with_limits(bytes, limits)
             .and_then(|data| lattice_from_points(data, None, Wanted::Tensors)),
     ];
+    let _ = vectors_text::is_table(bytes);
+    if let Ok(lattice) = vectors_text::read(bytes) {
+        assert_eq!(lattice.values.len(), 2 * lattice.voxels());
+        let _ = (lattice.vectors(PlaneChoice::default(), None), lattice.story());
+    }
     for lattice in volumes.into_iter().flatten() {
         if let Ok(volume) = lattice.tensors(Reading::default()) {
             let choice = PlaneChoice { plane: None, slice: Some((Axis::Z, 0)) };
@@ -368,10 +392,10 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 3000, ..ProptestConfig::default() })]
 
     #[test]
-    fn changed_files_never_panic(which in 0..7_usize,
+    fn changed_files_never_panic(which in 0..8_usize,
                                  changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 1..6)) {
         let [nrrd, nifti, vtk] = small_volumes();
-        let images = [vti::write(&small_image()).unwrap(), small_text_image(), small_npy(), nrrd, nifti, vtk, small_vtp()];
+        let images = [vti::write(&small_image()).unwrap(), small_text_image(), small_npy(), nrrd, nifti, vtk, small_vtp(), small_table()];
         let mut file = images[which].clone();
         for (at, byte, kind) in changes {
             let at = at.index(file.len());
@@ -392,6 +416,11 @@ proptest! {
 
     #[test]
     fn random_text_never_panics(text in "[0-9 .eE+\n\r-]{0,80}") {
+        read_as_everything(text.as_bytes());
+    }
+
+    #[test]
+    fn random_tables_never_panic(text in "(# |VARIABLES=)?[xyuv\", ;\t]{0,12}\n([0-3nae.;,\t -]{0,12}\n){0,9}") {
         read_as_everything(text.as_bytes());
     }
 }

@@ -39,13 +39,14 @@ pub(crate) struct ReadingArgs {
     /// Number of cells wanted, after cropping; tensors are interpolated, or averaged where cells become fewer.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     resample: Option<[usize; 2]>,
-    /// Tensors of an image: the gradient of vectors, the Hessian or structure tensor of numbers.
+    /// Tensors of an image: gradient or rate of strain of vectors; Hessian, structure tensor (light runs across stripes) or
+    /// orientation tensor (along them) of numbers.
     #[arg(long, value_enum)]
     derive: Option<DerivedName>,
     /// Gaussian that derivatives are taken at, cells; 0 for gradients and 1 for images by default.
     #[arg(long, value_name = "CELLS", value_parser = parse_sigma, requires = "derive")]
     sigma: Option<f64>,
-    /// Gaussian window that structure tensors are averaged over, cells; 4 by default.
+    /// Gaussian window that structure and orientation tensors are averaged over, cells; 4 by default.
     #[arg(long, value_name = "CELLS", value_parser = parse_sigma, requires = "derive")]
     window: Option<f64>,
     /// File of one number a voxel; tensors become zero where it is not above --mask-above.
@@ -94,8 +95,12 @@ pub(crate) enum DerivedName {
     Gradient,
     /// Second derivatives of a scalar field.
     Hessian,
-    /// Averaged products of a scalar field's derivatives.
+    /// Rate of strain of a velocity: the symmetric part of the gradient.
+    StrainRate,
+    /// Averaged products of a scalar field's derivatives: light and lines run across stripes.
     Structure,
+    /// The structure tensor with its eigenvalues exchanged: light and lines run along stripes.
+    Orientation,
 }
 
 impl From<DerivedName> for Derived {
@@ -103,7 +108,9 @@ impl From<DerivedName> for Derived {
         match name {
             DerivedName::Gradient => Self::Gradient,
             DerivedName::Hessian => Self::Hessian,
+            DerivedName::StrainRate => Self::StrainRate,
             DerivedName::Structure => Self::Structure,
+            DerivedName::Orientation => Self::Orientation,
         }
     }
 }

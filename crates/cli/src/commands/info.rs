@@ -141,10 +141,10 @@ fn facts(input: &Input) -> Value {
             "yx": range(field, Tensor2::yx), "yy": range(field, Tensor2::yy),
         },
         "singular_values": { "s1": range(field, |t| Svd::of(t).s[0]), "s2": range(field, |t| Svd::of(t).s[1]) },
-        "fractional_anisotropy": range(field, |t| Anisotropy::of(t).fractional),
-        "fractional_anisotropy_histogram": lattice::histogram(
-            field.values().iter().map(|t| Anisotropy::of(t).fractional)
-        ),
+        "planar_anisotropy": range(field, |t| Anisotropy::of(t).planar),
+        "fractional_anisotropy": range(field, fractional),
+        "fractional_anisotropy_above_1": lattice::above_one(field.values().iter().map(fractional)),
+        "fractional_anisotropy_histogram": lattice::histogram(field.values().iter().map(fractional)),
         "negative_eigenvalues_histogram": negative_eigenvalues(field),
         "suggested_local_above": suggested_local_above(field),
         "shares": {
@@ -157,6 +157,11 @@ fn facts(input: &Input) -> Value {
             "total_anisotropy": share(&|t| !t.is_zero() && is_totally_anisotropic(t)),
         },
     })
+}
+
+/// As of a volume of one layer.
+fn fractional(t: &Tensor2) -> f64 {
+    Anisotropy::of(t).fractional
 }
 
 /// Tensors with none, one and two eigenvalues (real parts) below zero.
@@ -206,6 +211,7 @@ fn as_text(facts: &Value) -> String {
         ("yy", &facts["components"]["yy"]),
         ("s1", &facts["singular_values"]["s1"]),
         ("s2", &facts["singular_values"]["s2"]),
+        ("2D", &facts["planar_anisotropy"]),
         ("FA", &facts["fractional_anisotropy"]),
     ];
     for (name, r) in rows {
@@ -217,6 +223,8 @@ fn as_text(facts: &Value) -> String {
             number(&r["mean"])
         );
     }
+    text += "  2D: anisotropy of the semi-axes, |s1 - s2| / sqrt(s1^2 + s2^2); FA: as of a volume with a third row and column \
+             of zeros\n";
     text += &lattice::shares_as_text(facts);
     if let Some(fraction) = facts["suggested_local_above"].as_f64() {
         let _ = writeln!(

@@ -49,6 +49,11 @@ pub(super) fn histogram(values: impl Iterator<Item = f64>) -> Vec<usize> {
     bars
 }
 
+/// How many values lie above 1.
+pub(super) fn above_one(values: impl Iterator<Item = f64>) -> usize {
+    values.filter(|v| *v > 1.0 + FA_ROUNDING).count()
+}
+
 /// Everything about a volume of tensors.
 pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
     let lattice = volume.lattice();
@@ -99,7 +104,7 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
         "eigenvalues": eigenvalues.each_ref().map(Range::json),
         "fractional_anisotropy": fa.json(),
         "negative_eigenvalues_histogram": signs,
-        "fractional_anisotropy_above_1": anisotropy.iter().filter(|v| **v > 1.0 + FA_ROUNDING).count(),
+        "fractional_anisotropy_above_1": above_one(anisotropy.iter().copied()),
         "fractional_anisotropy_histogram": histogram(anisotropy.into_iter()),
         "shares": {
             "zero": share(zero),
@@ -190,7 +195,7 @@ pub(super) fn shares_as_text(facts: &Value) -> String {
     if let Some(bars) = facts["fractional_anisotropy_histogram"].as_array() {
         let counts: Vec<String> = bars.iter().map(Value::to_string).collect();
         let above = facts["fractional_anisotropy_above_1"].as_u64().filter(|n| *n > 0);
-        let above = above.map_or_else(String::new, |n| format!(", and {n} above 1"));
+        let above = above.map_or_else(String::new, |n| format!(", and {n} above 1 (indefinite tensors)"));
         let _ = writeln!(text, "  FA from 0 to 1 in steps of 0.1: {}{above}", counts.join(" "));
     }
     if let Some(bars) = facts["negative_eigenvalues_histogram"].as_array() {

@@ -6,7 +6,7 @@ use tigereye_io::volume::{
     Frame, Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
 };
 use tigereye_io::{
-    ArrayChoice, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, picture, vti, vtp,
+    ArrayChoice, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, picture, vectors_text, vti, vtp,
 };
 
 /// What a data file holds.
@@ -38,6 +38,9 @@ pub enum Content {
 /// Text matrices: their tensors are normalised cell by cell where nobody says otherwise.
 pub const TEXT_MATRICES: &str = "text matrices";
 
+/// Endings of text that can only be a table of vectors.
+const VECTOR_TABLES: [&str; 4] = ["csv", "dat", "vec", "jvc"];
+
 /// The ending that tells the format, in lower case: `nii.gz` or what stands behind the last dot; empty without a dot.
 #[must_use]
 pub fn format_of(name: &str) -> String {
@@ -52,7 +55,8 @@ pub fn format_of(name: &str) -> String {
 #[must_use]
 pub fn is_readable(name: &str) -> bool {
     let formats = ["txt", "npy", "npz", "vti", "vtp", "vtk", "nrrd", "nhdr", "nii", "nii.gz", "png"];
-    formats.contains(&format_of(name).as_str())
+    let format = format_of(name);
+    formats.contains(&format.as_str()) || VECTOR_TABLES.contains(&format.as_str())
 }
 
 /// Reads a file of any format by its ending. `bytes_of` gives the bytes of a file by its name: this one, the data file of
@@ -155,6 +159,12 @@ fn lattice_of(
     }
     let bytes = read(name)?;
     let (kind, lattice) = match format_of(name).as_str() {
+        format if VECTOR_TABLES.contains(&format) || (format == "txt" && is_table(&bytes, wanted)) => {
+            if wanted != Wanted::Vectors {
+                return Err(InputError::VectorTable);
+            }
+            ("table of vectors", vectors_text::read(&bytes))
+        }
         "txt" => (TEXT_MATRICES, matrices::read(&bytes).map(|field| Lattice::from_field(&field))),
         "npy" => ("NumPy array", npy::read_lattice(&bytes, wanted)),
         "npz" => ("NumPy archive", from_archive(&bytes, array, wanted)),
@@ -182,6 +192,11 @@ fn lattice_of(
         _ => return Err(InputError::Ending),
     };
     Ok((kind, lattice?, bytes))
+}
+
+/// Whether a text holds vectors at positions; where vectors are wanted, nothing else would do.
+fn is_table(bytes: &[u8], wanted: Wanted) -> bool {
+    wanted == Wanted::Vectors || vectors_text::is_table(bytes)
 }
 
 /// Whether a file of this name may hold several arrays with names.

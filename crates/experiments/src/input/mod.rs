@@ -33,7 +33,7 @@ pub enum InputError {
     },
     /// An ending that tells no format.
     #[error(
-        "unknown file extension: expected .txt, .npy, .npz, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz or .png"
+        "unknown file extension: expected .txt, .npy, .npz, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz, .png, or .csv, .dat, .vec or .jvc for tables of vectors"
     )]
     Ending,
     /// A format that another program converts.
@@ -53,13 +53,20 @@ pub enum InputError {
         detached: Option<String>,
     },
     /// Numbers or vectors where tensors are needed.
-    #[error("holds {components} a voxel: expected tensors, or --derive gradient, hessian or structure")]
+    #[error(
+        "holds {components} a voxel: expected tensors, or --derive gradient, strain-rate, hessian, structure or orientation"
+    )]
     NoTensors {
         /// Words for what is there.
         components: &'static str,
     },
+    /// Text with vectors at positions, where tensors or numbers are needed.
+    #[error(
+        "is a table of vectors at positions (x, y, u, v), no 2x2 blocks: expected --derive gradient or strain-rate"
+    )]
+    VectorTable,
     /// A picture, which holds brightness.
-    #[error("is a picture: expected --derive structure or hessian")]
+    #[error("is a picture: expected --derive structure, orientation or hessian")]
     Picture,
     /// Tuples that cannot be differentiated as asked.
     #[error("holds {components} numbers a voxel: expected {expected} for --derive {name}")]
@@ -91,7 +98,7 @@ pub enum InputError {
     },
     /// A tensor with a component that is infinite or not a number.
     #[error(
-        "the tensor of cell ({x}, {y}) is not finite ({count} such tensors): expected numbers, or --not-finite zero"
+        "the tensor of cell ({x}, {y}) is not finite ({count} such tensors): expected numbers, a --mask that leaves them out, or --not-finite zero"
     )]
     NotFinite {
         /// Column of the first one.
@@ -103,7 +110,7 @@ pub enum InputError {
     },
     /// The same in a volume that is taken whole.
     #[error(
-        "the tensor of voxel ({}, {}, {}) is not finite ({count} such tensors): expected numbers, or --not-finite zero", voxel[0], voxel[1], voxel[2]
+        "the tensor of voxel ({}, {}, {}) is not finite ({count} such tensors): expected numbers, a --mask that leaves them out, or --not-finite zero", voxel[0], voxel[1], voxel[2]
     )]
     NotFiniteVoxel {
         /// Indices of the first one.

@@ -3,9 +3,10 @@
 use super::{Content, Derivation, Derived, InputError, Reading, TensorFile};
 use tigereye_core::{Field, Tensor2};
 use tigereye_fields::images::{
-    MAX_RESAMPLED, MAX_RESAMPLED_CELLS, gradient_tensors, hessian_tensors, resampled, structure_tensors,
+    MAX_RESAMPLED, MAX_RESAMPLED_CELLS, gradient_tensors, hessian_tensors, orientation_tensors, resampled,
+    strain_rate_tensors, structure_tensors,
 };
-use tigereye_io::volume::{Cut, Lattice, TensorVolume};
+use tigereye_io::volume::{Cut, Lattice, Slice, TensorVolume};
 
 /// A tensor field in the plane, with how it came about.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +19,8 @@ pub struct PlaneField {
     pub origin: [f64; 2],
     /// Distance of the cells.
     pub spacing: [f64; 2],
+    /// What everybody must hear of it beside the story.
+    pub remarks: Vec<String>,
 }
 
 /// Cells whose sides differ by more than this part are worth a warning.
@@ -48,51 +51,128 @@ fn projected(volume: &TensorVolume, reading: &Reading) -> Result<PlaneField, Inp
 }
 
 fn derived(lattice: &Lattice, reading: &Reading, how: Derivation) -> Result<PlaneField, InputError> {
+    let (sigma, window) = (how.sigma, how.window.unwrap_or(Derived::USUAL_WINDOW));
+    let (found, samples, cut) = if how.kind.takes_vectors() {
+        let slice = lattice.vectors(reading.choice, reading.frame)?;
+        let samples = Samples::of(&slice, lattice, |v| v.iter().all(|v| v.is_finite()));
+        let spacing = slice.cut.spacing;
+        let found = match how.kind {
+            Derived::StrainRate => strain_rate_tensors(&samples.there, spacing, sigma),
+            _ => gradient_tensors(&samples.there, spacing, sigma),
+        };
+        (found, samples.map(), slice.cut)
+    } else {
+        let slice = lattice.scalars(reading.choice)?;
+        let samples = Samples::of(&slice, lattice, |v| v.is_finite());
+        let spacing = slice.cut.spacing;
+        let found = match how.kind {
+            Derived::Hessian => hessian_tensors(&samples.there, spacing, sigma),
+            Derived::Orientation => orientation_tensors(&samples.there, spacing, sigma, window),
+            _ => structure_tensors(&samples.there, spacing, sigma, window),
+        };
+        (found, samples.map(), slice.cut)
+    };
     let mut story = lattice.story();
+    story.push(cut.story(""));
+    story.push(words_of(how));
+    let loss = samples.loss(&found);
+    story.extend(loss.clone());
+    let mut plane = placed(samples.completed(&found), story, &cut);
+    plane.remarks.extend(loss);
+    Ok(plane)
+}
+
+/// What was derived, in a sentence.
+fn words_of(how: Derivation) -> String {
     let scale = if how.sigma == 0.0 {
         "by differences of neighbours".to_owned()
     } else {
         format!("of the image smoothed by {} cells", how.sigma)
     };
-    let (mut field, cut, words) = match how.kind {
-        Derived::Gradient => {
-            let slice = lattice.vectors(reading.choice, reading.frame)?;
-            let field = gradient_tensors(&slice.field, slice.cut.spacing, how.sigma);
-            (field, slice.cut, format!("gradient tensor, {scale}"))
-        }
-        Derived::Hessian => {
-            let slice = lattice.scalars(reading.choice)?;
-            let field = hessian_tensors(&slice.field, slice.cut.spacing, how.sigma);
-            (field, slice.cut, format!("Hessian, {scale}"))
-        }
-        Derived::Structure => {
-            let slice = lattice.scalars(reading.choice)?;
-            let window = how.window.unwrap_or(Derived::USUAL_WINDOW);
-            let field = structure_tensors(&slice.field, slice.cut.spacing, how.sigma, window);
-            (field, slice.cut, format!("structure tensor, {scale}, averaged over {window} cells"))
-        }
-    };
-    if let Some(mask) = lattice.mask_in(&cut) {
-        for (t, masked) in field.values_mut().iter_mut().zip(mask.values()) {
-            if *masked {
-                *t = Tensor2::ZERO;
-            }
-        }
+    let averaged = format!("averaged over {} cells", how.window.unwrap_or(Derived::USUAL_WINDOW));
+    match how.kind {
+        Derived::Gradient => format!("gradient tensor, {scale}"),
+        Derived::StrainRate => format!("rate of strain (symmetric part of the gradient), {scale}"),
+        Derived::Hessian => format!("Hessian, {scale}"),
+        Derived::Structure => format!(
+            "structure tensor, {scale}, {averaged}: its major axis, and with it light and lines, runs across stripes \
+             (orientation: along them)"
+        ),
+        Derived::Orientation => format!(
+            "orientation tensor (structure tensor J as trace(J) I - J), {scale}, {averaged}: light and lines run along stripes"
+        ),
     }
-    story.push(cut.story(""));
-    story.push(words);
-    Ok(placed(field, story, &cut))
+}
+
+/// The samples of a plane that may be differentiated, and why the others may not.
+struct Samples<T> {
+    there: Field<Option<T>>,
+    /// Samples that no mask leaves out but that are infinite or not a number.
+    strange: Field<bool>,
+}
+
+impl<T: Copy> Samples<T> {
+    fn of(slice: &Slice<T>, lattice: &Lattice, is_finite: impl Fn(&T) -> bool) -> Self {
+        let mask = lattice.mask_in(&slice.cut);
+        let is_masked = |cell| mask.as_ref().is_some_and(|m| *m.at(cell));
+        let grid = slice.field.grid();
+        let there = Field::from_fn(grid, |c| {
+            let sample = slice.field.at(c);
+            (is_finite(sample) && !is_masked(c)).then_some(*sample)
+        });
+        let strange = Field::from_fn(grid, |c| !is_finite(slice.field.at(c)) && !is_masked(c));
+        Self { there, strange }
+    }
+
+    /// Where samples are, without them.
+    fn map(&self) -> Samples<()> {
+        Samples { there: self.there.map(|v| v.map(|_| ())), strange: self.strange.clone() }
+    }
+}
+
+impl Samples<()> {
+    /// Zero where no tensor could be derived; not a number where a sample is not finite, for whoever refuses such.
+    fn completed(&self, found: &Field<Option<Tensor2>>) -> Field<Tensor2> {
+        Field::from_fn(found.grid(), |c| match found.at(c) {
+            _ if *self.strange.at(c) => Tensor2::isotropic(f64::NAN),
+            Some(t) => *t,
+            None => Tensor2::ZERO,
+        })
+    }
+
+    /// How many cells have no tensor, in words, where there are such.
+    fn loss(&self, found: &Field<Option<Tensor2>>) -> Option<String> {
+        let cells = found.grid().cells();
+        let missing = self.there.values().iter().filter(|v| v.is_none()).count();
+        let strange = self.strange.values().iter().filter(|v| **v).count();
+        let alone = found.values().iter().filter(|t| t.is_none()).count() - missing;
+        let counts = [
+            (missing - strange, "masked"),
+            (strange, "not finite"),
+            (alone, "with too few neighbours for a difference"),
+        ];
+        let parts: Vec<String> =
+            counts.iter().filter(|(n, _)| *n > 0).map(|(n, why)| format!("{n} {why}")).collect();
+        let lost = missing + alone;
+        (lost > 0).then(|| {
+            format!(
+                "{lost} of {cells} cells of the plane have no derived tensor and are taken as zero tensors: {}; differences \
+                 beside them are one-sided",
+                parts.join(", ")
+            )
+        })
+    }
 }
 
 fn placed(field: Field<Tensor2>, story: Vec<String>, cut: &Cut) -> PlaneField {
-    PlaneField { field, story, origin: cut.origin, spacing: cut.spacing }
+    PlaneField { field, story, origin: cut.origin, spacing: cut.spacing, remarks: Vec::new() }
 }
 
 impl PlaneField {
     /// A field that lies in the plane by itself.
     #[must_use]
     pub const fn new(field: Field<Tensor2>, story: Vec<String>) -> Self {
-        Self { field, story, origin: [0.0; 2], spacing: [1.0; 2] }
+        Self { field, story, origin: [0.0; 2], spacing: [1.0; 2], remarks: Vec::new() }
     }
 
     /// Words of warning where cells are not square, as light and lines take them.

@@ -54,21 +54,28 @@ pub enum Derived {
     Gradient,
     /// Second derivatives of a scalar field.
     Hessian,
-    /// Averaged products of a scalar field's derivatives.
+    /// Rate of strain of a velocity: the symmetric part of its gradient.
+    StrainRate,
+    /// Averaged products of a scalar field's derivatives: the major axis runs across stripes.
     Structure,
+    /// The structure tensor with its eigenvalues exchanged: the major axis runs along stripes.
+    Orientation,
 }
 
 impl Derived {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Gradient, Self::Hessian, Self::Structure];
+    pub const ALL: [Self; 5] =
+        [Self::Gradient, Self::StrainRate, Self::Hessian, Self::Structure, Self::Orientation];
 
-    /// `gradient`, `hessian` or `structure`.
+    /// `gradient`, `strain-rate`, `hessian`, `structure` or `orientation`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Gradient => "gradient",
             Self::Hessian => "hessian",
+            Self::StrainRate => "strain-rate",
             Self::Structure => "structure",
+            Self::Orientation => "orientation",
         }
     }
 
@@ -82,9 +89,21 @@ impl Derived {
     #[must_use]
     pub const fn usual_sigma(self) -> f64 {
         match self {
-            Self::Gradient => 0.0,
-            Self::Hessian | Self::Structure => 1.0,
+            Self::Gradient | Self::StrainRate => 0.0,
+            Self::Hessian | Self::Structure | Self::Orientation => 1.0,
         }
+    }
+
+    /// Whether it is made of vectors, not of single numbers.
+    #[must_use]
+    pub const fn takes_vectors(self) -> bool {
+        matches!(self, Self::Gradient | Self::StrainRate)
+    }
+
+    /// Whether it is averaged over a window.
+    #[must_use]
+    pub const fn has_window(self) -> bool {
+        matches!(self, Self::Structure | Self::Orientation)
     }
 
     /// The window where nobody says another, cells.
@@ -105,7 +124,7 @@ impl Reading {
             });
         }
         let Some(Derivation { kind, window, .. }) = self.derive else { return Ok(()) };
-        let numbers = kind != Derived::Gradient;
+        let numbers = !kind.takes_vectors();
         let needless = [
             (
                 self.order.is_some(),
@@ -116,12 +135,12 @@ impl Reading {
             (
                 numbers && self.frame.is_some(),
                 "--frame",
-                "--derive hessian and structure take single numbers",
+                "--derive hessian, structure and orientation take single numbers",
             ),
             (
-                kind != Derived::Structure && window.is_some(),
+                !kind.has_window() && window.is_some(),
                 "--window",
-                "only --derive structure averages over a window",
+                "only --derive structure and orientation average over a window",
             ),
         ];
         match needless.into_iter().find(|(is_given, _, _)| *is_given) {
@@ -150,7 +169,7 @@ impl Reading {
     pub const fn wanted(&self) -> Wanted {
         match self.derive {
             None => Wanted::Tensors,
-            Some(Derivation { kind: Derived::Gradient, .. }) => Wanted::Vectors,
+            Some(Derivation { kind, .. }) if kind.takes_vectors() => Wanted::Vectors,
             Some(_) => Wanted::Scalars,
         }
     }

@@ -65,7 +65,7 @@ fn share(field: &Field<Tensor2>, test: impl Fn(&Tensor2) -> bool) -> f64 {
     field.values().iter().filter(|t| test(t)).count() as f64 / field.values().len() as f64
 }
 
-/// Mean fractional anisotropy, for digests.
+/// Mean planar anisotropy of the semi-axes, for digests.
 pub(crate) fn mean_anisotropy(field: &Field<Tensor2>) -> f64 {
-    field.values().iter().map(|t| Anisotropy::of(t).fractional).sum::<f64>() / field.values().len() as f64
+    field.values().iter().map(|t| Anisotropy::of(t).planar).sum::<f64>() / field.values().len() as f64
 }

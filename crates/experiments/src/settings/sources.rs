@@ -59,6 +59,7 @@ pub fn make_plane(
                 let plane = file.plane(&reading).map_err(|e| fault(&e))?;
                 file.remarks()
                     .iter()
+                    .chain(&plane.remarks)
                     .chain(&plane.oblong())
                     .for_each(|words| host.remark(&format!("{path}: {words}")));
                 (plane, Some(file.kind))
@@ -199,7 +200,9 @@ fn derivation(rule: DeriveRule) -> Derivation {
     let (kind, sigma, window) = match rule {
         DeriveRule::Gradient { sigma } => (Derived::Gradient, sigma, None),
         DeriveRule::Hessian { sigma } => (Derived::Hessian, sigma, None),
+        DeriveRule::StrainRate { sigma } => (Derived::StrainRate, sigma, None),
         DeriveRule::Structure { sigma, window } => (Derived::Structure, sigma, window),
+        DeriveRule::Orientation { sigma, window } => (Derived::Orientation, sigma, window),
     };
     Derivation {
         kind,

@@ -211,8 +211,23 @@ pub enum DeriveRule {
         #[serde(default)]
         sigma: Option<Sigma>,
     },
-    /// Averaged products of a scalar field's derivatives.
+    /// Rate of strain: the symmetric part of the gradient of a vector field.
+    StrainRate {
+        /// Of the field smoothed by this much.
+        #[serde(default)]
+        sigma: Option<Sigma>,
+    },
+    /// Averaged products of a scalar field's derivatives: light and lines run across stripes.
     Structure {
+        /// Derivatives of the field smoothed by this much.
+        #[serde(default)]
+        sigma: Option<Sigma>,
+        /// Averaged over this much.
+        #[serde(default)]
+        window: Option<Sigma>,
+    },
+    /// The structure tensor with its eigenvalues exchanged: light and lines run along stripes.
+    Orientation {
         /// Derivatives of the field smoothed by this much.
         #[serde(default)]
         sigma: Option<Sigma>,

@@ -4,7 +4,18 @@ use tigereye_core::math::exp;
 use tigereye_core::{Cell, Field};
 
 /// Gaussians are cut at this many standard deviations, where they are below 4e-4 of their top.
-const CUT: f64 = 4.0;
+pub(super) const CUT: f64 = 4.0;
+
+/// Which derivative along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    /// None: the smoothed value.
+    Value,
+    /// The first.
+    First,
+    /// The second.
+    Second,
+}
 
 /// Weights of the samples -r to r.
 pub(super) struct Kernel {
@@ -24,7 +35,7 @@ enum Parity {
 }
 
 /// Gaussians this narrow have neighbours only, whose weights then do not depend on them.
-const NARROW: f64 = 1.0 / CUT;
+pub(super) const NARROW: f64 = 1.0 / CUT;
 
 impl Kernel {
     fn of(sigma: f64, parity: Parity, weight: impl Fn(f64) -> f64) -> Self {
@@ -42,6 +53,20 @@ impl Kernel {
     fn scaled(mut self, factor: f64) -> Self {
         self.weights.iter_mut().for_each(|w| *w *= factor);
         self
+    }
+
+    /// The kernel of an order of derivative.
+    pub(super) fn of_order(order: Order, sigma: f64) -> Self {
+        match order {
+            Order::Value => Self::gauss(sigma),
+            Order::First => Self::first(sigma),
+            Order::Second => Self::second(sigma),
+        }
+    }
+
+    /// Cells at each side of the middle that it reaches.
+    pub(super) const fn radius(&self) -> usize {
+        self.weights.len() / 2
     }
 
     /// Weights of sum 1.
@@ -77,39 +102,24 @@ impl Kernel {
     }
 }
 
-/// How a row goes on beyond its ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Beyond {
-    /// `2 f(0) - f(i)` at -i: slopes go on.
-    PointReflection,
-    /// `f(i - 1)` at -i: values go on.
-    Mirror,
-}
-
-impl Beyond {
-    /// The sample at any index of a row that is not empty.
-    fn sample(self, row: &[f64], index: i64) -> f64 {
-        let last = row.len() as i64 - 1;
-        if (0..=last).contains(&index) {
-            return row[index as usize];
-        }
-        if last == 0 {
-            return row[0];
-        }
-        match self {
-            Self::PointReflection if index < 0 => 2.0 * row[0] - self.sample(row, -index),
-            Self::PointReflection => 2.0 * row[last as usize] - self.sample(row, 2 * last - index),
-            Self::Mirror if index < 0 => self.sample(row, -index - 1),
-            Self::Mirror => self.sample(row, 2 * last + 1 - index),
-        }
+/// The sample at any index of a row that is not empty; beyond the ends the row goes on as its mirror image, `f(i - 1)` at
+/// -i.
+fn mirrored(row: &[f64], index: i64) -> f64 {
+    let last = row.len() as i64 - 1;
+    if index < 0 {
+        mirrored(row, -index - 1)
+    } else if index > last {
+        mirrored(row, 2 * last + 1 - index)
+    } else {
+        row[index as usize]
     }
 }
 
-fn correlated(row: &[f64], kernel: &Kernel, beyond: Beyond) -> Vec<f64> {
+fn correlated(row: &[f64], kernel: &Kernel) -> Vec<f64> {
     let middle = kernel.weights.len() / 2;
     let sides = kernel.weights[middle + 1..].iter().zip(1..);
     let at = |x: usize| -> f64 {
-        let sample = |i: i64| beyond.sample(row, x as i64 + i);
+        let sample = |i: i64| mirrored(row, x as i64 + i);
         let here = row[x];
         match kernel.parity {
             Parity::Mean => {
@@ -123,20 +133,24 @@ fn correlated(row: &[f64], kernel: &Kernel, beyond: Beyond) -> Vec<f64> {
     (0..row.len()).map(at).collect()
 }
 
-/// Correlation of every row.
-pub(super) fn along_rows(field: &Field<f64>, kernel: &Kernel, beyond: Beyond) -> Field<f64> {
+/// Correlation of every row, mirrored at its ends.
+pub(super) fn along_rows(field: &Field<f64>, kernel: &Kernel) -> Field<f64> {
     let mut out = field.clone();
     let width = field.grid().width();
     for (row, to) in field.values().chunks(width).zip(out.values_mut().chunks_mut(width)) {
-        to.copy_from_slice(&correlated(row, kernel, beyond));
+        to.copy_from_slice(&correlated(row, kernel));
     }
     out
 }
 
-/// Correlation of every column, downwards.
-pub(super) fn columns_of(field: &Field<f64>, kernel: &Kernel, beyond: Beyond) -> Field<f64> {
-    let turned = |f: &Field<f64>| Field::from_fn(f.grid().transposed(), |c| *f.at(Cell::new(c.y, c.x)));
-    turned(&along_rows(&turned(field), kernel, beyond))
+/// Correlation of every column, downwards, mirrored at its ends.
+pub(super) fn columns_of(field: &Field<f64>, kernel: &Kernel) -> Field<f64> {
+    turned(&along_rows(&turned(field), kernel))
+}
+
+/// Rows and columns exchanged.
+pub(super) fn turned<T: Copy>(field: &Field<T>) -> Field<T> {
+    Field::from_fn(field.grid().transposed(), |c| *field.at(Cell::new(c.y, c.x)))
 }
 
 #[cfg(test)]
@@ -172,12 +186,10 @@ mod tests {
         let flat = Field::from_fn(grid, |_| 0.1 + 0.7);
         for sigma in [0.0, 0.01, 0.2, 0.3, 1.0, 2.7] {
             for kernel in [Kernel::first(sigma), Kernel::second(sigma)] {
-                for beyond in [Beyond::PointReflection, Beyond::Mirror] {
-                    let smooth = along_rows(&flat, &Kernel::gauss(sigma), beyond);
-                    let down = columns_of(&smooth, &kernel, beyond);
-                    let across = along_rows(&flat, &kernel, beyond);
-                    assert!(down.values().iter().chain(across.values()).all(|v| *v == 0.0), "sigma {sigma}");
-                }
+                let smooth = along_rows(&flat, &Kernel::gauss(sigma));
+                let down = columns_of(&smooth, &kernel);
+                let across = along_rows(&flat, &kernel);
+                assert!(down.values().iter().chain(across.values()).all(|v| *v == 0.0), "sigma {sigma}");
             }
         }
     }
@@ -185,10 +197,7 @@ mod tests {
     #[test]
     fn rows_go_on_beyond_their_ends() {
         let row = [1.0, 3.0, 7.0];
-        let at = |beyond: Beyond, i| beyond.sample(&row, i);
-        assert_eq!([-3, -2, -1, 3, 4, 5].map(|i| at(Beyond::Mirror, i)), [7.0, 3.0, 1.0, 7.0, 3.0, 1.0]);
-        assert_eq!([-2, -1, 3, 4].map(|i| at(Beyond::PointReflection, i)), [-5.0, -1.0, 11.0, 13.0]);
-        assert_eq!(Beyond::PointReflection.sample(&[4.0], -3), 4.0);
-        assert_eq!(Beyond::PointReflection.sample(&[0.0, 1.0], -7), -7.0);
+        assert_eq!([-3, -2, -1, 3, 4, 5].map(|i| mirrored(&row, i)), [7.0, 3.0, 1.0, 7.0, 3.0, 1.0]);
+        assert_eq!(mirrored(&[4.0], -3), 4.0);
     }
 }

@@ -19,6 +19,7 @@ mod profile;
 mod reflection;
 mod results;
 mod symmetric3;
+mod symmetry;
 mod tensor;
 mod transmission;
 
@@ -33,6 +34,7 @@ pub use profile::PolarProfile;
 pub use reflection::{Reflection, Surface};
 pub use results::{LightDistribution, LtgVolume, StopReason, SweepWork, Work};
 pub use symmetric3::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
+pub use symmetry::Symmetry;
 pub use tensor::Tensor2;
 pub use transmission::{
     Below, CellTransmission, Normalization, RateScale, TOTAL_ANISOTROPY_RATIO, TransmissionField,

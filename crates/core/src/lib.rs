@@ -8,6 +8,7 @@
 //! components in that same frame.
 
 mod anisotropy;
+mod cell_shape;
 mod decomposition;
 mod directions;
 mod error;
@@ -24,6 +25,7 @@ mod tensor;
 mod transmission;
 
 pub use anisotropy::Anisotropy;
+pub use cell_shape::CellShape;
 pub use decomposition::{AxisSign, Eigenvalues, Svd};
 pub use directions::Directions;
 pub use error::CoreError;

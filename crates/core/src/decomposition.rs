@@ -139,21 +139,33 @@ impl Eigenvalues {
         }
     }
 
-    /// What each axis does: the sign of the real parts (thesis, section 2.3). Colours glyphs, never the propagation.
+    /// A real part up to this part of the larger one is zero: what single precision leaves of a vanishing eigenvalue has either sign.
+    pub const ROUNDING: f64 = 1e-6;
+
+    /// What each axis does: the sign of the real parts (thesis, section 2.3), neutral where one is [`Self::ROUNDING`]. Colours glyphs,
+    /// never the propagation.
     #[must_use]
     pub fn axis_signs(&self) -> [AxisSign; 2] {
-        self.real_parts().map(|l| match l {
-            l if l > 0.0 => AxisSign::Tension,
-            l if l < 0.0 => AxisSign::Compression,
+        let parts = self.real_parts();
+        let zero = Self::ROUNDING * parts[0].abs().max(parts[1].abs());
+        parts.map(|l| match l {
+            l if l > zero => AxisSign::Tension,
+            l if l < -zero => AxisSign::Compression,
             _ => AxisSign::Neutral,
         })
     }
 
-    /// Whether one real part is negative and the other positive.
+    /// Whether one real part is negative and the other positive, both by more than [`Self::ROUNDING`].
     #[must_use]
     pub fn is_indefinite(&self) -> bool {
-        let [a, b] = self.real_parts();
-        a * b < 0.0 || (a.signum() != b.signum() && a != 0.0 && b != 0.0)
+        let [a, b] = self.axis_signs();
+        a != b && a != AxisSign::Neutral && b != AxisSign::Neutral
+    }
+
+    /// How many real parts are negative by more than [`Self::ROUNDING`].
+    #[must_use]
+    pub fn negative(&self) -> usize {
+        self.axis_signs().into_iter().filter(|s| *s == AxisSign::Compression).count()
     }
 }
 
@@ -164,7 +176,7 @@ pub enum AxisSign {
     Tension,
     /// Negative real part.
     Compression,
-    /// Zero.
+    /// Zero, up to rounding.
     Neutral,
 }
 
@@ -238,6 +250,12 @@ mod tests {
 
     #[test]
     fn signs_follow_the_eigenvalues() {
+        // What single precision makes of a vanishing eigenvalue has no sign.
+        for rounding in [3e-8, 0.0, -3e-8] {
+            let values = Eigenvalues::of(&Tensor2::symmetric(2.0, 0.0, 2.0 * rounding));
+            assert_eq!(values.axis_signs(), [AxisSign::Tension, AxisSign::Neutral]);
+            assert_eq!((values.is_indefinite(), values.negative()), (false, 0));
+        }
         let signs = Eigenvalues::of(&Tensor2::symmetric(1.0, 0.0, -2.0)).axis_signs();
         assert_eq!(signs, [AxisSign::Compression, AxisSign::Tension]);
     }

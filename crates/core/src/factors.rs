@@ -33,9 +33,9 @@ impl OrthogonalFactor {
         }
         let exponent = math::binary_exponent(a.max_abs());
         let [p, q, r, t] = a.components().map(|c| math::scale_by_power_of_two(c, -exponent));
-        // Four components that are each off by a unit in the last place move the determinant by this at most.
+        // What rounding of the components of a file moves a determinant by.
         let largest = p.abs().max(q.abs()).max(r.abs()).max(t.abs());
-        let rounding = 4.0 * f64::EPSILON * largest * largest;
+        let rounding = Eigenvalues::ROUNDING * largest * largest;
         // Adding 0 makes a negative zero positive: half a turn is pi, never -pi.
         if math::difference_of_products(p, t, q, r) < -rounding {
             Self::Reflection { axis_rad: 0.5 * math::atan2(q + r + 0.0, p - t) }

@@ -8,6 +8,7 @@
 //! components in that same frame.
 
 mod anisotropy;
+mod cell_shape;
 mod decomposition;
 mod directions;
 mod error;
@@ -19,10 +20,12 @@ mod profile;
 mod reflection;
 mod results;
 mod symmetric3;
+mod symmetry;
 mod tensor;
 mod transmission;
 
 pub use anisotropy::Anisotropy;
+pub use cell_shape::CellShape;
 pub use decomposition::{AxisSign, Eigenvalues, Svd};
 pub use directions::Directions;
 pub use error::CoreError;
@@ -33,6 +36,7 @@ pub use profile::PolarProfile;
 pub use reflection::{Reflection, Surface};
 pub use results::{LightDistribution, LtgVolume, StopReason, SweepWork, Work};
 pub use symmetric3::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
+pub use symmetry::Symmetry;
 pub use tensor::Tensor2;
 pub use transmission::{
     Below, CellTransmission, Normalization, RateScale, TOTAL_ANISOTROPY_RATIO, TransmissionField,

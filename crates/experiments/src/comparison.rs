@@ -5,7 +5,7 @@ use crate::runs::Results;
 use crate::settings::sample_of;
 use crate::spec::{DistanceNumber, MapSource, RidgeSource};
 use tigereye_core::{Cell, Field, Grid, LtgVolume};
-use tigereye_lines::{Ftle, Polylines, ridge_lines};
+use tigereye_lines::{Ftle, Polylines, RidgeOptions, ridge_lines};
 
 /// A scalar at the cells; of a gradient where it is a result.
 pub(crate) fn map(source: &MapSource, results: &Results) -> Option<Field<f64>> {
@@ -19,6 +19,17 @@ pub(crate) fn map(source: &MapSource, results: &Results) -> Option<Field<f64>> {
         MapSource::Mean { run } => gradient(run).map(|v| results.inner(run, &v.mean_over_directions())),
         MapSource::Maximum { run } => gradient(run).map(|v| results.inner(run, &v.max_over_directions())),
     }
+}
+
+/// The sides of a cell: light takes cells as squares, and so do gradients.
+fn cell_of(source: &MapSource, results: &Results) -> [f64; 3] {
+    let of_run = |run: &String| results.ftle.get(run).map(|f| f.cell.sides());
+    let sides = match source {
+        MapSource::Ftle { run } => of_run(run),
+        MapSource::Slice { .. } | MapSource::Mean { .. } | MapSource::Maximum { .. } => None,
+    };
+    let [dx, dy] = sides.unwrap_or([1.0; 2]);
+    [dx, dy, 1.0]
 }
 
 /// The cells' own samples.
@@ -38,7 +49,8 @@ pub(crate) fn ridges(source: &RidgeSource, results: &Results) -> Option<Polyline
     let mut all = Polylines::default();
     match source {
         RidgeSource::Of(source) => {
-            append(&mut all, &ridge_lines(&map(source, results)?, &COMPARED).ok()?.shape);
+            let options = RidgeOptions { cell: cell_of(source, results), ..COMPARED };
+            append(&mut all, &ridge_lines(&map(source, results)?, &options).ok()?.shape);
         }
         RidgeSource::EverySlice { run } => {
             let volume: &LtgVolume = &results.gradients.get(run)?.volume;

@@ -2,9 +2,9 @@
 
 use crate::classical::fine::{self, TextureRequest};
 use crate::classical::lines::{LinesRequest, Seeds, lines};
-use crate::classical::point_overlays;
 use crate::classical::ridges::line_overlay;
 use crate::classical::topology::topology;
+use crate::classical::{Following, point_overlays};
 use crate::comparison;
 use crate::measure::{self, at_step, inner_cells, lobe_ratio, net_flux_ratio, ridge_columns};
 use crate::outcome::{DataFile, Figure};
@@ -14,7 +14,9 @@ use crate::settings::{PulsesSettings, RunSettings, Settings, axes_of, family_of,
 use crate::spec::{self, FlatView, Panel, ProfileSource, RidgeSource, SeriesSource};
 use crate::ways::Ways;
 use std::fmt::Write as _;
-use tigereye_core::{Cell, Field, Grid, LightDistribution, PolarProfile, transmission_ellipse};
+use tigereye_core::{
+    Cell, CellShape, Field, Grid, LightDistribution, PolarProfile, Tensor2, transmission_ellipse,
+};
 use tigereye_fields::Expression;
 use tigereye_lines::{ConvolutionOptions, Family, LineOptions};
 use tigereye_render::{
@@ -109,22 +111,25 @@ impl Draw<'_> {
         let own_title = |title: &String| if self.alone { title.clone() } else { String::new() };
         match panel {
             Panel::Glyphs { field, colour, title } => {
-                let scene =
-                    self.settings.fields.get(field).map(|f| self.glyphs(f, *colour, own_title(title)));
+                let cell = self.settings.cell(field);
+                let fields = &self.settings.fields;
+                let scene = fields.get(field).map(|f| self.glyphs((f, cell), *colour, own_title(title)));
                 shown(scene, title, figure)
             }
             Panel::Orientation { field, title } => {
-                let scene = self.settings.fields.get(field).map(|f| self.orientation(f, own_title(title)));
+                let cell = self.settings.cell(field);
+                let fields = &self.settings.fields;
+                let scene = fields.get(field).map(|f| self.orientation((f, cell), own_title(title)));
                 shown(scene, title, figure)
             }
-            Panel::Lines { field, axes, family, title } => {
-                let field = self.settings.fields.get(field);
-                let scene = field.and_then(|f| self.lines(f, *axes, *family, own_title(title)));
+            Panel::Lines { field, axes, major, family, title } => {
+                let following = self.following(field, *axes, *major);
+                let scene = following.and_then(|f| self.lines(f, *family, own_title(title)));
                 shown(scene, title, figure)
             }
-            Panel::Texture { field, axes, family, hyper, title } => {
-                let field = self.settings.fields.get(field);
-                let scene = field.and_then(|f| self.texture(f, (*axes, *family, *hyper), &own_title(title)));
+            Panel::Texture { field, axes, major, family, hyper, title } => {
+                let following = self.following(field, *axes, *major);
+                let scene = following.and_then(|f| self.texture(f, *family, *hyper, &own_title(title)));
                 shown(scene, title, figure)
             }
             Panel::Map { map, ridges, title } => {
@@ -180,12 +185,18 @@ impl Draw<'_> {
 
     /// Pixels per cell: chosen by the picture where it stands alone, fitting a panel otherwise.
     fn cell_px(&self, grid: Grid) -> Option<usize> {
-        (!self.alone).then(|| (PANEL_PX / grid.width().max(grid.height())).max(2))
+        self.cell_px_of(grid, CellShape::SQUARE)
+    }
+
+    /// The same for the smaller side of cells that need not be square.
+    fn cell_px_of(&self, grid: Grid, cell: CellShape) -> Option<usize> {
+        let longest = cell.longer_side([grid.width(), grid.height()]);
+        (!self.alone).then(|| (PANEL_PX / longest.ceil() as usize).max(2))
     }
 
     fn glyphs(
         &self,
-        field: &Field<tigereye_core::Tensor2>,
+        (field, cell): (&Field<Tensor2>, CellShape),
         colour: spec::GlyphColour,
         title: String,
     ) -> Scene {
@@ -194,53 +205,63 @@ impl Draw<'_> {
             spec::GlyphColour::Anisotropy => GlyphColour::Anisotropy,
             spec::GlyphColour::Sign => GlyphColour::AxisSign,
         };
-        let cell_px = self.cell_px(field.grid());
-        glyphs(field, &GlyphOptions { title, scale, colour, cell_px, ..GlyphOptions::default() })
+        let cell_px = self.cell_px_of(field.grid(), cell);
+        glyphs(field, &GlyphOptions { title, scale, colour, cell_px, cell, ..GlyphOptions::default() })
     }
 
-    fn orientation(&self, field: &Field<tigereye_core::Tensor2>, title: String) -> Scene {
-        let cell_px = self.cell_px(field.grid());
-        orientation_map(field, &OrientationOptions { title, cell_px, ..OrientationOptions::default() })
+    fn orientation(&self, (field, cell): (&Field<Tensor2>, CellShape), title: String) -> Scene {
+        let cell_px = self.cell_px_of(field.grid(), cell);
+        orientation_map(field, &OrientationOptions { title, cell_px, cell, ..OrientationOptions::default() })
+    }
+
+    /// A field with what is followed in it.
+    fn following(
+        &self,
+        name: &str,
+        axes: spec::AxesChoice,
+        major: Option<spec::MajorChoice>,
+    ) -> Option<(&Field<Tensor2>, Following)> {
+        let field = self.settings.fields.get(name)?;
+        Some((field, Following { axes: axes_of(axes, major, field), cell: self.settings.cell(name) }))
     }
 
     fn lines(
         &self,
-        field: &Field<tigereye_core::Tensor2>,
-        axes: spec::AxesChoice,
+        (field, following): (&Field<Tensor2>, Following),
         family: Option<spec::FamilyChoice>,
         title: String,
     ) -> Option<Scene> {
-        let axes = axes_of(axes, field);
         let families = family.map_or(vec![Family::Major, Family::Minor], |f| vec![family_of(f)]);
-        let longest = field.grid().width().max(field.grid().height()) as f64;
+        let longest = following.longer_side(field.grid());
         let request = LinesRequest {
-            axes,
+            following,
             families,
             seeds: Seeds::Even((longest / LINES_A_SIDE).max(0.5)),
             options: LineOptions { step: 0.2, length: 2.0 * longest, ..LineOptions::default() },
             ribbon: None,
         };
-        let points = topology(field, axes, &[], &LineOptions::default()).points;
+        let points = topology(field, following, &[], &LineOptions::default()).points;
         let found = lines(field, &request).ok()?;
-        Some(found.picture(field, &title, point_overlays(&points), self.cell_px(field.grid())))
+        let cell_px = self.cell_px_of(field.grid(), following.cell);
+        Some(found.picture(field, &title, point_overlays(&points), cell_px))
     }
 
     fn texture(
         &self,
-        field: &Field<tigereye_core::Tensor2>,
-        (axes, family, hyper): (spec::AxesChoice, spec::FamilyChoice, bool),
+        (field, following): (&Field<Tensor2>, Following),
+        family: spec::FamilyChoice,
+        hyper: bool,
         title: &str,
     ) -> Option<Scene> {
-        let axes = axes_of(axes, field);
-        let longest = field.grid().width().max(field.grid().height());
+        let longest = following.longer_side(field.grid()).ceil() as usize;
         // Whole pixels a sample, and at most eight samples a cell.
         let wanted = if self.alone { 2 * PANEL_PX } else { PANEL_PX } / longest;
         let pixels = wanted.div_ceil(8).max(1);
         let samples = (wanted / pixels).max(1);
         let options = ConvolutionOptions { samples, ..ConvolutionOptions::default() };
-        let request = TextureRequest { axes, family: family_of(family), hyper, options };
+        let request = TextureRequest { following, family: family_of(family), hyper, options };
         let found = fine::texture(field, &request).ok()?;
-        fine::texture_picture(&found, field, samples, hyper, title, Some(samples * pixels)).ok()
+        fine::texture_picture(&found, field, &request, hyper, title, Some(samples * pixels)).ok()
     }
 
     fn map(&self, source: &spec::MapSource, ridges: bool, title: String) -> Option<Scene> {
@@ -251,9 +272,12 @@ impl Draw<'_> {
             Vec::new()
         };
         if let spec::MapSource::Ftle { run } = source {
-            let field = self.settings.runs.iter().find(|(name, _)| name == run)?.1.field();
-            let cell_px = self.cell_px(self.settings.fields.get(field)?.grid());
-            return Some(fine::exponents_picture(self.results.ftle.get(run)?, &title, overlays, cell_px));
+            let (_, settings) = self.settings.runs.iter().find(|(name, _)| name == run)?;
+            let RunSettings::Ftle(settings) = settings else { return None };
+            let (axes, cell) = (settings.following.axes, settings.following.cell);
+            let cell_px = self.cell_px_of(self.settings.fields.get(&settings.field)?.grid(), cell);
+            let found = self.results.ftle.get(run)?;
+            return Some(fine::exponents_picture(found, axes, &title, overlays, cell_px));
         }
         let field = comparison::map(source, self.results)?;
         let quantity = match source {
@@ -266,7 +290,7 @@ impl Draw<'_> {
 
     fn ridges(
         &self,
-        field: &Field<tigereye_core::Tensor2>,
+        field: &Field<Tensor2>,
         sources: &[(String, RidgeSource)],
         title: String,
     ) -> Option<Scene> {

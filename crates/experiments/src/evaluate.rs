@@ -1,7 +1,7 @@
 //! One experiment from settings to outcome.
 
 use crate::Medium;
-use crate::classical::{Placement, axes_name, family_name, fine};
+use crate::classical::{Placement, axes_name, family_name, fine, major_name};
 use crate::digest::{Digest, digest};
 use crate::draw::{Drawn, draw_figure};
 use crate::host::Host;
@@ -157,9 +157,9 @@ fn data_files(
         } else if let Some(g) = results.gradients.get(name) {
             tigereye_io::image_from_ltg(&g.volume, &story)
         } else if let (Some(f), Some(field)) = (results.ftle.get(name), settings.fields.get(run.field())) {
-            let placement = Placement::new([0.0; 2], [1.0; 2], field.grid());
+            let placement = Placement::new([0.0; 2], f.cell.sides(), field.grid());
             let arrays = [("FTLE", &f.larger), ("FTLE_smaller", &f.smaller)];
-            fine::image(&arrays, f.samples, &placement, &story)
+            fine::image(&arrays, [f.samples; 2], &placement, &story)
         } else {
             continue;
         };
@@ -184,7 +184,8 @@ fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
         RunSettings::Ftle(f) => {
             let parameters = json!({
                 "field": f.field,
-                "axes": axes_name(f.axes),
+                "axes": axes_name(f.following.axes.axes()),
+                "major": major_name(f.following.axes.major()),
                 "family": family_name(f.family),
                 "length": f.length,
                 "samples": f.samples,

@@ -1,6 +1,6 @@
 //! What is odd about a tensor field, before light runs through it.
 
-use tigereye_core::{Cell, Eigenvalues, Field, Svd, Tensor2, is_totally_anisotropic};
+use tigereye_core::{Cell, Eigenvalues, Field, Svd, Symmetry, Tensor2, is_totally_anisotropic};
 use tigereye_lines::ellipse_tensors;
 
 /// Something that may be meant so, or not.
@@ -21,13 +21,10 @@ pub struct Oddity {
 const JUMP: f64 = 0.5;
 /// ... are a discontinuity where the median of these differences is smaller by this factor.
 const ABOVE_MEDIAN: f64 = 4.0;
-/// Deviation of a determinant from 1 that is more than rounding.
-const DETERMINANT: f64 = 1e-9;
-/// Half-axes that differ by less than this part are equal.
-const ISOTROPIC: f64 = 1e-9;
-/// `|xy - yx|` over the largest component of a tensor that is not symmetric.
-const ASYMMETRIC: f64 = 1e-9;
-
+/// Deviation of a determinant from 1 that is more than rounding of single precision.
+const DETERMINANT: f64 = 1e-6;
+/// Semi-axes that differ by less than this part are equal.
+const ISOTROPIC: f64 = 1e-6;
 /// Everything odd, the gravest first. A field without oddities has tensors that are symmetric, positive definite and of
 /// determinant 1, and that change smoothly. Signs of eigenvalues are asked of symmetric tensors only.
 #[must_use]
@@ -50,8 +47,9 @@ pub fn lint(field: &Field<Tensor2>) -> Vec<Oddity> {
         let s = Svd::of(t).s;
         s[0] - s[1] <= ISOTROPIC * s[0]
     };
-    let symmetric = |t: &Tensor2| t.asymmetry() <= ASYMMETRIC * t.max_abs();
-    let negative = |t: &Tensor2| Eigenvalues::of(t).real_parts()[1] < -ISOTROPIC * t.max_abs();
+    let symmetry = Symmetry::of(field);
+    let symmetric = |t: &Tensor2| symmetry.has_symmetric(t);
+    let negative = |t: &Tensor2| Eigenvalues::of(t).negative() == 2;
     let found = [
         of("not-finite", &|t| !t.is_finite(), "are not finite: they cannot transmit light"),
         of("zero", &|t| t.is_zero(), "hold the zero tensor: they absorb all light"),
@@ -67,7 +65,7 @@ pub fn lint(field: &Field<Tensor2>) -> Vec<Oddity> {
         ),
         of(
             "negative",
-            &|t| regular(t) && symmetric(t) && negative(t) && !Eigenvalues::of(t).is_indefinite(),
+            &|t| regular(t) && symmetric(t) && negative(t),
             "have negative eigenvalues only: light takes their magnitudes",
         ),
         jumps(field),

@@ -149,7 +149,7 @@ pub(crate) fn run_all(settings: &Settings, memory_bytes: u64, host: &dyn Host) -
                 }
                 let options =
                     FtleOptions { length: ftle.length, samples: ftle.samples, ..FtleOptions::default() };
-                let result = exponents(field, ftle.axes, ftle.family, &options)
+                let result = exponents(field, ftle.following, ftle.family, &options)
                     .map_err(|source| RunError::Ftle { run: name.clone(), source })?;
                 results.ftle.insert(name.clone(), result);
             }

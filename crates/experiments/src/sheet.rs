@@ -4,7 +4,8 @@ use crate::classical::{line_overlay, point_overlays};
 use crate::scene::where_result;
 use thiserror::Error;
 use tigereye_core::{
-    Anisotropy, Cell, CoreError, Directions, Field, Normalization, PolarProfile, Tensor2, TransmissionField,
+    Anisotropy, Cell, CellShape, CoreError, Directions, Eigenvalues, Field, Grid, Normalization,
+    PolarProfile, Symmetry, Tensor2, TransmissionField,
 };
 use tigereye_fields::{FieldError, images::resampled};
 use tigereye_lines::{Family, Interpolated, LineOptions, degenerate_points, ellipse_tensors, evenly_spaced};
@@ -29,6 +30,8 @@ pub struct SheetOptions {
     pub light: Option<Cell>,
     /// Direction of the gradient's slice, degrees, a multiple of 22.5.
     pub slice_deg: f64,
+    /// The shape of a cell. Light takes cells as squares.
+    pub cell: CellShape,
     /// Instruction set of the sweep; results do not depend on it.
     pub level: Level,
 }
@@ -105,61 +108,53 @@ pub fn sheet(
         return Err(SheetError::Slice { deg: options.slice_deg, step });
     }
     let panels = [
-        ("ellipses".to_owned(), ellipses(field)),
-        ("direction of the major axis, lines along it, degenerate points".to_owned(), lines(field)),
+        ("ellipses".to_owned(), ellipses(field, options.cell)),
         (
-            "linear anisotropy, 0 round and 1 flat".to_owned(),
-            map(field, "(s₁ − s₂) / (s₁ + s₂)", HeatScale::Linear, Some((0.0, 1.0)), |t| {
-                Anisotropy::of(t).linear
-            }),
+            "direction of the longer semi-axis, lines along it, degenerate points".to_owned(),
+            lines(field, options.cell),
         ),
-        ("determinant".to_owned(), determinant(field)),
+        ("linear anisotropy, 0 round and 1 flat".to_owned(), anisotropy(field, options.cell)),
+        ("determinant".to_owned(), determinant(field, options.cell)),
         lit(field, options, directions, light)?,
         gradient(field, options, directions, sample as usize, observer)?,
     ];
     Ok(small_multiples(&panels, 2, &options.title))
 }
 
-fn map(
-    field: &Field<Tensor2>,
-    quantity: &str,
-    scale: HeatScale,
-    range: Option<(f64, f64)>,
-    value: impl Fn(&Tensor2) -> f64,
-) -> Picture {
-    heat_map(
-        &field.map(|t| value(t)),
-        &HeatOptions { quantity: quantity.to_owned(), scale, range, ..HeatOptions::default() },
-    )
+fn anisotropy(field: &Field<Tensor2>, cell: CellShape) -> Picture {
+    let quantity = "(s₁ − s₂) / (s₁ + s₂)".to_owned();
+    let options = HeatOptions { quantity, range: Some((0.0, 1.0)), cell, ..HeatOptions::default() };
+    heat_map(&field.map(|t| Anisotropy::of(t).linear), &options)
 }
 
 /// Signs of eigenvalues say something of symmetric tensors only.
-fn ellipses(field: &Field<Tensor2>) -> Picture {
-    let symmetric = field.values().iter().all(|t| t.asymmetry() <= 1e-9 * t.max_abs());
-    let colour = if symmetric { GlyphColour::AxisSign } else { GlyphColour::Anisotropy };
-    let longest = field.grid().width().max(field.grid().height());
+fn ellipses(field: &Field<Tensor2>, cell: CellShape) -> Picture {
+    let colour =
+        if Symmetry::of(field).is_symmetric() { GlyphColour::AxisSign } else { GlyphColour::Anisotropy };
+    let longest = cell.longer_side([field.grid().width(), field.grid().height()]).ceil() as usize;
     let cell_px = Some((PANEL_PX / longest).clamp(1, 40));
-    glyphs(field, &GlyphOptions { colour, cell_px, ..GlyphOptions::default() })
+    glyphs(field, &GlyphOptions { colour, cell_px, cell, ..GlyphOptions::default() })
 }
 
-fn determinant(field: &Field<Tensor2>) -> Picture {
-    let negative = field.values().iter().any(|t| t.determinant() < 0.0);
+fn determinant(field: &Field<Tensor2>, cell: CellShape) -> Picture {
+    // The determinant of a singular tensor is rounding of either sign.
+    let is_negative = |t: &Tensor2| t.determinant() < -Eigenvalues::ROUNDING * t.max_abs() * t.max_abs();
+    let negative = field.values().iter().any(is_negative);
     let scale = if negative { HeatScale::Diverging } else { HeatScale::Linear };
-    map(field, "determinant", scale, None, Tensor2::determinant)
+    let options = HeatOptions { quantity: "determinant".to_owned(), scale, cell, ..HeatOptions::default() };
+    heat_map(&field.map(Tensor2::determinant), &options)
 }
 
 /// Lines over the directions, and points by what they are.
-fn lines(field: &Field<Tensor2>) -> Picture {
-    orientation_map(
-        field,
-        &OrientationOptions { overlays: line_overlays(field), ..OrientationOptions::default() },
-    )
+fn lines(field: &Field<Tensor2>, cell: CellShape) -> Picture {
+    let overlays = line_overlays(field, cell);
+    orientation_map(field, &OrientationOptions { overlays, cell, ..OrientationOptions::default() })
 }
 
-fn line_overlays(field: &Field<Tensor2>) -> Vec<Overlay> {
+fn line_overlays(field: &Field<Tensor2>, cell: CellShape) -> Vec<Overlay> {
     let ellipses = ellipse_tensors(field);
-    let between = Interpolated::new(&ellipses);
-    let longest = field.grid().width().max(field.grid().height()) as f64;
+    let between = Interpolated::new(&ellipses).with_cell(cell);
+    let longest = cell.longer_side([field.grid().width(), field.grid().height()]);
     let separation = (longest / LINES_A_SIDE).max(0.5);
     let options =
         LineOptions { step: 0.2 * separation.min(1.0), length: 4.0 * longest, ..LineOptions::default() };
@@ -201,10 +196,21 @@ fn lit(
         quantity: "energy of a cell / W".to_owned(),
         scale: HeatScale::Logarithmic { decades: 4.0 },
         sources: vec![source],
+        cell: shape_after(options.cell, before, after),
         ..HeatOptions::default()
     };
     let title = format!("light of cell ({}, {}){size}", light.x, light.y);
     Ok((title, heat_map(&outcome.distribution.energy(), &heat)))
+}
+
+/// The shape of cells of which there are others over the same area; what is averaged of squares stays square.
+fn shape_after(cell: CellShape, before: Grid, after: Grid) -> CellShape {
+    if cell == CellShape::SQUARE {
+        return cell;
+    }
+    let [dx, dy] = cell.sides();
+    let wider = before.width() as f64 / after.width() as f64;
+    CellShape::of([dx * wider, dy * before.height() as f64 / after.height() as f64])
 }
 
 /// The field, or a smaller one that it is averaged to, with words that say so.
@@ -227,6 +233,7 @@ fn gradient(
     observer: &dyn SweepObserver,
 ) -> Result<(String, Picture), SheetError> {
     let (coarse, size) = averaged(field, LONGEST)?;
+    let cell = shape_after(options.cell, field.grid(), coarse.grid());
     let field = &coarse;
     let transmission = TransmissionField::from_tensors(field, directions, options.normalization)?;
     let scheme = Scheme::new(directions, SharedWeights::Thesis);
@@ -244,6 +251,7 @@ fn gradient(
     let heat = HeatOptions {
         quantity: "LTG / (W/rad)".to_owned(),
         missing: Some("border, 0 by definition".to_owned()),
+        cell,
         ..HeatOptions::default()
     };
     Ok((format!("light transport gradient, {}°{size}", options.slice_deg), heat_map(&inner, &heat)))
@@ -269,6 +277,7 @@ mod tests {
             normalization: Normalization::Local,
             light: None,
             slice_deg: 90.0,
+            cell: CellShape::SQUARE,
             level: Level::detect(),
         }
     }
@@ -289,7 +298,9 @@ mod tests {
                 assert!(svg.contains(letter), "{spec}: {letter}");
             }
         }
-        let labels = |spec| line_overlays(&field(spec)).into_iter().map(|o| o.label).collect::<Vec<_>>();
+        let labels = |spec| {
+            line_overlays(&field(spec), CellShape::SQUARE).into_iter().map(|o| o.label).collect::<Vec<_>>()
+        };
         assert_eq!(labels("wedge:size=13"), ["", "wedge (index 1/2)"]);
         assert_eq!(labels("rings:size=13"), ["", "merged (other index)"]);
         assert_eq!(labels("x:size=13"), [""]);

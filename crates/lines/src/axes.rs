@@ -1,16 +1,33 @@
 //! Which two axes a tensor has.
 //!
 //! With the numbers `F = (xx - yy) + i (xy + yx)` and `E = (xx + yy) + i (yx - xy)` a tensor stretches by `|F| / 2` along
-//! `arg F / 2`, turns by `Im E / 2` and scales by `Re E / 2`. Its half-axes, eigenvectors and dual eigenvectors are closed
+//! `arg F / 2`, turns by `Im E / 2` and scales by `Re E / 2`. Its semi-axes, eigenvectors and dual eigenvectors are closed
 //! formulas of the two (Zheng and Pang, 2D asymmetric tensor analysis, 2005; Zhang, Yeh, Lin and Laramee, Asymmetric tensor
 //! analysis for flow visualization, 2009).
+//!
+//! # Which axis is major
+//!
+//! Where an axis is stretched and the other squeezed there are two answers, and [`Major`] names the one that is meant:
+//!
+//! - **By value**, as in mechanics: of eigenvectors the one with the algebraically larger eigenvalue (its real part), of semi-axes
+//!   the one along which `u . T u` is larger. Both agree for symmetric tensors: tension is major, whatever its size. With
+//!   `u . T u = (Re E +- |F| Re E / |E|) / 2` along the longer and the shorter semi-axis, the longer one is major where the trace is
+//!   positive and the shorter one where it is negative.
+//! - **By magnitude**, as light sees it: the longer semi-axis, or the eigenvector whose eigenvalue is larger without its sign.
+//!
+//! Unless something else is said, eigenvectors are ordered by value and semi-axes by magnitude ([`Axes::by`]). Where both
+//! eigenvalues are positive the orders agree.
+//!
+//! What tells the axes apart ([`Frame::contrast`]) depends on the order. Symmetric tensors by value have axes wherever `F` is not
+//! zero, pure shear (2, -2) included; by magnitude pure shear has none, because both semi-axes are equally long. Eigenvectors by
+//! magnitude, and semi-axes of tensors that are not symmetric by value, change places where the trace is zero: their lines end there.
 
 use tigereye_core::{Tensor2, math};
 
 /// Which of the two axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// The longer half-axis, or the larger eigenvalue.
+    /// The larger one, in the sense of [`Major`].
     Major,
     /// The other one.
     Minor,
@@ -19,17 +36,39 @@ pub enum Family {
 /// The axes that lines follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Axes {
-    /// The half-axes of the ellipse that a tensor makes of the unit circle: its left singular vectors, which is what light
-    /// sees. The longer one is major.
+    /// The semi-axes of the ellipse that a tensor makes of the unit circle: its left singular vectors, which is what light
+    /// sees.
     #[default]
     HalfAxes,
-    /// Eigenvectors, the one of the larger eigenvalue (with its sign) major: the axes of classical tensor lines. Where
-    /// eigenvalues are complex (the turning is stronger than the stretching) the pseudo-eigenvectors: the diagonals of the
+    /// Eigenvectors, the axes of classical tensor lines. Where eigenvalues are complex (the turning is stronger than the stretching) the pseudo-eigenvectors: the diagonals of the
     /// smallest rectangle around the ellipses along which the linear flow of the tensor turns.
     Eigenvectors,
     /// Dual eigenvectors: the directions halfway between the eigenvectors, and the axes of the ellipses along which the linear
     /// flow turns where eigenvalues are complex, the longer one major. Symmetric tensors have none, as they turn nothing.
     DualEigenvectors,
+}
+
+/// By what the major axis is the larger one; see the beginning of `axes.rs` for the rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Major {
+    /// By the value with its sign: tension is major.
+    Value,
+    /// By the size of the value: the longer axis is major.
+    Magnitude,
+}
+
+/// Axes with the order of the two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OrderedAxes {
+    axes: Axes,
+    major: Major,
+}
+
+impl From<Axes> for OrderedAxes {
+    /// In their usual order.
+    fn from(axes: Axes) -> Self {
+        axes.by(axes.usual_major())
+    }
 }
 
 /// Whether eigenvalues are real.
@@ -72,11 +111,12 @@ impl Decomposition {
 pub struct Frame {
     /// Unit vectors, major first, in the tensor's frame (y up), each with either sign.
     pub axes: [[f64; 2]; 2],
-    /// Their half-lengths: for [`Axes::Eigenvectors`] the eigenvalues with their signs, or their real part where they are
-    /// complex; for dual eigenvectors the half-axes of the stretching and turning part.
+    /// Their lengths, never negative, in the order of the axes; for [`Axes::Eigenvectors`] the eigenvalues with their signs, or their
+    /// real part where they are complex; for dual eigenvectors the semi-axes of the stretching and turning part.
     pub values: [f64; 2],
-    /// What tells the axes apart, in the unit of the tensor: the difference of the half-axes; for the others that of the stretching, or
-    /// for dual eigenvectors of the turning where it is smaller. It grows in proportion to the distance from a degenerate point.
+    /// What tells the axes apart, in the unit of the tensor: the difference of the semi-axes, or of `u . T u` along them where they
+    /// are ordered by value; for eigenvectors that of the stretching (by magnitude the trace, where it is smaller), for dual ones the
+    /// turning where it is smaller. It grows in proportion to the distance from where the axes cannot be told apart.
     pub contrast: f64,
 }
 
@@ -104,21 +144,65 @@ impl Numbers {
 }
 
 impl Axes {
+    /// Their usual order: eigenvectors by value, semi-axes and dual eigenvectors by magnitude.
+    #[must_use]
+    pub const fn usual_major(self) -> Major {
+        match self {
+            Self::Eigenvectors => Major::Value,
+            Self::HalfAxes | Self::DualEigenvectors => Major::Magnitude,
+        }
+    }
+
+    /// These axes in an order. Dual eigenvectors have but one, the longer first.
+    #[must_use]
+    pub const fn by(self, major: Major) -> OrderedAxes {
+        match self {
+            Self::DualEigenvectors => OrderedAxes { axes: self, major: Major::Magnitude },
+            Self::HalfAxes | Self::Eigenvectors => OrderedAxes { axes: self, major },
+        }
+    }
+
+    /// The axes of a tensor in their usual order, see [`OrderedAxes::of`].
+    #[must_use]
+    pub fn of(self, t: &Tensor2, least: f64) -> Option<Frame> {
+        OrderedAxes::from(self).of(t, least)
+    }
+
+    /// The [`Frame::values`] of a tensor in their usual order, see [`OrderedAxes::values`].
+    #[must_use]
+    pub fn values(self, t: &Tensor2) -> Option<[f64; 2]> {
+        OrderedAxes::from(self).values(t)
+    }
+}
+
+impl OrderedAxes {
+    /// Which axes.
+    #[must_use]
+    pub const fn axes(self) -> Axes {
+        self.axes
+    }
+
+    /// Their order.
+    #[must_use]
+    pub const fn major(self) -> Major {
+        self.major
+    }
+
     /// The axes of a tensor. `None` where it is not finite, and where it has none: its [`Frame::contrast`] is not more than the part
-    /// `least` of the larger half-axis.
+    /// `least` of the larger semi-axis.
     #[must_use]
     pub fn of(self, t: &Tensor2, least: f64) -> Option<Frame> {
         let (numbers, scale) = Numbers::scaled(t)?;
-        let (axes, contrast) = match self {
-            Self::HalfAxes => half_axes(&numbers, least),
-            Self::Eigenvectors => eigenvectors(&numbers, least),
-            Self::DualEigenvectors => dual_eigenvectors(&numbers, least),
+        let (axes, contrast) = match self.axes {
+            Axes::HalfAxes => semi_axes(&numbers, self.major, least),
+            Axes::Eigenvectors => eigenvectors(&numbers, self.major, least),
+            Axes::DualEigenvectors => dual_eigenvectors(&numbers, least),
         }?;
         let values = self.values_of(&numbers);
         Some(Frame { axes, values: values.map(|v| v / scale), contrast: contrast / scale })
     }
 
-    /// The [`Frame::values`] of a tensor, which there are without axes, too: both the same then. `None` where it is not finite.
+    /// The [`Frame::values`] of a tensor, which there are without axes, too: both of the same size then. `None` where it is not finite.
     #[must_use]
     pub fn values(self, t: &Tensor2) -> Option<[f64; 2]> {
         if t.is_zero() {
@@ -128,16 +212,24 @@ impl Axes {
         Some(self.values_of(&numbers).map(|v| v / scale))
     }
 
-    fn values_of(self, Numbers { f, e }: &Numbers) -> [f64; 2] {
+    fn values_of(self, numbers: &Numbers) -> [f64; 2] {
+        let Numbers { f, e } = numbers;
         let stretch = size(*f);
-        let (middle, off) = match self {
-            Self::HalfAxes => return longer_and_shorter(stretch, size(*e)),
-            Self::DualEigenvectors => return longer_and_shorter(stretch, e[1].abs()),
-            Self::Eigenvectors => {
-                (0.5 * e[0], 0.25 * ((stretch + e[1].abs()) * (stretch - e[1].abs())).max(0.0))
+        let ordered = |[a, b]: [f64; 2]| if self.is_turned(numbers) { [b, a] } else { [a, b] };
+        match self.axes {
+            Axes::HalfAxes => ordered(longer_and_shorter(stretch, size(*e))),
+            Axes::DualEigenvectors => longer_and_shorter(stretch, e[1].abs()),
+            Axes::Eigenvectors => {
+                let middle = 0.5 * e[0];
+                let off = 0.25 * ((stretch + e[1].abs()) * (stretch - e[1].abs())).max(0.0);
+                ordered([middle + off.sqrt(), middle - off.sqrt()])
             }
-        };
-        [middle + off.sqrt(), middle - off.sqrt()]
+        }
+    }
+
+    /// Whether the order is other than the usual one of the axes: both orders agree as long as the trace is not negative.
+    fn is_turned(self, Numbers { e, .. }: &Numbers) -> bool {
+        e[0] < 0.0 && self.major != self.axes.usual_major()
     }
 }
 
@@ -148,20 +240,42 @@ fn longer_and_shorter(a: f64, b: f64) -> [f64; 2] {
 /// Axes, and what tells them apart.
 type AxesAndContrast = ([[f64; 2]; 2], f64);
 
-fn half_axes(Numbers { f, e }: &Numbers, least: f64) -> Option<AxesAndContrast> {
+fn semi_axes(numbers: &Numbers, by: Major, least: f64) -> Option<AxesAndContrast> {
+    let Numbers { f, e } = numbers;
     let (stretch, rest) = (size(*f), size(*e));
-    let contrast = stretch.min(rest);
+    let sum = 0.5 * (stretch + rest);
     // What vanishes beside the rest has no direction, nor has its product with it.
-    if contrast <= least.max(f64::EPSILON * f64::EPSILON) * 0.5 * (stretch + rest) {
+    let least = least.max(f64::EPSILON * f64::EPSILON) * sum;
+    let (e, contrast) = match by {
+        Major::Magnitude => (*e, stretch.min(rest)),
+        Major::Value => by_value(*e, stretch, rest),
+    };
+    if contrast <= least {
         return None;
     }
     let major = half_angle([f[0] * e[0] - f[1] * e[1], f[0] * e[1] + f[1] * e[0]]);
     Some(([major, quarter_turned(major)], contrast))
 }
 
-fn eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<AxesAndContrast> {
+/// E with the sign that makes the axis of the larger `u . T u` major, and the difference of the two. Where E vanishes the
+/// tensor is symmetric as far as anybody can tell, and has eigenvectors.
+fn by_value(e: [f64; 2], stretch: f64, rest: f64) -> ([f64; 2], f64) {
+    if rest <= f64::EPSILON * stretch {
+        return ([1.0, 0.0], stretch);
+    }
+    let sign = if e[0] < 0.0 { -1.0 } else { 1.0 };
+    // Divided by its size: the product with F must not vanish.
+    (e.map(|v| sign * v / rest), stretch * e[0].abs() / rest)
+}
+
+fn eigenvectors(Numbers { f, e }: &Numbers, by: Major, least: f64) -> Option<AxesAndContrast> {
     let (stretch, rest) = (size(*f), size(*e));
-    if stretch <= least * 0.5 * (stretch + rest) {
+    let contrast = match by {
+        Major::Value => stretch,
+        // Real parts of opposite signs and the same size.
+        Major::Magnitude => stretch.min(e[0].abs()),
+    };
+    if contrast <= least * 0.5 * (stretch + rest) {
         return None;
     }
     let (stretching, turning) = (0.5 * stretch, 0.5 * e[1].abs());
@@ -176,7 +290,8 @@ fn eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<AxesAndContras
     };
     let major = about(diagonal * (c + s), diagonal * (c - s));
     let minor = about(diagonal * (c - s), diagonal * (c + s));
-    Some(([major, minor], stretch))
+    let is_turned = by == Major::Magnitude && e[0] < 0.0;
+    Some((if is_turned { [minor, major] } else { [major, minor] }, contrast))
 }
 
 fn dual_eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<AxesAndContrast> {
@@ -346,7 +461,7 @@ mod tests {
             assert_eq!(axes.values(&Tensor2::ZERO), Some([0.0; 2]));
             assert_eq!(axes.values(&Tensor2::isotropic(f64::NAN)), None);
         }
-        // Scaling by 3 and a turn of size 4: half-axes of 5, real parts of 3, and an ellipse of flow that is a circle.
+        // Scaling by 3 and a turn of size 4: semi-axes of 5, real parts of 3, and an ellipse of flow that is a circle.
         let turning = Tensor2::new(3.0, -4.0, 4.0, 3.0);
         assert!(all.iter().all(|axes| axes.of(&turning, 0.0).is_none()));
         assert_eq!(all.map(|axes| axes.values(&turning)), [[5.0; 2], [3.0; 2], [4.0; 2]].map(Some));

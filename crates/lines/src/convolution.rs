@@ -1,17 +1,17 @@
 //! Noise smeared along axes: line integral convolution.
 
-use crate::ftle::{check_length, check_work};
+use crate::ftle::{MAX_SAMPLES_A_CELL, check_length, check_work};
 use crate::{Family, Interpolated, SamplingError, fine_grid};
 use core::f64::consts::PI;
 use rayon::prelude::*;
-use tigereye_core::{Field, Grid, math};
+use tigereye_core::{CellShape, Field, Grid, math};
 
 /// How noise is smeared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConvolutionOptions {
-    /// Samples a cell along each side.
+    /// Samples a cell along its smaller side, see [`Self::samples_a_cell`].
     pub samples: usize,
-    /// How far the noise is smeared to each side, cells.
+    /// How far the noise is smeared to each side, in the unit of [`tigereye_core::CellShape`].
     pub half_length: f64,
     /// Seed of the noise.
     pub seed: u64,
@@ -20,6 +20,16 @@ pub struct ConvolutionOptions {
 impl Default for ConvolutionOptions {
     fn default() -> Self {
         Self { samples: 4, half_length: 5.0, seed: 1 }
+    }
+}
+
+impl ConvolutionOptions {
+    /// Samples a cell along x and y: as many along its smaller side as are asked for, and about as far apart along the other, at most
+    /// 64. Noise has no direction of its own then.
+    #[must_use]
+    pub fn samples_a_cell(&self, cell: CellShape) -> [usize; 2] {
+        let most = MAX_SAMPLES_A_CELL.max(self.samples);
+        cell.sides().map(|side| ((self.samples as f64 * side).round() as usize).min(most))
     }
 }
 
@@ -47,7 +57,7 @@ pub fn convolved(
 ) -> Result<Field<f64>, SamplingError> {
     let (grid, step) = sampled(field, options)?;
     let noise = noise(grid, options.seed);
-    let walk = Walk { field, family, straight: None, step, samples: options.samples as f64 };
+    let walk = Walk { field, family, straight: None, step, samples: per_cell(field, options) };
     let length = |_: [f64; 2]| options.half_length;
     Ok(stretched(smeared(&noise, &walk, &length)))
 }
@@ -66,7 +76,7 @@ pub fn hyper_convolved(
     let (grid, step) = sampled(field, options)?;
     let mut texture = noise(grid, options.seed);
     for (family, straight) in [(Family::Minor, [0.0, 1.0]), (Family::Major, [1.0, 0.0])] {
-        let walk = Walk { field, family, straight: Some(straight), step, samples: options.samples as f64 };
+        let walk = Walk { field, family, straight: Some(straight), step, samples: per_cell(field, options) };
         let length = |at: [f64; 2]| {
             let Some(frame) = field.frame(at, 0.0) else { return options.half_length };
             let [own, other] = [family as usize, 1 - family as usize].map(|i| frame.values[i].abs());
@@ -79,11 +89,15 @@ pub fn hyper_convolved(
 }
 
 fn sampled(field: &Interpolated<'_>, options: &ConvolutionOptions) -> Result<(Grid, f64), SamplingError> {
-    let grid = fine_grid(field.field().grid(), options.samples)?;
+    let grid = fine_grid(field.field().grid(), options.samples_a_cell(field.cell()))?;
     let step = 1.0 / (STEPS_A_SAMPLE * options.samples as f64);
     check_length(options.half_length, step)?;
     check_work(grid, options.half_length, step)?;
     Ok((grid, step))
+}
+
+fn per_cell(field: &Interpolated<'_>, options: &ConvolutionOptions) -> [f64; 2] {
+    options.samples_a_cell(field.cell()).map(|n| n as f64)
 }
 
 /// The same noise for a seed everywhere: every sample's number is a hash of its place (the finisher of SplitMix64, Steele, Lea and
@@ -104,7 +118,8 @@ struct Walk<'a> {
     /// The direction to take where there is no axis; lines end there without.
     straight: Option<[f64; 2]>,
     step: f64,
-    samples: f64,
+    /// Samples a cell along x and y.
+    samples: [f64; 2],
 }
 
 impl Walk<'_> {
@@ -115,17 +130,18 @@ impl Walk<'_> {
 
     /// A step of the midpoint rule: where it leads, and the direction there.
     fn next(&self, at: [f64; 2], towards: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
-        let half = [0, 1].map(|i| at[i] + 0.5 * self.step * towards[i]);
+        let half = self.field.ahead(at, towards, 0.5 * self.step);
         let middle = along(self.direction(half)?, towards)?;
-        let to = [0, 1].map(|i| at[i] + self.step * middle[i]);
+        let to = self.field.ahead(at, middle, self.step);
         Some((to, along(self.direction(to)?, middle)?))
     }
 
     /// The sample nearest to a point.
     fn sample(&self, texture: &Field<f64>, at: [f64; 2]) -> f64 {
         let grid = texture.grid();
-        let index = |v: f64, n: usize| ((v * self.samples).round().max(0.0) as usize).min(n - 1);
-        texture.values()[index(at[1], grid.height()) * grid.width() + index(at[0], grid.width())]
+        let index =
+            |axis: usize, n: usize| ((at[axis] * self.samples[axis]).round().max(0.0) as usize).min(n - 1);
+        texture.values()[index(1, grid.height()) * grid.width() + index(0, grid.width())]
     }
 }
 
@@ -144,7 +160,7 @@ fn smeared(texture: &Field<f64>, walk: &Walk<'_>, length: &(dyn Fn([f64; 2]) -> 
     let value = |i: usize| {
         let cell = grid.cell(i);
         let own = texture.values()[i];
-        let at = [cell.x as f64 / walk.samples, cell.y as f64 / walk.samples];
+        let at = [cell.x as f64 / walk.samples[0], cell.y as f64 / walk.samples[1]];
         match walk.field.at(at) {
             Some(t) if !t.is_zero() => {}
             _ => return f64::NAN,
@@ -222,8 +238,9 @@ mod tests {
         let tensors = field([20, 6], |_, _| Tensor2::from_axes(0.0, 2.0, 1.0));
         let between = Interpolated::new(&tensors);
         let (half, samples) = (3.0, 2);
-        let walk = Walk { field: &between, family: Family::Major, straight: None, step: 0.25, samples: 2.0 };
-        let noise = noise(fine_grid(tensors.grid(), samples).expect("samples"), 3);
+        let walk =
+            Walk { field: &between, family: Family::Major, straight: None, step: 0.25, samples: [2.0; 2] };
+        let noise = noise(fine_grid(tensors.grid(), [samples; 2]).expect("samples"), 3);
         let found = smeared(&noise, &walk, &|_| half);
         let grid = noise.grid();
         for cell in grid.iter() {

@@ -1,7 +1,7 @@
-//! Points where both half-axes are equally long, by how the axes turn around them.
+//! Points where both semi-axes are equally long, by how the axes turn around them.
 //!
 //! A tensor is the sum of a conformal and an anticonformal map: with `F = (xx - yy) + i (xy + yx)` and
-//! `E = (xx + yy) + i (yx - xy)` the half-axes are `(|E| + |F|) / 2` and `||E| - |F|| / 2`, and the longer one lies at
+//! `E = (xx + yy) + i (yx - xy)` the semi-axes are `(|E| + |F|) / 2` and `||E| - |F|| / 2`, and the longer one lies at
 //! `(arg E + arg F) / 2`. It has no direction where `F` or `E` is zero; going round such a point once turns it by half of the
 //! winding of that number. Symmetric tensors have a real `E`, so theirs are the zeros of `F`, the classical degenerate points
 //! (Delmarcelle and Hesselink 1994).

@@ -4,14 +4,14 @@ use crate::flow_map::{exponent_of, gradient_at};
 use crate::{Family, Interpolated, LineEnd, LineOptions, half_line_end};
 use rayon::prelude::*;
 use thiserror::Error;
-use tigereye_core::{Cell, Field, Grid};
+use tigereye_core::{Cell, CellShape, Field, Grid};
 
 /// How the exponent is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FtleOptions {
-    /// Length of the lines to each side, cells.
+    /// Length of the lines to each side, in the unit of [`tigereye_core::CellShape`].
     pub length: f64,
-    /// Step of the lines, cells.
+    /// Step of the lines, in the same unit.
     pub step: f64,
     /// Samples a cell along each side.
     pub samples: usize,
@@ -75,7 +75,9 @@ pub enum SamplingError {
 pub struct Ftle {
     /// Samples a cell along each side.
     pub samples: usize,
-    /// The larger exponent of the two directions of the line, per cell of length; not a number where there is no line, or where it
+    /// The shape of a cell, whose smaller side is the unit of length.
+    pub cell: CellShape,
+    /// The larger exponent of the two directions of the line, per unit of length ([`tigereye_core::CellShape`]); not a number where there is no line, or where it
     /// leaves.
     pub larger: Field<f64>,
     /// The smaller one.
@@ -86,21 +88,21 @@ pub struct Ftle {
 
 /// Most samples together, and along a cell's side.
 const MAX_SAMPLES: usize = 1 << 26;
-const MAX_SAMPLES_A_CELL: usize = 64;
+pub(crate) const MAX_SAMPLES_A_CELL: usize = 64;
 /// Most steps of a line.
 const MAX_STEPS: f64 = 1e5;
 /// Most steps of all lines together: an hour and more.
 const MAX_WORK: f64 = 1e11;
 
-/// The grid of samples finer than the cells of a grid: `samples (W - 1) + 1` by `samples (H - 1) + 1`.
+/// The grid of samples finer than the cells of a grid: `m (W - 1) + 1` by `n (H - 1) + 1` for m samples a cell along x and n along y.
 ///
 /// # Errors
 /// [`SamplingError::Samples`] and [`SamplingError::TooManySamples`].
-pub fn fine_grid(grid: Grid, samples: usize) -> Result<Grid, SamplingError> {
-    if !(1..=MAX_SAMPLES_A_CELL).contains(&samples) {
+pub fn fine_grid(grid: Grid, samples: [usize; 2]) -> Result<Grid, SamplingError> {
+    if let Some(&samples) = samples.iter().find(|s| !(1..=MAX_SAMPLES_A_CELL).contains(*s)) {
         return Err(SamplingError::Samples { samples, limit: MAX_SAMPLES_A_CELL });
     }
-    let [width, height] = [grid.width(), grid.height()].map(|n| samples * (n - 1) + 1);
+    let [width, height] = [samples[0] * (grid.width() - 1) + 1, samples[1] * (grid.height() - 1) + 1];
     let too_many = SamplingError::TooManySamples { width, height, limit: MAX_SAMPLES };
     if width.saturating_mul(height) > MAX_SAMPLES {
         return Err(too_many);
@@ -135,7 +137,7 @@ pub(crate) fn check_work(samples: Grid, length: f64, step: f64) -> Result<(), Sa
 /// See [`SamplingError`].
 pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> Result<Ftle, SamplingError> {
     check_length(options.length, options.step)?;
-    let grid = fine_grid(field.field().grid(), options.samples)?;
+    let grid = fine_grid(field.field().grid(), [options.samples; 2])?;
     check_work(grid, options.length, options.step)?;
     let samples = options.samples as f64;
     let follow = LineOptions {
@@ -149,20 +151,21 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
         let direction = field.direction(at, family, options.least_anisotropy)?;
         let ends = [direction, direction.map(|v| -v)].map(|towards| {
             let (end, why) = half_line_end(field, at, towards, family, &follow);
-            (why != LineEnd::Border).then_some(end)
+            (why != LineEnd::Border).then(|| field.cell().physical(end))
         });
         Some(Start { direction, ends })
     };
     let starts: Vec<Option<Start>> = (0..grid.cells()).into_par_iter().map(|i| start(grid.cell(i))).collect();
     let both: Vec<[f64; 2]> = (0..grid.cells())
         .into_par_iter()
-        .map(|i| both_exponents(grid.cell(i), grid, &starts, options))
+        .map(|i| both_exponents(grid.cell(i), grid, &starts, (field.cell(), options)))
         .collect();
     let lines = 2 * starts.iter().flatten().count();
     let early = starts.iter().flatten().flat_map(|s| s.ends).filter(Option::is_none).count();
     let of = |pick: fn(&[f64; 2]) -> f64| Field::from_fn(grid, |c| pick(&both[grid.index(c)]));
     Ok(Ftle {
         samples: options.samples,
+        cell: field.cell(),
         larger: of(|[a, b]| if (a + b).is_nan() { f64::NAN } else { a.max(*b) }),
         smaller: of(|[a, b]| if (a + b).is_nan() { f64::NAN } else { a.min(*b) }),
         left: early as f64 / lines.max(1) as f64,
@@ -172,13 +175,18 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
 /// Where the line of a sample leads.
 struct Start {
     direction: [f64; 2],
-    /// Along that direction, and against it; none where the line leaves.
+    /// Along that direction, and against it, physical; none where the line leaves.
     ends: [Option<[f64; 2]>; 2],
 }
 
-fn both_exponents(cell: Cell, grid: Grid, starts: &[Option<Start>], options: &FtleOptions) -> [f64; 2] {
+fn both_exponents(
+    cell: Cell,
+    grid: Grid,
+    starts: &[Option<Start>],
+    (shape, options): (CellShape, &FtleOptions),
+) -> [f64; 2] {
     let Some(own) = &starts[grid.index(cell)] else { return [f64::NAN; 2] };
-    let spacing = [1.0 / options.samples as f64; 2];
+    let spacing = shape.physical([1.0 / options.samples as f64; 2]);
     [0, 1].map(|side| {
         let end = |c: Cell| {
             let s = starts[grid.index(c)].as_ref()?;

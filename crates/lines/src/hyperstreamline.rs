@@ -2,7 +2,7 @@
 
 use crate::{Family, Interpolated, TensorLine};
 
-/// Half of a hyperstreamline's width at every point of its line, cells: `scale` times the half-length of the other axis, or the
+/// Half of a hyperstreamline's width at every point of its line, in the unit of [`tigereye_core::CellShape`]: `scale` times the half-length of the other axis, or the
 /// magnitude of the other eigenvalue (Delmarcelle and Hesselink, Visualizing second-order tensor fields with hyperstreamlines,
 /// 1993, where the line is a tube with the two other ones as its cross section). 0 where the tensor is zero, not a number where it
 /// is none.

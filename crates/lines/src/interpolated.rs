@@ -1,7 +1,7 @@
 //! Tensors and their axes between the centres of cells.
 
-use crate::{Axes, Family, Frame};
-use tigereye_core::{Cell, Field, Svd, Tensor2};
+use crate::{Axes, Family, Frame, OrderedAxes};
+use tigereye_core::{Cell, CellShape, Field, Svd, Tensor2};
 
 /// The symmetric tensor with the same ellipse in every cell: `U S U^T` for a tensor `U S V^T`, its left stretch tensor. The ellipse
 /// is all that light sees. Where tensors are not symmetric this is what to interpolate: their own components may cancel
@@ -14,6 +14,23 @@ pub fn ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     })
 }
 
+/// The same with the signs of what the tensor does along its semi-axes: an axis `u` counts as negative where `u . T u` is. That is
+/// the tensor itself where it is symmetric, and what to interpolate for semi-axes by value ([`crate::Major`]): in pure shear both are
+/// equally long, but one is stretched and the other squeezed.
+#[must_use]
+pub fn signed_ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
+    field.map(|t| {
+        if !t.is_finite() || t.asymmetry() == 0.0 {
+            return *t;
+        }
+        let svd = Svd::of(t);
+        // Along the longer axis u . T u has the sign of the trace, along the other that of the trace times the determinant.
+        let longer = if t.trace() < 0.0 { -svd.s[0] } else { svd.s[0] };
+        let shorter = if (t.trace() < 0.0) == (t.determinant() < 0.0) { svd.s[1] } else { -svd.s[1] };
+        Tensor2::from_eigen(svd.phi_rad(), longer, shorter)
+    })
+}
+
 /// How far outside a point still counts as one of the border, cells: a line along the border leaves it by the rounding of its
 /// steps, which is some 1e-16 of the coordinate each.
 const ROUNDING: f64 = 1e-9;
@@ -22,26 +39,46 @@ const ROUNDING: f64 = 1e-9;
 #[derive(Clone, Copy, Debug)]
 pub struct Interpolated<'a> {
     field: &'a Field<Tensor2>,
-    axes: Axes,
+    axes: OrderedAxes,
+    cell: CellShape,
 }
 
 impl<'a> Interpolated<'a> {
-    /// Tensors between the centres of the cells of `field`, and their half-axes.
+    /// Tensors between the centres of the square cells of `field`, and their semi-axes, the longer one major.
     #[must_use]
-    pub const fn new(field: &'a Field<Tensor2>) -> Self {
-        Self { field, axes: Axes::HalfAxes }
+    pub fn new(field: &'a Field<Tensor2>) -> Self {
+        Self { field, axes: Axes::HalfAxes.into(), cell: CellShape::SQUARE }
     }
 
-    /// The same field with other axes.
+    /// The same field with other axes, in their usual order or in another ([`Axes::by`]).
     #[must_use]
-    pub const fn with_axes(self, axes: Axes) -> Self {
-        Self { axes, ..self }
+    pub fn with_axes(self, axes: impl Into<OrderedAxes>) -> Self {
+        Self { axes: axes.into(), ..self }
+    }
+
+    /// The same field with cells of another shape. Tensors stay what they are, in a frame of equal units along x and y.
+    #[must_use]
+    pub const fn with_cell(self, cell: CellShape) -> Self {
+        Self { cell, ..self }
     }
 
     /// The axes.
     #[must_use]
-    pub const fn axes(&self) -> Axes {
+    pub const fn axes(&self) -> OrderedAxes {
         self.axes
+    }
+
+    /// The shape of a cell.
+    #[must_use]
+    pub const fn cell(&self) -> CellShape {
+        self.cell
+    }
+
+    /// The point at a physical `length` from another in a physical direction, y downwards.
+    #[must_use]
+    pub fn ahead(&self, from: [f64; 2], direction: [f64; 2], length: f64) -> [f64; 2] {
+        let sides = self.cell.sides();
+        [0, 1].map(|i| from[i] + length * direction[i] / sides[i])
     }
 
     /// The field.
@@ -90,7 +127,7 @@ impl<'a> Interpolated<'a> {
         self.axes.of(&self.at(point)?, least)
     }
 
-    /// Direction (unit vector in cells, y downwards) of an axis at a point, with either sign; `None` as [`Self::frame`].
+    /// Direction (physical unit vector, y downwards) of an axis at a point, with either sign; `None` as [`Self::frame`].
     #[must_use]
     pub fn direction(&self, point: [f64; 2], family: Family, least: f64) -> Option<[f64; 2]> {
         let [x, y] = self.frame(point, least)?.axes[family as usize];
@@ -101,6 +138,7 @@ impl<'a> Interpolated<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Major;
     use tigereye_core::Grid;
 
     #[test]
@@ -152,6 +190,41 @@ mod tests {
                 [a * a + b * b, a * c + b * d, c * c + d * d]
             };
             assert!(square(s).iter().zip(square(t)).all(|(a, b)| (a - b).abs() < 1e-12), "{t:?}");
+        }
+    }
+
+    /// Symmetric tensors stay; others keep their ellipse, with the sign of what they do along each of its axes.
+    #[test]
+    fn signed_ellipses_stretch_and_squeeze_along_the_axes() {
+        let tensors = [
+            Tensor2::new(1.0, 2.0, -0.5, 0.25),
+            Tensor2::new(-1.0, 2.0, -0.5, 0.25),
+            Tensor2::new(-1.0, 2.0, 0.5, -0.25),
+            Tensor2::new(1.0, -2.0, -0.5, -0.5),
+            Tensor2::from_axes(2.0, 3.0, 1.0),
+            Tensor2::symmetric(-1.0, 0.5, 2.0),
+            Tensor2::symmetric(2.0, 0.0, -2.0),
+        ];
+        for t in tensors {
+            let field = Field::from_fn(Grid::new(1, 1).expect("a size"), |_| t);
+            let s = *signed_ellipse_tensors(&field).at(Cell::new(0, 0));
+            if t.asymmetry() == 0.0 {
+                assert_eq!(s, t);
+                continue;
+            }
+            let along =
+                |t: &Tensor2, [x, y]: [f64; 2]| x * (t.xx() * x + t.xy() * y) + y * (t.yx() * x + t.yy() * y);
+            let svd = Svd::of(&t);
+            let [x, y] = svd.major();
+            for (axis, length) in [([x, y], svd.s[0]), ([-y, x], svd.s[1])] {
+                let (own, signed) = (along(&t, axis), along(&s, axis));
+                assert!((signed.abs() - length).abs() < 1e-14 && own * signed > 0.0, "{t:?}: {own} {signed}");
+            }
+            // The larger eigenvalue of the one belongs to the larger u . T u of the other.
+            let [by_value, eigen] =
+                [Axes::HalfAxes.by(Major::Value).of(&t, 0.0), Axes::Eigenvectors.of(&s, 0.0)]
+                    .map(|f| f.expect("axes").axes[0]);
+            assert!((by_value[0] * eigen[1] - by_value[1] * eigen[0]).abs() < 1e-14, "{t:?}");
         }
     }
 

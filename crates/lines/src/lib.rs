@@ -1,6 +1,7 @@
 //! Lines along the axes of tensors, the points where tensors have none, how far lines part; textures; ridges and contours of scalars.
 //!
-//! Points are `[x, y]` in cells: (0, 0) is the centre of the upper left cell, x to the right, y **downwards**. Between the
+//! Points are `[x, y]` in cells: (0, 0) is the centre of the upper left cell, x to the right, y **downwards**. Directions and
+//! lengths are physical, in the unit of the smaller side of a cell ([`tigereye_core::CellShape`]): cells too, where these are square. Between the
 //! centres of four cells tensors are interpolated component by component. Axes ([`Axes`]) have no sign: a line goes on in the
 //! direction that is nearer to where it came from.
 //!
@@ -28,7 +29,7 @@ mod topology;
 mod volume;
 mod walk;
 
-pub use axes::{Axes, Decomposition, Domain, Family, Frame};
+pub use axes::{Axes, Decomposition, Domain, Family, Frame, Major, OrderedAxes};
 pub use contours::{isolines, isosurface};
 pub use convolution::{ConvolutionOptions, convolved, hyper_convolved};
 pub use degenerate::{DegenerateKind, DegeneratePoint, degenerate_points};
@@ -36,7 +37,7 @@ pub use extraction_error::ExtractionError;
 pub use flow_map::{advected, exponents};
 pub use ftle::{Ftle, FtleOptions, SamplingError, fine_grid, ftle};
 pub use hyperstreamline::half_widths;
-pub use interpolated::{Interpolated, ellipse_tensors};
+pub use interpolated::{Interpolated, ellipse_tensors, signed_ellipse_tensors};
 pub use nearest::NearestSegment;
 pub use ridges::{
     RidgeBounds, RidgeLines, RidgeOptions, RidgeSurface, Threshold, ridge_lines, ridge_surface,

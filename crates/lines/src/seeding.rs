@@ -12,7 +12,7 @@ const SHORTEST: f64 = 0.5;
 /// So many points of lines are enough: drawn, written and held in memory they are gigabytes.
 pub const MAX_POINTS: usize = 1 << 24;
 
-/// Lines about `separation` cells apart (at least 0.1), in an order that only depends on the field: seeds are tried beside the
+/// Lines about `separation` apart (in the unit of [`tigereye_core::CellShape`], at least 0.1), in an order that only depends on the field: seeds are tried beside the
 /// lines that are there, then all over the field (Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density,
 /// 1997). A line keeps away from the others, not from itself: one that winds inwards does so to its longest length. Fields
 /// without axes give no lines. After the line that makes them more than [`MAX_POINTS`] points together no further one follows.
@@ -25,28 +25,32 @@ pub fn evenly_spaced(
 ) -> Vec<TensorLine> {
     let separation = if separation >= 0.1 { separation } else { 0.1 };
     let [right, bottom] = field.extent();
-    let mut covered = Covered::new([right, bottom], separation);
+    let cell = field.cell();
+    let mut covered = Covered::new(cell.physical([right, bottom]), separation);
     let mut lines: Vec<TensorLine> = Vec::new();
     let mut queue = VecDeque::new();
     let mut points = 0;
     let middle = [0.5 * right, 0.5 * bottom];
     // Half a distance leaves no gap that a line would fit into.
     let stride = (0.5 * separation).max(1.0);
-    let along = move |last: f64| (0..=(last / stride) as usize).map(move |i| i as f64 * stride);
-    let everywhere = along(bottom).flat_map(|y| along(right).map(move |x| [x, y]));
+    let [dx, dy] = cell.in_cells([stride; 2]);
+    let along = move |last: f64, step: f64| (0..=(last / step) as usize).map(move |i| i as f64 * step);
+    let everywhere = along(bottom, dy).flat_map(|y| along(right, dx).map(move |x| [x, y]));
     for start in std::iter::once(middle).chain(everywhere) {
         queue.push_back(start);
         while let Some(seed) = queue.pop_front() {
-            if covered.is_near(seed, separation) {
+            if covered.is_near(cell.physical(seed), separation) {
                 continue;
             }
-            let line =
-                tensor_line(field, seed, family, options, &mut |p| !covered.is_near(p, CLOSEST * separation));
-            if line.points.len() < 2 || line.length() < SHORTEST * separation {
+            let line = tensor_line(field, seed, family, options, &mut |p| {
+                !covered.is_near(cell.physical(p), CLOSEST * separation)
+            });
+            if line.points.len() < 2 || line.length(cell) < SHORTEST * separation {
                 continue;
             }
-            covered.add(&line.points);
-            queue.extend(beside(&line, separation));
+            let physical: Vec<[f64; 2]> = line.points.iter().map(|p| cell.physical(*p)).collect();
+            covered.add(&physical);
+            queue.extend(beside(&physical, separation).into_iter().map(|p| cell.in_cells(p)));
             points += line.points.len();
             lines.push(line);
             if points > MAX_POINTS {
@@ -57,10 +61,10 @@ pub fn evenly_spaced(
     lines
 }
 
-/// Points to both sides of a line.
-fn beside(line: &TensorLine, separation: f64) -> Vec<[f64; 2]> {
+/// Points to both sides of a line, all physical.
+fn beside(line: &[[f64; 2]], separation: f64) -> Vec<[f64; 2]> {
     let mut seeds = Vec::new();
-    for p in line.points.windows(2).step_by(4) {
+    for p in line.windows(2).step_by(4) {
         let size = distance(p[0], p[1]);
         if size > 0.0 {
             let across = [-(p[1][1] - p[0][1]) / size, (p[1][0] - p[0][0]) / size];
@@ -73,7 +77,7 @@ fn beside(line: &TensorLine, separation: f64) -> Vec<[f64; 2]> {
     seeds
 }
 
-/// Points of finished lines, in squares.
+/// Physical points of finished lines, in squares.
 struct Covered {
     squares: Vec<Vec<[f64; 2]>>,
     columns: usize,

@@ -2,6 +2,7 @@
 
 use crate::walk::Walk;
 use crate::{Family, Interpolated};
+use tigereye_core::CellShape;
 
 /// How a line is integrated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,20 +12,20 @@ pub enum Method {
     /// The pair of orders five and four of Dormand and Prince (A family of embedded Runge-Kutta formulae, 1980), with steps as
     /// long as the error allows.
     DormandPrince {
-        /// Largest difference of the two orders within a step, cells.
+        /// Largest difference of the two orders within a step, in the unit of [`CellShape`].
         tolerance: f64,
     },
 }
 
-/// How lines are followed.
+/// How lines are followed. Lengths are in the unit of [`CellShape`]: cells, where these are square.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineOptions {
     /// How steps are made.
     pub method: Method,
-    /// Length of a step, cells; the longest one of [`Method::DormandPrince`]. Steps are shorter before degenerate points, borders and sharp
+    /// Length of a step; the longest one of [`Method::DormandPrince`]. Steps are shorter before degenerate points, borders and sharp
     /// turns; those of more than a cell may lead across a degenerate point.
     pub step: f64,
-    /// Longest line in each direction, cells.
+    /// Longest line in each direction.
     pub length: f64,
     /// Lines end where the axes differ by less, see [`crate::Axes::of`].
     pub least_anisotropy: f64,
@@ -74,15 +75,15 @@ pub struct TensorLine {
     pub seed: usize,
     /// Why it ends at its first and at its last point.
     pub ends: [LineEnd; 2],
-    /// How far a closed line passes its seed by, cells; 0 for others. The last point of a closed line is its seed again.
+    /// How far a closed line passes its seed by, in the unit of [`CellShape`]; 0 for others. The last point of a closed line is its seed again.
     pub gap: f64,
 }
 
 impl TensorLine {
-    /// Sum of the distances of its points, cells.
+    /// Sum of the distances of its points, over cells of a shape.
     #[must_use]
-    pub fn length(&self) -> f64 {
-        self.points.windows(2).map(|p| distance(p[0], p[1])).sum()
+    pub fn length(&self, cell: CellShape) -> f64 {
+        cell.length(&self.points)
     }
 
     fn alone(seed: [f64; 2], end: LineEnd) -> Self {
@@ -90,7 +91,8 @@ impl TensorLine {
     }
 }
 
-/// A line that passes its seed at this distance or nearer, in its first direction, is closed; cells.
+/// A line that passes its seed at this distance or nearer, in its first direction, is closed; in the unit of
+/// [`CellShape`].
 const CLOSING: f64 = 0.05;
 
 /// The line through `seed`, followed in both directions. A step that is not positive, or a length of more than [`LineOptions::MAX_STEPS`],
@@ -126,7 +128,8 @@ pub fn tensor_line(
     TensorLine { points, seed: seed_at, ends: [back.end, forth.end], gap: 0.0 }
 }
 
-/// The line from `start` in one direction: along the axis there, with the sign that is nearer to `towards` (any length, not 0).
+/// The line from `start` in one direction: along the axis there, with the sign that is nearer to `towards` (physical, of any length but
+/// 0).
 /// Its first point is `start`; the second of its ends says why it ends.
 #[must_use]
 pub fn half_line(
@@ -196,7 +199,8 @@ fn follow(walk: &Walk<'_>, seed: [f64; 2], towards: [f64; 2], keep: &mut dyn FnM
             return end(points, why);
         }
         let at = line.pose().at;
-        if let Some(gap) = passes(seed, start, before, at).filter(|_| !points.is_empty()) {
+        if let Some(gap) = passes(walk.field.cell(), [seed, before, at], start).filter(|_| !points.is_empty())
+        {
             points.push(seed);
             return Way { points, end: LineEnd::Closed, gap };
         }
@@ -208,7 +212,8 @@ fn follow(walk: &Walk<'_>, seed: [f64; 2], towards: [f64; 2], keep: &mut dyn FnM
 }
 
 /// At which distance the way from `a` to `b` passes the seed in the direction in which the line began, if it is a small one.
-fn passes(seed: [f64; 2], start: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Option<f64> {
+fn passes(cell: CellShape, points: [[f64; 2]; 3], start: [f64; 2]) -> Option<f64> {
+    let [seed, a, b] = points.map(|p| cell.physical(p));
     let ahead = |p: [f64; 2]| (p[0] - seed[0]) * start[0] + (p[1] - seed[1]) * start[1];
     let (before, after) = (ahead(a), ahead(b));
     if !(before < 0.0 && after >= 0.0) {
@@ -386,7 +391,11 @@ mod tests {
         assert_eq!(line.ends, [LineEnd::Closed; 2]);
         let radius = |p: &[f64; 2]| distance(*p, [20.0, 20.0]);
         assert!(line.points.iter().all(|p| (radius(p) - 12.0).abs() < 2e-2));
-        assert!((line.length() - 2.0 * core::f64::consts::PI * 12.0).abs() < 0.1, "{}", line.length());
+        assert!(
+            (line.length(CellShape::SQUARE) - 2.0 * core::f64::consts::PI * 12.0).abs() < 0.1,
+            "{}",
+            line.length(CellShape::SQUARE)
+        );
     }
 
     #[test]
@@ -400,7 +409,7 @@ mod tests {
         let short = LineOptions { length: 1.0, ..LineOptions::default() };
         let line = follow(&straight, [4.0, 3.0], Family::Minor, &short);
         assert_eq!(line.ends, [LineEnd::Length; 2]);
-        assert!((line.length() - 2.0).abs() < 0.21);
+        assert!((line.length(CellShape::SQUARE) - 2.0).abs() < 0.21);
         for (t, end) in [(Tensor2::IDENTITY, LineEnd::Degenerate), (Tensor2::ZERO, LineEnd::Degenerate)] {
             let field = Field::from_fn(Grid::new(4, 4).expect("a size"), |_| t);
             let line = follow(&field, [1.5, 1.5], Family::Major, &LineOptions::default());
@@ -428,7 +437,11 @@ mod tests {
             let [width, height] = Interpolated::new(&field).extent();
             let whole = if seed[0] == 0.0 || seed[0] == width { height } else { width };
             assert_eq!(line.ends, [LineEnd::Border; 2], "{phi} {seed:?}");
-            assert!((line.length() - whole).abs() < 1e-4, "{phi} {seed:?}: {}", line.length());
+            assert!(
+                (line.length(CellShape::SQUARE) - whole).abs() < 1e-4,
+                "{phi} {seed:?}: {}",
+                line.length(CellShape::SQUARE)
+            );
         }
     }
 

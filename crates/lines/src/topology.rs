@@ -2,7 +2,7 @@
 
 use crate::degenerate::points_of_stretching;
 use crate::{
-    Axes, DegeneratePoint, Family, Interpolated, LineOptions, TensorLine, degenerate_points, half_line,
+    Axes, DegeneratePoint, Family, Interpolated, LineOptions, Major, TensorLine, degenerate_points, half_line,
 };
 use core::f64::consts::{PI, TAU};
 use tigereye_core::math;
@@ -32,10 +32,13 @@ impl Topology {
     /// for.
     #[must_use]
     pub fn of(field: &Interpolated<'_>, families: &[Family], options: &LineOptions) -> Self {
-        let points = match field.axes() {
-            Axes::HalfAxes => degenerate_points(field.field()),
-            // Eigenvectors and their bisectors have no direction where nothing stretches.
-            Axes::Eigenvectors | Axes::DualEigenvectors => points_of_stretching(field.field()),
+        let points = match (field.axes().axes(), field.axes().major()) {
+            (Axes::HalfAxes, Major::Magnitude) => degenerate_points(field.field()),
+            // Eigenvectors and their bisectors have no direction where nothing stretches. By value semi-axes change places along the
+            // lines of zero trace, on which the other points lie.
+            (Axes::HalfAxes, Major::Value) | (Axes::Eigenvectors | Axes::DualEigenvectors, _) => {
+                points_of_stretching(field.field())
+            }
         };
         let mut separatrices = Vec::new();
         for (point, degenerate) in points.iter().enumerate() {
@@ -47,12 +50,12 @@ impl Topology {
     }
 }
 
-/// Distances from a degenerate point at which its surroundings are looked at, cells, the nearest first. Points of one quad have
+/// Distances from a degenerate point at which its surroundings are looked at, in the unit of [`tigereye_core::CellShape`], the nearest first. Points of one quad have
 /// their pattern at any of them; points merged of several need more.
 const RADII: [f64; 6] = [0.02, 0.1, 0.3, 0.7, 1.2, 2.0];
 /// Directions that are looked at.
 const AROUND: usize = 360;
-/// The part of the half-axes by which they differ at least for a direction to be known.
+/// The part of the semi-axes by which they differ at least for a direction to be known.
 const LEAST: f64 = 1e-9;
 
 fn separatrices_of(
@@ -73,7 +76,7 @@ fn separatrices_of(
     let options = &LineOptions { least_anisotropy: LEAST, ..*options };
     let leave = |angle: f64| {
         let direction = [math::cos(angle), -math::sin(angle)];
-        let start = [0, 1].map(|i| centre[i] + radius * direction[i]);
+        let start = field.ahead(centre, direction, radius);
         let mut line = half_line(field, start, direction, family, options);
         line.points.insert(0, centre);
         line.seed = 0;
@@ -94,7 +97,7 @@ impl Ring {
         for i in 0..=AROUND {
             // Not at multiples of 45 degrees, where roots often are.
             let angle = TAU * (i as f64 + 0.37) / AROUND as f64;
-            let at = [centre[0] + radius * math::cos(angle), centre[1] - radius * math::sin(angle)];
+            let at = field.ahead(centre, [math::cos(angle), -math::sin(angle)], radius);
             let [x, y] = field.direction(at, family, LEAST)?;
             let off = math::atan2(-y, x) - angle;
             // The axis has no sign: the nearest of its angles.

@@ -21,7 +21,8 @@ pub(crate) struct Walk<'a> {
     pub(crate) options: &'a LineOptions,
 }
 
-/// A point of a line: where it is, where it goes, and what tells the axes apart there ([`crate::Frame::contrast`]).
+/// A point of a line: where it is (in cells), where it goes (a physical direction), and what tells the axes apart there
+/// ([`crate::Frame::contrast`]).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pose {
     pub(crate) at: [f64; 2],
@@ -33,7 +34,7 @@ pub(crate) struct Pose {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Progress {
     pose: Pose,
-    /// Length so far, cells.
+    /// Length so far, in the unit of [`tigereye_core::CellShape`].
     gone: f64,
     /// Length of the next step, and whether the last one had to be shortened.
     step: f64,
@@ -180,7 +181,7 @@ impl Walk<'_> {
     }
 
     fn runge_kutta(&self, from: Pose, h: f64) -> Result<Step, LineEnd> {
-        let ahead = |k: [f64; 2], h: f64| [from.at[0] + h * k[0], from.at[1] + h * k[1]];
+        let ahead = |k: [f64; 2], h: f64| self.field.ahead(from.at, k, h);
         // The step before ended with the slope that this one begins with.
         let a = from.towards;
         let (b, first) = self.slope(ahead(a, 0.5 * h), a)?;
@@ -198,7 +199,7 @@ impl Walk<'_> {
         let (mut at, mut contrast, mut least) = (from.at, 0.0, f64::INFINITY);
         for (i, weights) in STAGES.iter().enumerate() {
             let mean = |k: usize| weights.iter().zip(&slopes).map(|(w, s)| w * s[k]).sum::<f64>();
-            at = [0, 1].map(|k| from.at[k] + h * mean(k));
+            at = self.field.ahead(from.at, [0, 1].map(mean), h);
             (slopes[i + 1], contrast) = self.slope(at, slopes[i])?;
             least = least.min(contrast);
         }

@@ -208,7 +208,7 @@ fn fine(folder: &Path) -> Outcome {
     ];
     let plain = TextureOptions {
         title: "Texture along circles".to_owned(),
-        samples_a_cell: N,
+        samples_a_cell: [N; 2],
         ribbons: ribbons.clone(),
         ..TextureOptions::default()
     };

@@ -82,7 +82,7 @@ impl ColourBar<'_> {
                 core::iter::repeat_n(self.map.sample(t), columns)
             })
             .collect();
-        scene.items.push(Item::Raster(Raster { x_px: x, y_px: top, cell_px: side, columns, cells }));
+        scene.items.push(Item::Raster(Raster { x_px: x, y_px: top, cell_px: [side; 2], columns, cells }));
         let mut arrow = |tip: f64, base: f64, colour: Rgba| {
             let mut path = PathBuilder::default();
             path.polyline(&[[x, base], [x + BAR_PX, base], [x + 0.5 * BAR_PX, tip]], true);

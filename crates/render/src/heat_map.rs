@@ -12,7 +12,7 @@ use crate::ribbon::{self, Ribbon};
 use crate::sampling::{Sampling, block_mean};
 use crate::scene::Scene;
 use crate::walls;
-use tigereye_core::{Cell, Field, Surface, math};
+use tigereye_core::{Cell, CellShape, Field, Surface, math};
 
 /// How values become colours.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -56,8 +56,12 @@ pub struct HeatOptions {
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the map and its bands.
     pub overlays: Vec<Overlay>,
-    /// Pixels per cell; by default whole, such that the longer side has about 480.
+    /// Pixels of a cell's smaller side; by default whole, such that the longer side has about 480.
     pub cell_px: Option<usize>,
+    /// The shape of a cell.
+    pub cell: CellShape,
+    /// A remark for the legend.
+    pub note: Option<String>,
     /// What the legend calls cells whose value is not a number; by default `not a finite number`.
     pub missing: Option<String>,
 }
@@ -76,6 +80,8 @@ impl Default for HeatOptions {
             ribbons: Vec::new(),
             overlays: Vec::new(),
             cell_px: None,
+            cell: CellShape::SQUARE,
+            note: None,
             missing: None,
         }
     }
@@ -85,7 +91,7 @@ impl Default for HeatOptions {
 /// finite value is drawn and described as such.
 #[must_use]
 pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
-    let sampling = Sampling::of(field.grid(), options.samples_a_cell);
+    let sampling = Sampling::of(field.grid(), [options.samples_a_cell; 2]);
     let grid = sampling.cells;
     let walls = options.walls.as_ref().filter(|walls| walls.grid() == field.grid());
     let seen = seen_values(field, walls);
@@ -103,18 +109,18 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
         below: summary.finite > 0 && !axis.logarithmic && axis.position(summary.low) < -1e-9,
         above: summary.finite > 0 && axis.position(summary.high) > 1.0 + 1e-9,
     };
-    let cell = sampling.cell_px(options.cell_px);
-    let side = bar.width((cell * grid.height() as f64).max(150.0));
+    let cell = sampling.cell_px(options.cell, options.cell_px);
+    let side = bar.width((cell[1] * grid.height() as f64).max(150.0));
     let mut page = MapFrame::begin(grid, &options.title, cell, side);
     let block = sampling.block(&page);
     let colour = |first| cell_colour(block_mean(field, first, block), &axis, map);
     page.scene.items.push(sampling.raster(&page, colour));
     page.hatch(&sampling.cells_where(|sample| !field.at(sample).is_finite()));
     let mut legend = value_legend(&seen, &summary, &axis, options.missing.as_deref(), &sampling);
-    if block > 1 {
-        let text = format!("one pixel = mean of {block} × {block} {}", sampling.places());
+    if let Some(text) = sampling.mean_in_words(block) {
         legend.push(Entry::of(Mark::None, text));
     }
+    legend.extend(options.note.as_ref().map(|note| Entry::of(Mark::None, note.clone())));
     if let Some(walls) = walls {
         walls::draw(&mut page, walls, &mut legend);
     }

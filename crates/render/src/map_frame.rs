@@ -5,7 +5,7 @@ use crate::colour::Rgba;
 use crate::font;
 use crate::legend::{self, Entry, SMALL_PX};
 use crate::scene::{Anchor, PathBuilder, Scene};
-use tigereye_core::{Cell, Grid};
+use tigereye_core::{Cell, CellShape, Grid};
 
 /// Margin around pictures in pixels.
 pub(crate) const MARGIN_PX: f64 = 16.0;
@@ -24,19 +24,19 @@ pub(crate) struct MapFrame {
     pub(crate) left: f64,
     /// Upper edge of the map in pixels.
     pub(crate) top: f64,
-    /// Side of a cell in pixels.
-    pub(crate) cell: f64,
+    /// Width and height of a cell in pixels.
+    pub(crate) cell: [f64; 2],
     pub(crate) grid: Grid,
     title: Vec<String>,
     has_side: bool,
 }
 
 impl MapFrame {
-    /// A page for `grid` with cells of `cell` pixels and, on the right, `side_px` pixels for a scale.
-    pub(crate) fn begin(grid: Grid, title: &str, cell: f64, side_px: f64) -> Self {
+    /// A page for `grid` with cells of `cell` pixels along x and y and, on the right, `side_px` pixels for a scale.
+    pub(crate) fn begin(grid: Grid, title: &str, cell: [f64; 2], side_px: f64) -> Self {
         let widest_row = font::text_width(&(grid.height() - 1).to_string(), SMALL_PX);
         let left = MARGIN_PX + 22.0 + widest_row + 8.0;
-        let map_width = cell * grid.width() as f64;
+        let map_width = cell[0] * grid.width() as f64;
         let width_px = (left + map_width + side_px).max(LEAST_WIDTH_PX) + MARGIN_PX;
         let title = font::wrapped(title, TITLE_PX, width_px - left - MARGIN_PX);
         let top = MARGIN_PX + TITLE_LINE_PX * title.len() as f64 + if title.is_empty() { 0.0 } else { 6.0 };
@@ -45,11 +45,16 @@ impl MapFrame {
     }
 
     pub(crate) fn width(&self) -> f64 {
-        self.cell * self.grid.width() as f64
+        self.cell[0] * self.grid.width() as f64
     }
 
     pub(crate) fn height(&self) -> f64 {
-        self.cell * self.grid.height() as f64
+        self.cell[1] * self.grid.height() as f64
+    }
+
+    /// The smaller side of a cell in pixels.
+    pub(crate) fn smaller_side(&self) -> f64 {
+        self.cell[0].min(self.cell[1])
     }
 
     /// Height available to a scale on the right.
@@ -64,33 +69,29 @@ impl MapFrame {
 
     /// Pixels of a point given in cells: (0, 0) is the centre of the upper left cell, y downwards.
     pub(crate) fn point(&self, x: f64, y: f64) -> [f64; 2] {
-        [self.left + (x + 0.5) * self.cell, self.top + (y + 0.5) * self.cell]
+        [self.left + (x + 0.5) * self.cell[0], self.top + (y + 0.5) * self.cell[1]]
     }
 
     /// The outlines of `cells`.
     pub(crate) fn squares(&self, cells: impl IntoIterator<Item = Cell>) -> PathBuilder {
         let mut path = PathBuilder::default();
         for c in cells.into_iter().filter(|c| self.grid.contains(*c)) {
-            path.rect(
-                self.left + c.x as f64 * self.cell,
-                self.top + c.y as f64 * self.cell,
-                self.cell,
-                self.cell,
-            );
+            let [width, height] = self.cell;
+            path.rect(self.left + c.x as f64 * width, self.top + c.y as f64 * height, width, height);
         }
         path
     }
 
     /// Diagonal strokes through `cells`, where cells are large enough to show them.
     pub(crate) fn hatch(&mut self, cells: &[Cell]) {
-        if self.cell < 4.0 || cells.is_empty() {
+        if self.smaller_side() < 4.0 || cells.is_empty() {
             return;
         }
         let mut path = PathBuilder::default();
         for c in cells {
             let [x, y] = self.centre(*c);
-            let r = 0.5 * self.cell;
-            path.line([x - r, y + r], [x + r, y - r]);
+            let [r, s] = self.cell.map(|side| 0.5 * side);
+            path.line([x - r, y + s], [x + r, y - s]);
         }
         self.scene.stroke(path.finish(), Rgba::WHITE, 1.0);
     }
@@ -101,11 +102,11 @@ impl MapFrame {
             (self.left, self.top, self.left + self.width(), self.top + self.height());
         let mut path = PathBuilder::default();
         for x in 1..self.grid.width() {
-            let x = left + x as f64 * self.cell;
+            let x = left + x as f64 * self.cell[0];
             path.line([x, top], [x, bottom]);
         }
         for y in 1..self.grid.height() {
-            let y = top + y as f64 * self.cell;
+            let y = top + y as f64 * self.cell[1];
             path.line([left, y], [right, y]);
         }
         if every == 1 && !path.is_empty() {
@@ -138,12 +139,12 @@ impl MapFrame {
         let mut frame = PathBuilder::default();
         frame.rect(left, top, width, height);
         let mut numbers = Vec::new();
-        for x in axis::cell_ticks(self.grid.width(), self.cell, 40.0) {
+        for x in axis::cell_ticks(self.grid.width(), self.cell[0], 40.0) {
             let at = self.point(x as f64, 0.0)[0];
             frame.line([at, top + height], [at, top + height + 4.0]);
             numbers.push(([at, top + height + 16.0], x.to_string(), Anchor::Middle));
         }
-        for y in axis::cell_ticks(self.grid.height(), self.cell, 40.0) {
+        for y in axis::cell_ticks(self.grid.height(), self.cell[1], 40.0) {
             let at = self.point(0.0, y as f64)[1];
             frame.line([left - 4.0, at], [left, at]);
             let baseline = at + 0.5 * font::CAP_HEIGHT_EM * SMALL_PX;
@@ -165,17 +166,22 @@ impl MapFrame {
     }
 }
 
-/// Pixels per cell: those asked for, or such that the longer side stays within `target_px`: a whole number up to `most`, or one over a
-/// whole number where cells are smaller than pixels.
-pub(crate) fn cell_px(grid: Grid, fixed: Option<usize>, target_px: usize, most: usize) -> f64 {
-    if let Some(px) = fixed {
-        return px.max(1) as f64;
-    }
-    let longer = grid.width().max(grid.height());
-    if longer <= target_px {
-        return (target_px / longer).min(most) as f64;
-    }
-    1.0 / longer.div_ceil(target_px) as f64
+/// Width and height of a cell in pixels. Its smaller side has those asked for, or such that the longer side of the map stays within
+/// `target_px`: a whole number up to `most`, or one over a whole number where cells are smaller than pixels.
+pub(crate) fn cell_px(
+    grid: Grid,
+    shape: CellShape,
+    fixed: Option<usize>,
+    target_px: usize,
+    most: usize,
+) -> [f64; 2] {
+    let longer = shape.longer_side([grid.width(), grid.height()]).ceil() as usize;
+    let smaller = match fixed {
+        Some(px) => px.max(1) as f64,
+        None if longer <= target_px => (target_px / longer.max(1)).min(most) as f64,
+        None => 1.0 / longer.div_ceil(target_px) as f64,
+    };
+    shape.sides().map(|side| smaller * side)
 }
 
 /// The step with which cells are skipped so that neighbouring glyphs are at least `pitch_px` apart.

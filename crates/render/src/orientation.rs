@@ -7,15 +7,17 @@ use crate::map_frame::{self, MapFrame};
 use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
 use crate::scene::{Anchor, Item, PathBuilder, Raster, Scene};
-use tigereye_core::{Anisotropy, Cell, Field, Svd, Tensor2, math};
+use tigereye_core::{Anisotropy, Cell, CellShape, Field, Svd, Tensor2, math};
 
 /// Options of [`orientation_map`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OrientationOptions {
     /// Title; empty for none.
     pub title: String,
-    /// Pixels per cell; by default whole, such that the longer side has about 480.
+    /// Pixels of a cell's smaller side; by default whole, such that the longer side has about 480.
     pub cell_px: Option<usize>,
+    /// The shape of a cell.
+    pub cell: CellShape,
     /// Bands, such as hyperstreamlines.
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the map and bands.
@@ -28,14 +30,14 @@ const RING_PX: f64 = 56.0;
 const GAP_PX: f64 = 48.0;
 const SIDE_PX: f64 = GAP_PX + 2.0 * RING_PX + 22.0;
 
-/// The direction of the major half-axis modulo 180 degrees in a cyclic colour map, faded to grey where the tensor is
+/// The direction of the longer semi-axis modulo 180 degrees in a cyclic colour map, faded to grey where the tensor is
 /// isotropic, with a half ring of directions as legend.
 #[must_use]
 pub fn orientation_map(field: &Field<Tensor2>, options: &OrientationOptions) -> Scene {
     let grid = field.grid();
     // Directions have no mean that pixels could show: large grids are sampled.
-    let cell = map_frame::cell_px(grid, options.cell_px, 480, 40);
-    let block = (1.0 / cell).round().max(1.0) as usize;
+    let cell = map_frame::cell_px(grid, options.cell, options.cell_px, 480, 40);
+    let block = (1.0 / cell[0].min(cell[1])).round().max(1.0) as usize;
     let mut page = MapFrame::begin(grid, &options.title, cell, SIDE_PX);
     page.scene.items.push(raster(field, &page, block));
     let broken: Vec<Cell> = field.iter().filter(|(_, t)| !t.is_finite()).map(|(c, _)| c).collect();
@@ -72,7 +74,7 @@ fn raster(field: &Field<Tensor2>, page: &MapFrame, block: usize) -> Item {
     Item::Raster(Raster {
         x_px: page.left,
         y_px: page.top,
-        cell_px: page.cell * block as f64,
+        cell_px: page.cell.map(|side| side * block as f64),
         columns,
         cells,
     })

@@ -56,7 +56,7 @@ fn on_map(page: &MapFrame, p: &[f64; 2]) -> bool {
 }
 
 fn draw_points(page: &mut MapFrame, overlay: &Overlay, marker: Marker) {
-    let radius = (0.3 * page.cell).clamp(2.5, 5.0);
+    let radius = (0.3 * page.smaller_side()).clamp(2.5, 5.0);
     for p in overlay.points.iter().filter(|p| on_map(page, p)).collect::<Vec<_>>() {
         let at = page.point(p[0], p[1]);
         marker.draw(&mut page.scene, at, radius, overlay.colour);
@@ -80,8 +80,8 @@ fn draw_lines(page: &mut MapFrame, overlay: &Overlay) {
 
 pub(crate) fn draw_sources(page: &mut MapFrame, sources: &[Cell], legend: &mut Vec<Entry>) {
     for source in sources.iter().filter(|s| page.grid.contains(**s)).collect::<Vec<_>>() {
-        let at = page.centre(*source);
-        Marker::Star.draw(&mut page.scene, at, (0.38 * page.cell).clamp(4.0, 8.0), SOURCE);
+        let (at, radius) = (page.centre(*source), (0.38 * page.smaller_side()).clamp(4.0, 8.0));
+        Marker::Star.draw(&mut page.scene, at, radius, SOURCE);
     }
     if !sources.is_empty() {
         let text = if sources.len() == 1 { "light source" } else { "light sources" };

@@ -6,7 +6,7 @@ use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
 use crate::scene::{PathBuilder, Scene};
 use crate::{Rgba, legend::Mark};
-use tigereye_core::{Cell, Grid};
+use tigereye_core::{Cell, CellShape, Grid};
 
 /// Options of [`plain_map`].
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -15,8 +15,10 @@ pub struct PlainOptions {
     pub title: String,
     /// What it shows, the beginning of a sentence for people who cannot see it.
     pub description: String,
-    /// Pixels per cell; by default whole, such that the longer side has about 480.
+    /// Pixels of a cell's smaller side; by default whole, such that the longer side has about 480.
     pub cell_px: Option<usize>,
+    /// The shape of a cell.
+    pub cell: CellShape,
     /// Bands, such as hyperstreamlines.
     pub ribbons: Vec<Ribbon>,
     /// The lines and points, over the bands.
@@ -37,14 +39,14 @@ const SHADE: Rgba = Rgba::hex(0xe4ebf5);
 /// Overlays on white.
 #[must_use]
 pub fn plain_map(grid: Grid, options: &PlainOptions) -> Scene {
-    let cell = map_frame::cell_px(grid, options.cell_px, 480, 40);
+    let cell = map_frame::cell_px(grid, options.cell, options.cell_px, 480, 40);
     let mut page = MapFrame::begin(grid, &options.title, cell, 0.0);
     let mut legend = Vec::new();
     for (cells, colour) in [(&options.shaded, SHADE), (&options.missing, Rgba::NOT_FINITE)] {
         let mut squares = PathBuilder::default();
         for c in cells {
-            let [x, y] = page.centre(*c);
-            squares.rect(x - 0.5 * cell, y - 0.5 * cell, cell, cell);
+            let ([x, y], [width, height]) = (page.centre(*c), cell);
+            squares.rect(x - 0.5 * width, y - 0.5 * height, width, height);
         }
         if !squares.is_empty() {
             page.scene.fill(squares.finish(), colour);

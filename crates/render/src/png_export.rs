@@ -94,8 +94,8 @@ fn draw_items(pixmap: &mut Pixmap, items: &[Item], transform: Transform) -> Resu
 
 fn draw_raster(pixmap: &mut Pixmap, raster: &Raster, transform: Transform) -> Result<(), RenderError> {
     let cells = raster_pixmap(raster)?;
-    let side = raster.cell_px as f32;
-    let placed = transform.pre_translate(raster.x_px as f32, raster.y_px as f32).pre_scale(side, side);
+    let [width, height] = raster.cell_px.map(|side| side as f32);
+    let placed = transform.pre_translate(raster.x_px as f32, raster.y_px as f32).pre_scale(width, height);
     let paint = PixmapPaint { quality: FilterQuality::Nearest, ..PixmapPaint::default() };
     pixmap.draw_pixmap(0, 0, cells.as_ref(), &paint, placed, None);
     Ok(())

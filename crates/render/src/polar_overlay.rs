@@ -7,7 +7,9 @@ use crate::overlay::{self, Overlay};
 use crate::scene::{PathBuilder, Scene};
 use crate::shapes;
 use crate::walls;
-use tigereye_core::{Cell, Directions, Field, Grid, LightDistribution, Surface, TransmissionField, math};
+use tigereye_core::{
+    Cell, CellShape, Directions, Field, Grid, LightDistribution, Surface, TransmissionField, math,
+};
 
 /// How intensity profiles are scaled against each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,6 +57,8 @@ pub struct PolarOptions {
     pub every: Option<usize>,
     /// Pixels per cell; by default whole, such that the longer side has about 720.
     pub cell_px: Option<usize>,
+    /// The shape of a cell.
+    pub cell: CellShape,
     /// Points and lines over the diagrams.
     pub overlays: Vec<Overlay>,
 }
@@ -69,6 +73,7 @@ impl Default for PolarOptions {
             walls: None,
             every: None,
             cell_px: None,
+            cell: CellShape::SQUARE,
             overlays: Vec::new(),
         }
     }
@@ -94,14 +99,15 @@ pub fn polar_overlay(
         return nothing(&options.title);
     };
     let transmission = transmission.filter(|t| t.grid() == grid);
-    let cell = map_frame::cell_px(grid, options.cell_px, 720, 72);
-    let every = options.every.unwrap_or_else(|| map_frame::stride(cell, PITCH_PX)).max(1);
+    let cell = map_frame::cell_px(grid, options.cell, options.cell_px, 720, 72);
+    let smaller = cell[0].min(cell[1]);
+    let every = options.every.unwrap_or_else(|| map_frame::stride(smaller, PITCH_PX)).max(1);
     let mut page = MapFrame::begin(grid, &options.title, cell, 0.0);
     let mut legend = Vec::new();
     draw_grounds(&mut page, transmission, options, &mut legend);
     page.grid_lines(every, Rgba::HAIRLINE);
     let cells: Vec<Cell> = map_frame::sampled_cells(grid, every).collect();
-    let radius = 0.46 * cell * every as f64;
+    let radius = 0.46 * smaller * every as f64;
     // The stroke of a few hundred diagrams must not become a carpet.
     let line_px = (radius / 14.0).clamp(0.5, 1.3);
     if let Some(t) = transmission {

@@ -6,8 +6,8 @@ use crate::map_frame::MapFrame;
 use crate::scene::PathBuilder;
 use tigereye_core::math;
 
-/// Bands drawn over a map, below its [`crate::Overlay`]s. Positions and widths are in cells: (0, 0) is the centre of the
-/// upper left cell, y downwards.
+/// Bands drawn over a map, below its [`crate::Overlay`]s. Positions are in cells: (0, 0) is the centre of the
+/// upper left cell, y downwards. Widths are in the unit of the smaller side of a cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ribbon {
     /// Meaning, for the legend; without one the ribbon does not appear there.
@@ -15,7 +15,7 @@ pub struct Ribbon {
     /// Points (x, y) of the middle line in cells. One that is not finite, or lies several maps away, interrupts the band, so
     /// that one ribbon holds many.
     pub points: Vec<[f64; 2]>,
-    /// Half the width at every point, cells, measured across the line. One that is missing, negative or not finite
+    /// Half the width at every point, measured across the line. One that is missing, negative or not finite
     /// interrupts the band.
     pub half_widths: Vec<f64>,
     /// Colour of the edges; the band itself is transparent.
@@ -68,7 +68,7 @@ fn runs(ribbon: &Ribbon, page: &MapFrame) -> Vec<Vec<Station>> {
     let stations = ribbon.points.iter().zip(&ribbon.half_widths).map(|(p, width)| {
         let near = p.iter().all(|c| c.abs() <= 4.0 * most);
         (near && *width >= 0.0 && width.is_finite())
-            .then(|| (page.point(p[0], p[1]), width.min(most) * page.cell))
+            .then(|| (page.point(p[0], p[1]), width.min(most) * page.smaller_side()))
     });
     let mut runs: Vec<Vec<Station>> = vec![Vec::new()];
     for station in stations {
@@ -202,7 +202,7 @@ mod tests {
 
     /// Polygons and edges of a ribbon on 10 x 10 cells, back in cells.
     fn drawn(points: Vec<[f64; 2]>, half_widths: Vec<f64>) -> (Vec<Vec<[f64; 2]>>, usize, usize) {
-        let mut page = MapFrame::begin(Grid::new(10, 10).expect("a grid"), "", CELL_PX, 0.0);
+        let mut page = MapFrame::begin(Grid::new(10, 10).expect("a grid"), "", [CELL_PX; 2], 0.0);
         let ribbon = Ribbon { label: "band".to_owned(), points, half_widths, ..Ribbon::default() };
         let mut legend = Vec::new();
         draw(&mut page, &[ribbon], &mut legend);

@@ -49,8 +49,8 @@ pub struct Raster {
     pub x_px: f64,
     /// Upper edge in pixels.
     pub y_px: f64,
-    /// Side of one cell in pixels; whole numbers keep cells equally large.
-    pub cell_px: f64,
+    /// Width and height of one cell in pixels; whole numbers keep cells equally large.
+    pub cell_px: [f64; 2],
     /// Cells per row, at least 1.
     pub columns: usize,
     /// Colours row by row, the upper row first.

@@ -50,8 +50,8 @@ fn write_items(out: &mut String, items: &[Item]) -> Result<(), RenderError> {
 fn write_raster(out: &mut String, raster: &Raster) -> Result<(), RenderError> {
     let data = base64::engine::general_purpose::STANDARD.encode(raster_png(raster)?);
     let (x, y) = (number(raster.x_px), number(raster.y_px));
-    let width = number(raster.cell_px * raster.columns as f64);
-    let height = number(raster.cell_px * raster.rows() as f64);
+    let width = number(raster.cell_px[0] * raster.columns as f64);
+    let height = number(raster.cell_px[1] * raster.rows() as f64);
     let _ = writeln!(
         out,
         r#"<image x="{x}" y="{y}" width="{width}" height="{height}" preserveAspectRatio="none" image-rendering="optimizeSpeed" style="image-rendering:pixelated" href="data:image/png;base64,{data}"/>"#

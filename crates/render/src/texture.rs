@@ -11,7 +11,7 @@ use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
 use crate::sampling::{Sampling, block_mean};
 use crate::scene::Scene;
-use tigereye_core::Field;
+use tigereye_core::{CellShape, Field};
 
 /// A quantity shown as the colour of a texture.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,12 +31,16 @@ pub struct Tint {
 pub struct TextureOptions {
     /// Title; empty for none.
     pub title: String,
-    /// Samples along the side of a cell, as for [`crate::HeatOptions`].
-    pub samples_a_cell: usize,
+    /// Samples a cell along x and y, as for [`crate::HeatOptions`].
+    pub samples_a_cell: [usize; 2],
     /// Colour by another quantity.
     pub tint: Option<Tint>,
-    /// Pixels per cell; by default such that samples have whole pixels and the longer side has about 480.
+    /// Pixels of a cell's smaller side; by default such that samples have whole pixels and the longer side has about 480.
     pub cell_px: Option<usize>,
+    /// The shape of a cell.
+    pub cell: CellShape,
+    /// A remark for the legend.
+    pub note: Option<String>,
     /// Bands over the map.
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the map and its bands.
@@ -49,9 +53,11 @@ impl Default for TextureOptions {
     fn default() -> Self {
         Self {
             title: String::new(),
-            samples_a_cell: 1,
+            samples_a_cell: [1; 2],
             tint: None,
             cell_px: None,
+            cell: CellShape::SQUARE,
+            note: None,
             ribbons: Vec::new(),
             overlays: Vec::new(),
             missing: None,
@@ -72,8 +78,9 @@ const MIDDLE_GREY: Rgba = Rgba::hex(0x808080);
 pub fn texture_map(texture: &Field<f64>, options: &TextureOptions) -> Result<Scene, RenderError> {
     let sampling = Sampling::of(texture.grid(), options.samples_a_cell);
     let tint = options.tint.as_ref().map(|tint| Tinting::of(tint, texture)).transpose()?;
-    let cell = sampling.cell_px(options.cell_px);
-    let side = tint.as_ref().map_or(0.0, |t| t.bar.width((cell * sampling.cells.height() as f64).max(150.0)));
+    let cell = sampling.cell_px(options.cell, options.cell_px);
+    let side =
+        tint.as_ref().map_or(0.0, |t| t.bar.width((cell[1] * sampling.cells.height() as f64).max(150.0)));
     let mut page = MapFrame::begin(sampling.cells, &options.title, cell, side);
     let block = sampling.block(&page);
     let raster = sampling.raster(&page, |first| {
@@ -88,10 +95,10 @@ pub fn texture_map(texture: &Field<f64>, options: &TextureOptions) -> Result<Sce
     let mut legend = legend(texture, tint.as_ref(), options);
     ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
-    if block > 1 {
-        let text = format!("one pixel = mean of {block} × {block} {}", sampling.places());
+    if let Some(text) = sampling.mean_in_words(block) {
         legend.push(Entry::of(Mark::None, text));
     }
+    legend.extend(options.note.as_ref().map(|note| Entry::of(Mark::None, note.clone())));
     if let Some(tint) = &tint {
         let (edge, top, height) = (page.left + page.width(), page.top, page.side_height());
         tint.bar.draw(&mut page.scene, edge, top, height);
@@ -208,7 +215,7 @@ mod tests {
         let mut texture = ramp();
         texture.values_mut()[9] = -3.0;
         texture.values_mut()[10] = f64::NAN;
-        let options = TextureOptions { samples_a_cell: 4, ..TextureOptions::default() };
+        let options = TextureOptions { samples_a_cell: [4; 2], ..TextureOptions::default() };
         let scene = texture_map(&texture, &options).expect("a map");
         let cells = &raster(&scene).cells;
         assert_eq!([cells[0], cells[8]], [Rgba::hex(0), Rgba::WHITE]);
@@ -249,7 +256,11 @@ mod tests {
                     range: Some((f64::NAN, 1.0)),
                 };
                 for tint in [None, Some(tint)] {
-                    let options = TextureOptions { samples_a_cell, tint, ..TextureOptions::default() };
+                    let options = TextureOptions {
+                        samples_a_cell: [samples_a_cell; 2],
+                        tint,
+                        ..TextureOptions::default()
+                    };
                     let scene = texture_map(&texture, &options).expect("a map");
                     assert!(scene.to_png(1.0).is_ok(), "{width} x {height}, {samples_a_cell} a cell");
                 }

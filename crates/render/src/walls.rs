@@ -71,19 +71,19 @@ pub(crate) fn draw(page: &mut MapFrame, walls: &Field<Option<Surface>>, legend: 
         if let Some(colour) = kind.fill() {
             let mut path = PathBuilder::default();
             for run in cells.chunk_by(|a, b| a.y == b.y && a.x + 1 == b.x) {
-                let (x, y) =
-                    (page.left + run[0].x as f64 * page.cell, page.top + run[0].y as f64 * page.cell);
-                path.rect(x, y, run.len() as f64 * page.cell, page.cell);
+                let [width, height] = page.cell;
+                let (x, y) = (page.left + run[0].x as f64 * width, page.top + run[0].y as f64 * height);
+                path.rect(x, y, run.len() as f64 * width, height);
             }
             page.scene.fill(path.finish(), colour);
         }
         if kind == Kind::Crystal {
             outline(page, &cells, &is_kind);
-        } else if page.cell >= LEAST_CELL_PX {
+        } else if page.smaller_side() >= LEAST_CELL_PX {
             let mut marks = Marks::default();
             for cell in &cells {
                 if let Some(surface) = walls.at(*cell) {
-                    marks.add(surface, page.centre(*cell), 0.5 * page.cell);
+                    marks.add(surface, page.centre(*cell), 0.5 * page.smaller_side());
                 }
             }
             marks.draw(&mut page.scene);
@@ -95,7 +95,7 @@ pub(crate) fn draw(page: &mut MapFrame, walls: &Field<Option<Surface>>, legend: 
 /// Draws the rim of a region: the sides of its cells that no other one of it shares.
 fn outline(page: &mut MapFrame, cells: &[Cell], belongs: &dyn Fn(Cell) -> bool) {
     let mut rim = PathBuilder::default();
-    let r = 0.5 * page.cell;
+    let [r, s] = page.cell.map(|side| 0.5 * side);
     for cell in cells {
         let [x, y] = page.centre(*cell);
         let beside = |dx: isize, dy: isize| {
@@ -104,8 +104,8 @@ fn outline(page: &mut MapFrame, cells: &[Cell], belongs: &dyn Fn(Cell) -> bool) 
         };
         for (dx, dy) in [(1, 0), (0, 1), (-1, 0), (0, -1)] {
             if !beside(dx, dy) {
-                let (ux, uy) = (r * dx as f64, r * dy as f64);
-                rim.line([x + ux - uy, y + uy + ux], [x + ux + uy, y + uy - ux]);
+                let (ux, uy) = (dx as f64, dy as f64);
+                rim.line([x + r * (ux - uy), y + s * (uy + ux)], [x + r * (ux + uy), y + s * (uy - ux)]);
             }
         }
     }

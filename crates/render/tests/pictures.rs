@@ -138,7 +138,7 @@ fn fine_maps_have_the_frame_of_their_cells() {
         Item::Raster(raster) => raster.clone(),
         other => panic!("a raster, not {other:?}"),
     });
-    assert_eq!(rasters[1].cell_px, 4.0);
+    assert_eq!(rasters[1].cell_px, [4.0; 2]);
     // The outer edge of the first sample lies half a cell less half a sample further in.
     assert_eq!(rasters[1].x_px - rasters[0].x_px, 6.0);
     assert_eq!(rasters[0].cells[0], rasters[1].cells[0]);

@@ -1,18 +1,20 @@
 //! The command line of the classical methods.
 
 use super::reading::ReadingArgs;
+use crate::error::CliError;
+use crate::input::Input;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use tigereye_core::{Field, Tensor2};
-use tigereye_experiments::classical::usual_axes;
-use tigereye_lines::{Axes, Family};
+use tigereye_core::CellShape;
+use tigereye_experiments::classical::{Following, usual_axes};
+use tigereye_lines::{Axes, Family, Major};
 
 /// The axes that lines follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum AxesName {
-    /// Half-axes of the ellipse: what light sees.
+    /// Semi-axes of the ellipse: what light sees.
     Half,
-    /// Eigenvectors by the size of their eigenvalues with sign; pseudo-eigenvectors where these are complex.
+    /// Eigenvectors; pseudo-eigenvectors where eigenvalues are complex.
     Eigen,
     /// Dual eigenvectors, halfway between the eigenvectors; only for tensors that are not symmetric.
     Dual,
@@ -28,10 +30,19 @@ impl From<AxesName> for Axes {
     }
 }
 
+/// By what the major axis is the larger one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MajorName {
+    /// By the value with its sign, as in mechanics: tension before compression.
+    Value,
+    /// By the size of the value, as light sees it: the longer one.
+    Magnitude,
+}
+
 /// Which of the two axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum FamilyName {
-    /// The longer half-axis, or the larger eigenvalue.
+    /// The larger one, see --major.
     Major,
     /// The other one.
     Minor,
@@ -63,9 +74,12 @@ pub(crate) enum MethodName {
 pub(crate) struct AxesArgs {
     /// A data file, a field file or a generator.
     pub(crate) input: String,
-    /// The axes to follow; by default eigen where all tensors are symmetric, half otherwise.
+    /// The axes to follow; by default eigen where the field is symmetric (but for rounding), half otherwise.
     #[arg(long, value_enum)]
     axes: Option<AxesName>,
+    /// Which axis is the major one where signs are mixed; by default eigenvectors by value, semi-axes by magnitude.
+    #[arg(long, value_enum)]
+    major: Option<MajorName>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
     /// Summary as JSON on standard output.
@@ -74,9 +88,19 @@ pub(crate) struct AxesArgs {
 }
 
 impl AxesArgs {
-    /// The axes asked for, or those that are usual for such a field.
-    pub(crate) fn axes(&self, field: &Field<Tensor2>) -> Axes {
-        self.axes.map_or_else(|| usual_axes(field), Axes::from)
+    /// The axes asked for, or those that are usual for such a field, over the cells of the input.
+    pub(crate) fn following(&self, input: &Input) -> Result<Following, CliError> {
+        let axes = self.axes.map_or_else(|| usual_axes(&input.field), Axes::from);
+        if axes == Axes::DualEigenvectors && self.major.is_some() {
+            let problem = "changes nothing: dual eigenvectors have one order, the longer first (expected --axes eigen or half)";
+            return Err(CliError::input("--major", problem));
+        }
+        let ordered = match self.major {
+            None => axes.into(),
+            Some(MajorName::Value) => axes.by(Major::Value),
+            Some(MajorName::Magnitude) => axes.by(Major::Magnitude),
+        };
+        Ok(Following { axes: ordered, cell: CellShape::of(input.spacing) })
     }
 }
 
@@ -88,7 +112,8 @@ pub(crate) struct LinesArgs {
     /// Which lines.
     #[arg(long, value_enum, default_value_t = FamilyName::Major)]
     pub(crate) family: FamilyName,
-    /// Distance of the lines, cells, from 0.1; by default a fortieth of the longer side.
+    /// Distance of the lines, cells (sides of the smaller length where cells are not square), from 0.1; by default a fortieth of the
+    /// longer side.
     #[arg(long, value_name = "CELLS", value_parser = parse_separation, conflicts_with = "seeds")]
     pub(crate) separation: Option<f64>,
     /// A point that a line goes through, in cells from the centre of the upper left one, y downwards; may be repeated.
@@ -97,13 +122,13 @@ pub(crate) struct LinesArgs {
     /// How lines are integrated.
     #[arg(long, value_enum, default_value_t = MethodName::Rk4)]
     pub(crate) method: MethodName,
-    /// Step, cells; the longest one with rk45.
+    /// Step, cells (smaller sides); the longest one with rk45.
     #[arg(long, value_name = "CELLS", default_value = "0.1", value_parser = parse_step)]
     pub(crate) step: f64,
-    /// Largest error of a step with rk45, cells; 1e-6 by default.
+    /// Largest error of a step with rk45, cells (smaller sides); 1e-6 by default.
     #[arg(long, value_name = "CELLS", value_parser = parse_tolerance)]
     pub(crate) tolerance: Option<f64>,
-    /// Longest line to each side of its seed, cells; by default four times the longer side.
+    /// Longest line to each side of its seed, cells (smaller sides); by default four times the longer side.
     #[arg(long, value_name = "CELLS", value_parser = parse_length)]
     pub(crate) length: Option<f64>,
     /// Lines end where the axes differ by less than this part of the longer one; with --inertia it only says where they begin.
@@ -113,7 +138,7 @@ pub(crate) struct LinesArgs {
     /// step, so that --step matters.
     #[arg(long, value_name = "W", value_parser = parse_share)]
     pub(crate) inertia: Option<f64>,
-    /// Hyperstreamlines: half of the width, cells, that the largest half-axis or eigenvalue of the field gets.
+    /// Hyperstreamlines: half of the width, cells (smaller sides), that the largest semi-axis or eigenvalue of the field gets.
     #[arg(long, value_name = "CELLS", num_args = 0..=1, default_missing_value = "1", value_parser = parse_step)]
     pub(crate) ribbon: Option<f64>,
     #[command(flatten)]
@@ -128,10 +153,10 @@ pub(crate) struct TopologyArgs {
     /// Whose separatrices.
     #[arg(long, value_enum, default_value_t = FamilyName::Major)]
     pub(crate) family: FamilyName,
-    /// Step of the separatrices, cells.
+    /// Step of the separatrices, cells (smaller sides).
     #[arg(long, value_name = "CELLS", default_value = "0.1", value_parser = parse_step)]
     pub(crate) step: f64,
-    /// Longest separatrix, cells; by default four times the longer side.
+    /// Longest separatrix, cells (smaller sides); by default four times the longer side.
     #[arg(long, value_name = "CELLS", value_parser = parse_length)]
     pub(crate) length: Option<f64>,
     #[command(flatten)]
@@ -149,10 +174,10 @@ pub(crate) struct LicArgs {
     /// Along which axis.
     #[arg(long, value_enum, default_value_t = OneFamily::Major)]
     pub(crate) family: OneFamily,
-    /// How far noise is smeared to each side, cells; with --hyper along the longer axis.
+    /// How far noise is smeared to each side, cells (smaller sides); with --hyper along the longer axis.
     #[arg(long, value_name = "CELLS", default_value = "5", value_parser = parse_smear)]
     pub(crate) half_length: f64,
-    /// Samples a cell along each side.
+    /// Samples a cell along its smaller side; about as far apart along the other.
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = parse_samples)]
     pub(crate) samples: usize,
     /// Seed of the noise.
@@ -173,13 +198,13 @@ pub(crate) struct FtleArgs {
     /// Which lines.
     #[arg(long, value_enum, default_value_t = OneFamily::Major)]
     pub(crate) family: OneFamily,
-    /// Length of the lines to each side, cells.
+    /// Length of the lines to each side, cells (smaller sides).
     #[arg(long, value_name = "CELLS", default_value = "10", value_parser = parse_reach)]
     pub(crate) length: f64,
     /// Samples a cell along each side.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = parse_samples)]
     pub(crate) samples: usize,
-    /// Step of the lines, cells.
+    /// Step of the lines, cells (smaller sides).
     #[arg(long, value_name = "CELLS", default_value = "0.25", value_parser = parse_coarse_step)]
     pub(crate) step: f64,
     #[command(flatten)]
@@ -202,7 +227,7 @@ pub(crate) struct GlyphsArgs {
     /// How glyphs are scaled against each other.
     #[arg(long, value_enum, default_value_t = ScaleName::Field)]
     pub(crate) scale: ScaleName,
-    /// What colours mean; by default the signs where all tensors are symmetric, the anisotropy otherwise.
+    /// What colours mean; by default the signs where the field is symmetric (but for rounding), the anisotropy otherwise.
     #[arg(long, value_enum)]
     pub(crate) colour: Option<ColourName>,
     /// A glyph for every n-th cell; by default as many as stay readable, and all in a .vtp.
@@ -235,12 +260,13 @@ pub(crate) struct RidgesArgs {
     /// Ridges are at least as strong as this part of the strongest curvature.
     #[arg(long, value_name = "F", default_value = "0.05", value_parser = parse_share)]
     pub(crate) least_strength: f64,
-    /// Ridges are at least so many cells long, or square cells large.
+    /// Ridges are at least so many cells long, or square cells large; sides of the smaller length where cells are not square.
     #[arg(long, value_name = "CELLS", default_value = "2", value_parser = parse_extent)]
     pub(crate) least_length: f64,
-    /// How many cells the distance of two layers counts for; what is across a ridge depends on it.
-    #[arg(long, value_name = "CELLS", default_value = "1", value_parser = parse_step)]
-    pub(crate) direction_length: f64,
+    /// How many cells (smaller sides) the distance of two layers counts for; what is across a ridge depends on it. By default 1 for the
+    /// directions of a gradient, and the file's own distance otherwise.
+    #[arg(long, value_name = "CELLS", value_parser = parse_step)]
+    pub(crate) direction_length: Option<f64>,
     /// Steps a cell in which ridges are looked for; 2 for a layer and 1 for surfaces by default.
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) samples: Option<usize>,
@@ -252,7 +278,7 @@ pub(crate) struct RidgesArgs {
 /// One of the two axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum OneFamily {
-    /// The longer half-axis, or the larger eigenvalue.
+    /// The larger one, see --major.
     Major,
     /// The other one.
     Minor,
@@ -272,7 +298,7 @@ impl From<OneFamily> for Family {
 pub(crate) enum KindName {
     /// The ellipse that the tensor makes of the unit circle.
     Ellipse,
-    /// A rectangle along the half-axes.
+    /// A rectangle along the semi-axes.
     Box,
     /// A superellipse: round where isotropic, boxier the more anisotropic (Kindlmann 2004).
     Superquadric,

@@ -8,7 +8,8 @@ use crate::input::{Input, insert_reading};
 use crate::{files, interrupt};
 use serde_json::Value;
 use std::path::PathBuf;
-use tigereye_experiments::classical::Placement;
+use tigereye_core::CellShape;
+use tigereye_experiments::classical::{Following, Placement};
 use tigereye_experiments::provenance::provenance;
 use tigereye_io::IoError;
 use tigereye_lines::LineOptions;
@@ -28,7 +29,7 @@ pub(super) fn check_outputs(outputs: &[PathBuf], endings: &[&str]) -> Result<(),
 
 /// The input, unless it is among the outputs. From here on an interrupt ends the program.
 pub(super) fn open_input(text: &str, reading: &ReadingArgs, outputs: &[PathBuf]) -> Result<Input, CliError> {
-    let input = Input::open_for_squares(text, reading)?;
+    let input = Input::open(text, reading)?;
     input.check_apart(outputs)?;
     interrupt::end_at_once();
     Ok(input)
@@ -58,9 +59,14 @@ pub(super) const fn placement(input: &Input) -> Placement {
     Placement::new(input.origin, input.spacing, input.field.grid())
 }
 
-/// Cells of the longer side.
-pub(super) fn longer_side(input: &Input) -> f64 {
-    input.field.grid().width().max(input.field.grid().height()) as f64
+/// What lengths are counted in: cells, or the smaller side of those that are not square.
+pub(super) fn unit(following: &Following) -> &'static str {
+    if following.cell == CellShape::SQUARE { "cells" } else { "smaller cell sides" }
+}
+
+/// One of what lengths are counted in.
+pub(super) fn one_unit(following: &Following) -> &'static str {
+    if following.cell == CellShape::SQUARE { "cell" } else { "smaller cell side" }
 }
 
 /// Writes a picture to every output that is one, and data to the others.

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::path::Path;
-use tigereye_core::Cell;
+use tigereye_core::{Cell, CellShape};
 use tigereye_experiments::field_file;
 use tigereye_experiments::lint::{self, Oddity};
 use tigereye_experiments::sheet::{SheetOptions, sheet};
@@ -81,6 +81,7 @@ pub(crate) fn show(args: &FieldShowArgs) -> Result<u8, CliError> {
         normalization: input.normalization(args.normalization),
         light: args.light.map(|[x, y]| Cell::new(x, y)),
         slice_deg: args.slice_deg,
+        cell: CellShape::of(input.spacing),
         level: system::level()?,
     };
     let picture = sheet(&input.field, &options, &Interruption);

@@ -5,21 +5,23 @@ use crate::commands::{drawing, print_json, print_text};
 use crate::error::CliError;
 use serde_json::json;
 use tigereye_experiments::classical::fine::{exponents, exponents_picture, image};
-use tigereye_experiments::classical::{axes_name, family_name};
+use tigereye_experiments::classical::{axes_name, axes_words, family_name, major_name};
 use tigereye_io::vti;
 use tigereye_lines::{Family, FtleOptions};
 
 pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vti", "png", "svg"])?;
     let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
-    let axes = args.of.axes(&input.field);
+    let following = args.of.following(&input)?;
+    let axes = following.axes;
     let family = Family::from(args.family);
     let (length, step, samples) = (args.length, args.step, args.samples);
     let options = FtleOptions { length, step, samples, ..FtleOptions::default() };
-    let found =
-        exponents(&input.field, axes, family, &options).map_err(|e| CliError::input(&args.of.input, e))?;
+    let found = exponents(&input.field, following, family, &options)
+        .map_err(|e| CliError::input(&args.of.input, e))?;
     let parameters = json!({
-        "axes": axes_name(axes),
+        "axes": axes_name(axes.axes()),
+        "major": major_name(axes.major()),
         "family": family_name(family),
         "length": length,
         "step": step,
@@ -28,10 +30,10 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     let story = drawing::story(&input, parameters, &args.of.reading);
     drawing::write(
         &args.outputs,
-        &|| Ok(exponents_picture(&found, &args.of.input, Vec::new(), None)),
+        &|| Ok(exponents_picture(&found, axes, &args.of.input, Vec::new(), None)),
         &|| {
             let arrays = [("FTLE", &found.larger), ("FTLE_smaller", &found.smaller)];
-            vti::write(&image(&arrays, samples, &drawing::placement(&input), &story))
+            vti::write(&image(&arrays, [samples; 2], &drawing::placement(&input), &story))
         },
     )?;
     let finite = || found.larger.values().iter().copied().filter(|v| v.is_finite());
@@ -44,6 +46,8 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
             "width": width,
             "height": height,
             "samples": samples,
+            "axes": axes_name(axes.axes()),
+            "major": major_name(axes.major()),
             "lines": 2 * count,
             "left": found.left,
             "max": if count > 0 { json!(largest) } else { json!(null) },
@@ -61,8 +65,10 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     } else {
         let left = 100.0 * found.left;
         print_text(&format!(
-            "{width} x {height} samples, at most {largest:.6} per cell, {mean:.6} on average; \
-             {left:.1} % of the lines leave before their length\n"
+            "{width} x {height} samples, at most {largest:.6} per {}, {mean:.6} on average; \
+             {left:.1} % of the lines leave before their length; {}\n",
+            drawing::one_unit(&following),
+            axes_words(axes)
         ))?;
     }
     Ok(0)

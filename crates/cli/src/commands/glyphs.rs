@@ -6,10 +6,9 @@ use crate::error::CliError;
 use crate::files;
 use clap::ValueEnum;
 use serde_json::json;
+use tigereye_core::{CellShape, Symmetry};
 use tigereye_experiments::classical::glyphs::{check, poly_data};
-use tigereye_experiments::classical::usual_axes;
 use tigereye_io::vtp;
-use tigereye_lines::Axes;
 use tigereye_render::{GlyphColour, GlyphKind, GlyphOptions, GlyphScale, glyphs};
 
 pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
@@ -29,7 +28,7 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
         ScaleName::Glyph => GlyphScale::Glyph,
     };
     // Signs of eigenvalues say something of symmetric tensors only, and of the glyphs made for them.
-    let signs = usual_axes(&input.field) == Axes::Eigenvectors
+    let signs = Symmetry::of(&input.field).is_symmetric()
         || matches!(args.kind, KindName::Signed | KindName::Arrows | KindName::Asymmetric);
     let colour = match args.colour {
         Some(ColourName::Sign) => GlyphColour::AxisSign,
@@ -44,7 +43,9 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
             "is the sharpness of superquadrics: expected --kind superquadric",
         ));
     }
-    let options = GlyphOptions { title, kind, scale, colour, every: args.every, ..GlyphOptions::default() };
+    let cell = CellShape::of(input.spacing);
+    let options =
+        GlyphOptions { title, kind, scale, colour, every: args.every, cell, ..GlyphOptions::default() };
     let parameters = json!({ "kind": name_of(args.kind), "scale": name_of(args.scale), "every": args.every });
     let story = drawing::story(&input, parameters, &args.reading);
     if args.outputs.iter().any(|o| files::extension(o) == "vtp") {

@@ -9,16 +9,14 @@ use crate::interrupt;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
-use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Tensor2, is_totally_anisotropic};
+use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Symmetry, Tensor2, is_totally_anisotropic};
 use tigereye_experiments::classical::is_complex;
 use tigereye_experiments::input::{Content, Reading, TensorFile, suggested_local_above};
 use tigereye_io::volume::lattice_from_image;
 use tigereye_io::{DataArray, IoError, PROVENANCE, Wanted, vti};
 
-/// Relative difference of the half-axes below which a tensor counts as degenerate.
-const DEGENERATE_BELOW: f64 = 1e-9;
-/// `|xy - yx|` over the largest component above which a tensor counts as asymmetric.
-const ASYMMETRIC_ABOVE: f64 = 1e-9;
+/// Relative difference of the semi-axes below which a tensor counts as degenerate: files hold single precision.
+const DEGENERATE_BELOW: f64 = 1e-6;
 
 pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
     if let Some(facts) = facts_of_result(args)? {
@@ -119,6 +117,10 @@ fn result_as_text(facts: &Value) -> String {
 fn facts(input: &Input) -> Value {
     let field = &input.field;
     let grid = field.grid();
+    let symmetry = Symmetry::of(field);
+    // What rounding made asymmetric has real eigenvalues.
+    let plain = field.without_rounding();
+    let complex = plain.values().iter().filter(|t| is_complex(t)).count() as f64 / grid.cells() as f64;
     let share = |test: &dyn Fn(&Tensor2) -> bool| {
         field.values().iter().filter(|t| test(t)).count() as f64 / grid.cells() as f64
     };
@@ -150,10 +152,10 @@ fn facts(input: &Input) -> Value {
         "shares": {
             "zero": share(&Tensor2::is_zero),
             "degenerate": share(&is_degenerate),
-            "asymmetric": share(&|t| t.asymmetry() > ASYMMETRIC_ABOVE * t.max_abs()),
-            "complex": share(&is_complex),
+            "asymmetric": share(&|t| !symmetry.has_symmetric(t)),
+            "complex": complex,
             "indefinite": share(&|t| Eigenvalues::of(t).is_indefinite()),
-            "negative": share(&|t| Eigenvalues::of(t).real_parts()[1] < 0.0),
+            "negative": share(&|t| Eigenvalues::of(t).negative() > 0),
             "total_anisotropy": share(&|t| !t.is_zero() && is_totally_anisotropic(t)),
         },
     })
@@ -164,16 +166,16 @@ fn fractional(t: &Tensor2) -> f64 {
     Anisotropy::of(t).fractional
 }
 
-/// Tensors with none, one and two eigenvalues (real parts) below zero.
+/// Tensors with none, one and two eigenvalues (real parts) below zero by more than rounding.
 fn negative_eigenvalues(field: &Field<Tensor2>) -> [usize; 3] {
     let mut counts = [0; 3];
     for t in field.values() {
-        counts[Eigenvalues::of(t).real_parts().iter().filter(|v| **v < 0.0).count()] += 1;
+        counts[Eigenvalues::of(t).negative()] += 1;
     }
     counts
 }
 
-/// Half-axes of equal length: the direction of the tensor is undefined. Zero tensors are counted apart.
+/// Semi-axes of equal length: the direction of the tensor is undefined. Zero tensors are counted apart.
 fn is_degenerate(t: &Tensor2) -> bool {
     !t.is_zero() && 1.0 - Svd::of(t).axis_ratio() <= DEGENERATE_BELOW
 }

@@ -2,16 +2,14 @@
 
 use serde_json::{Value, json};
 use std::fmt::Write as _;
-use tigereye_core::{fractional_anisotropy3, symmetric_eigenvalues3};
+use tigereye_core::{Eigenvalues, Symmetry, fractional_anisotropy3, symmetric_eigenvalues3};
 use tigereye_experiments::input::TensorFile;
 use tigereye_io::volume::{Lattice, TensorVolume};
 
 /// An eigenvalue below this times the largest component counts as negative: files hold single precision.
-const ROUNDING: f64 = 1e-6;
+const ROUNDING: f64 = Eigenvalues::ROUNDING;
 /// Relative difference of two eigenvalues below which a tensor counts as degenerate.
-const DEGENERATE_BELOW: f64 = 1e-9;
-/// `|xy - yx|` and its like over the largest component above which a tensor counts as asymmetric.
-const ASYMMETRIC_ABOVE: f64 = 1e-9;
+const DEGENERATE_BELOW: f64 = 1e-6;
 /// What rounding may add to an anisotropy of 1; indefinite tensors have more.
 const FA_ROUNDING: f64 = 1e-9;
 /// Bars of a histogram over 0 to 1.
@@ -65,6 +63,8 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
     let mut signs = [0_usize; 4];
     let [mut zero, mut strange, mut degenerate, mut asymmetric, mut indefinite, mut negative] = [0_usize; 6];
     let measured = || (0..lattice.voxels()).filter_map(|voxel| volume.measured(voxel));
+    let finite = |t: &[f64; 9]| t.iter().all(|v| v.is_finite());
+    let largest_of_all = measured().filter(finite).flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
     for t in measured() {
         if !t.iter().all(|v| v.is_finite()) {
             strange += 1;
@@ -80,7 +80,7 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
         zero += usize::from(largest == 0.0);
         let close = (l[0] - l[1]).min(l[1] - l[2]) <= DEGENERATE_BELOW * largest;
         degenerate += usize::from(largest > 0.0 && close);
-        asymmetric += usize::from(off > ASYMMETRIC_ABOVE * largest);
+        asymmetric += usize::from(off > Symmetry::ROUNDING * largest_of_all);
         let below = l.iter().filter(|v| **v < -ROUNDING * largest).count();
         signs[below] += 1;
         negative += usize::from(below > 0);

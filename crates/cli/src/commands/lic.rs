@@ -7,6 +7,7 @@ use serde_json::json;
 use tigereye_experiments::classical::fine::{
     TextureRequest, image, texture, texture_parameters, texture_picture,
 };
+use tigereye_experiments::classical::{axes_name, axes_words, major_name};
 use tigereye_io::vti;
 use tigereye_lines::ConvolutionOptions;
 
@@ -14,23 +15,31 @@ pub(crate) fn run(args: &LicArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["png", "svg", "vti"])?;
     let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
     let (samples, half_length, seed) = (args.samples, args.half_length, args.seed);
+    let following = args.of.following(&input)?;
     let request = TextureRequest {
-        axes: args.of.axes(&input.field),
+        following,
         family: args.family.into(),
         hyper: args.hyper,
         options: ConvolutionOptions { samples, half_length, seed },
     };
     let found = texture(&input.field, &request).map_err(|e| CliError::input(&args.of.input, e))?;
     let story = drawing::story(&input, texture_parameters(&request), &args.of.reading);
-    let picture = || texture_picture(&found, &input.field, samples, args.tint, &args.of.input, None);
+    let picture = || texture_picture(&found, &input.field, &request, args.tint, &args.of.input, None);
     drawing::write(&args.outputs, &picture, &|| {
-        vti::write(&image(&[("LIC", &found)], samples, &drawing::placement(&input), &story))
+        vti::write(&image(&[("LIC", &found)], request.samples_a_cell(), &drawing::placement(&input), &story))
     })?;
     let (width, height) = (found.grid().width(), found.grid().height());
     if args.of.json {
-        print_json(&json!({ "width": width, "height": height, "samples": samples }))?;
+        let axes = following.axes;
+        print_json(&json!({
+            "width": width,
+            "height": height,
+            "samples": samples,
+            "axes": axes_name(axes.axes()),
+            "major": major_name(axes.major()),
+        }))?;
     } else {
-        print_text(&format!("{width} x {height} samples\n"))?;
+        print_text(&format!("{width} x {height} samples; {}\n", axes_words(following.axes)))?;
     }
     Ok(0)
 }

@@ -6,8 +6,8 @@ use crate::error::CliError;
 use crate::input::Input;
 use serde_json::json;
 use tigereye_core::Tensor2;
-use tigereye_experiments::classical::axes_name;
-use tigereye_experiments::classical::lines::{LinesRequest, Seeds, axes_words, lines, parameters};
+use tigereye_experiments::classical::lines::{LinesRequest, Seeds, lines, parameters};
+use tigereye_experiments::classical::{axes_name, axes_words, major_name};
 use tigereye_io::vtp;
 use tigereye_lines::{Inertia, LineOptions, Method};
 
@@ -24,7 +24,7 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
     if args.tolerance.is_some() && args.method != MethodName::Rk45 {
         return Err(CliError::input("--tolerance", "is that of adaptive steps: expected --method rk45"));
     }
-    let request = request(args, &input);
+    let request = request(args, &input)?;
     drawing::check_steps(request.options.length, request.options.step)?;
     check_seeds(args, &input)?;
     let found = lines(&input.field, &request).map_err(|e| CliError::input(&args.of.input, e))?;
@@ -34,31 +34,30 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
         &|| Ok(found.picture(&input.field, &args.of.input, Vec::new(), None)),
         &|| vtp::write(&found.poly_data(&drawing::placement(&input), &story)),
     )?;
-    // The sum of nothing is -0.
-    let length = found.lines.iter().map(|l| l.line.length()).sum::<f64>() + 0.0;
+    let (axes, length) = (request.following.axes, found.length());
     if args.of.json {
         print_json(&json!({
             "width": input.field.grid().width(),
             "height": input.field.grid().height(),
-            "axes": axes_name(request.axes),
+            "axes": axes_name(axes.axes()),
+            "major": major_name(axes.major()),
             "lines": found.lines.len(),
             "points": found.lines.iter().map(|l| l.line.points.len()).sum::<usize>(),
             "length": length,
         }))?;
     } else if found.lines.is_empty() {
-        let has_axes = |t: &Tensor2| request.axes.of(t, request.options.least_anisotropy).is_some();
-        print_text(&match input.field.values().iter().any(has_axes) {
+        let plain = input.field.without_rounding();
+        let has_axes = |t: &Tensor2| axes.of(t, request.options.least_anisotropy).is_some();
+        print_text(&match plain.values().iter().any(has_axes) {
             true => {
                 "no line is long enough: lines leave the field at once, or end where axes do\n".to_owned()
             }
-            false => format!("no tensor has {}\n", axes_words(request.axes)),
+            false => format!("no tensor has {}\n", axes_words(axes)),
         })?;
     } else {
         let count = counted(found.lines.len(), "line");
-        print_text(&format!(
-            "{count} along {}, {length:.1} cells long together\n",
-            axes_words(request.axes)
-        ))?;
+        let unit = drawing::unit(&request.following);
+        print_text(&format!("{count} along {}; {length:.1} {unit} long together\n", axes_words(axes)))?;
     }
     Ok(0)
 }
@@ -78,8 +77,9 @@ fn check_seeds(args: &LinesArgs, input: &Input) -> Result<(), CliError> {
     }
 }
 
-fn request(args: &LinesArgs, input: &Input) -> LinesRequest {
-    let side = drawing::longer_side(input);
+fn request(args: &LinesArgs, input: &Input) -> Result<LinesRequest, CliError> {
+    let following = args.of.following(input)?;
+    let side = following.longer_side(input.field.grid());
     let seeds = if args.seeds.is_empty() {
         Seeds::Even(args.separation.unwrap_or((side / LINES_A_SIDE).max(0.5)))
     } else {
@@ -89,8 +89,8 @@ fn request(args: &LinesArgs, input: &Input) -> LinesRequest {
         MethodName::Rk4 => Method::RungeKutta4,
         MethodName::Rk45 => Method::DormandPrince { tolerance: args.tolerance.unwrap_or(TOLERANCE) },
     };
-    LinesRequest {
-        axes: args.of.axes(&input.field),
+    Ok(LinesRequest {
+        following,
         families: args.family.families().to_vec(),
         seeds,
         options: LineOptions {
@@ -101,5 +101,5 @@ fn request(args: &LinesArgs, input: &Input) -> LinesRequest {
             inertia: args.inertia.map(|puncture| Inertia { puncture }),
         },
         ribbon: args.ribbon,
-    }
+    })
 }

@@ -35,7 +35,7 @@ pub(crate) fn run(args: &RidgesArgs) -> Result<u8, CliError> {
     let samples = args.samples.unwrap_or(if is_flat { 2 } else { 1 });
     let options = RidgeOptions {
         samples_per_cell: samples,
-        cell: [1.0, 1.0, args.direction_length],
+        cell: image.cell(args.direction_length),
         least_value: Threshold::Part(args.least_value),
         least_strength: Threshold::Part(args.least_strength),
         least_extent: args.least_length,
@@ -51,7 +51,8 @@ pub(crate) fn run(args: &RidgesArgs) -> Result<u8, CliError> {
         "least_value": args.least_value,
         "least_strength": args.least_strength,
         "least_length": args.least_length,
-        "direction_length": args.direction_length,
+        "cell": options.cell,
+        "direction_length": options.cell[2],
         "samples": samples,
     });
     let story = provenance(&command_line(), &parameters, &hash_of_bytes(&bytes));

@@ -4,39 +4,47 @@ use crate::args::classical::TopologyArgs;
 use crate::commands::{counted, drawing, print_json, print_text};
 use crate::error::CliError;
 use serde_json::json;
-use tigereye_experiments::classical::{axes_name, family_name, topology};
+use tigereye_experiments::classical::{axes_name, axes_words, family_name, major_name, topology};
 use tigereye_io::vtp;
 use tigereye_lines::LineOptions;
 
 pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
     let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
-    let axes = args.of.axes(&input.field);
-    let length = args.length.unwrap_or(4.0 * drawing::longer_side(&input));
+    let following = args.of.following(&input)?;
+    let axes = following.axes;
+    let length = args.length.unwrap_or(4.0 * following.longer_side(input.field.grid()));
     let options = LineOptions { step: args.step, length, ..LineOptions::default() };
     drawing::check_steps(length, args.step)?;
     let families = args.family.families();
-    let found = topology::topology(&input.field, axes, families, &options);
+    let found = topology::topology(&input.field, following, families, &options);
     let names: Vec<&str> = families.iter().map(|f| family_name(*f)).collect();
-    let parameters = json!({ "axes": axes_name(axes), "family": names, "step": args.step, "length": length });
+    let parameters = json!({
+        "axes": axes_name(axes.axes()),
+        "major": major_name(axes.major()),
+        "family": names,
+        "step": args.step,
+        "length": length,
+    });
     let story = drawing::story(&input, parameters, &args.of.reading);
     drawing::write(
         &args.outputs,
-        &|| Ok(topology::picture(&found, &input.field, axes, families, &args.of.input)),
+        &|| Ok(topology::picture(&found, &input.field, following, families, &args.of.input)),
         &|| vtp::write(&topology::poly_data(&found, &drawing::placement(&input), &story)),
     )?;
-    let summary = topology::summary(&found);
+    let summary = topology::summary(&found, following);
     if args.of.json {
         print_json(&summary)?;
     } else {
         print_text(&format!(
-            "{} of index sum {}, {}\n",
+            "{} of index sum {}, {}; {}\n",
             counted(found.points.len(), "degenerate point"),
             summary["index_sum"],
             match found.separatrices.len() {
                 1 => "1 separatrix".to_owned(),
                 n => format!("{n} separatrices"),
-            }
+            },
+            axes_words(axes)
         ))?;
     }
     Ok(0)

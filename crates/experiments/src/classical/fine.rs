@@ -1,11 +1,11 @@
 //! Scalars sampled finer than the cells: textures and exponents.
 
-use super::{Followed, Placement, axes_name, family_name};
+use super::{Followed, Following, Placement, axes_name, axes_words, family_name, major_name};
 use serde_json::{Value, json};
-use tigereye_core::{Anisotropy, Cell, Field, Tensor2};
+use tigereye_core::{Anisotropy, Cell, CellShape, Field, Tensor2};
 use tigereye_io::{DataArray, ImageData, PROVENANCE};
 use tigereye_lines::{
-    Axes, ConvolutionOptions, Family, Ftle, FtleOptions, Interpolated, SamplingError, convolved, ftle,
+    ConvolutionOptions, Family, Ftle, FtleOptions, Interpolated, OrderedAxes, SamplingError, convolved, ftle,
     hyper_convolved,
 };
 use tigereye_render::{
@@ -15,8 +15,8 @@ use tigereye_render::{
 /// Which texture of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureRequest {
-    /// The axes to smear along.
-    pub axes: Axes,
+    /// The axes to smear along, over which cells.
+    pub following: Following,
     /// Which of the two.
     pub family: Family,
     /// Along both, as far as each is long.
@@ -25,12 +25,20 @@ pub struct TextureRequest {
     pub options: ConvolutionOptions,
 }
 
-/// The texture, in samples finer than the cells.
+impl TextureRequest {
+    /// Samples a cell along x and y.
+    #[must_use]
+    pub fn samples_a_cell(&self) -> [usize; 2] {
+        self.options.samples_a_cell(self.following.cell)
+    }
+}
+
+/// The texture, in samples finer than the cells ([`TextureRequest::samples_a_cell`]).
 ///
 /// # Errors
 /// See [`SamplingError`].
 pub fn texture(field: &Field<Tensor2>, request: &TextureRequest) -> Result<Field<f64>, SamplingError> {
-    let followed = Followed::new(field, request.axes);
+    let followed = Followed::new(field, request.following);
     let between = followed.interpolated();
     if request.hyper {
         hyper_convolved(&between, &request.options)
@@ -46,14 +54,15 @@ pub fn texture(field: &Field<Tensor2>, request: &TextureRequest) -> Result<Field
 pub fn texture_picture(
     texture: &Field<f64>,
     field: &Field<Tensor2>,
-    samples: usize,
+    request: &TextureRequest,
     tinted: bool,
     title: &str,
     cell_px: Option<usize>,
 ) -> Result<Scene, RenderError> {
+    let samples = request.samples_a_cell();
     let tint = tinted.then(|| {
         let between = Interpolated::new(field);
-        let at = |c: Cell| [c.x as f64 / samples as f64, c.y as f64 / samples as f64];
+        let at = |c: Cell| [c.x as f64 / samples[0] as f64, c.y as f64 / samples[1] as f64];
         let anisotropy = |c: Cell| between.at(at(c)).map_or(f64::NAN, |t| Anisotropy::of(&t).linear);
         Tint {
             values: Field::from_fn(texture.grid(), anisotropy),
@@ -69,6 +78,8 @@ pub fn texture_picture(
         &TextureOptions {
             title,
             samples_a_cell: samples,
+            note: Some(smeared_words(request)),
+            cell: request.following.cell,
             tint,
             cell_px,
             missing,
@@ -77,11 +88,22 @@ pub fn texture_picture(
     )
 }
 
+/// Along which axes noise was smeared, for the legend.
+fn smeared_words(request: &TextureRequest) -> String {
+    let axes = axes_words(request.following.axes);
+    if request.hyper {
+        format!("smeared along both {axes}")
+    } else {
+        format!("smeared along {} {axes}", family_name(request.family))
+    }
+}
+
 /// The parameters of a texture, for provenance.
 #[must_use]
 pub fn texture_parameters(request: &TextureRequest) -> Value {
     json!({
-        "axes": axes_name(request.axes),
+        "axes": axes_name(request.following.axes.axes()),
+        "major": major_name(request.following.axes.major()),
         "family": family_name(request.family),
         "hyper": request.hyper,
         "samples": request.options.samples,
@@ -96,20 +118,30 @@ pub fn texture_parameters(request: &TextureRequest) -> Value {
 /// See [`SamplingError`].
 pub fn exponents(
     field: &Field<Tensor2>,
-    axes: Axes,
+    following: Following,
     family: Family,
     options: &FtleOptions,
 ) -> Result<Ftle, SamplingError> {
-    ftle(&Followed::new(field, axes).interpolated(), family, options)
+    ftle(&Followed::new(field, following).interpolated(), family, options)
 }
 
 /// The larger exponents in colours.
 #[must_use]
-pub fn exponents_picture(found: &Ftle, title: &str, overlays: Vec<Overlay>, cell_px: Option<usize>) -> Scene {
+pub fn exponents_picture(
+    found: &Ftle,
+    axes: OrderedAxes,
+    title: &str,
+    overlays: Vec<Overlay>,
+    cell_px: Option<usize>,
+) -> Scene {
+    let is_square = found.cell == CellShape::SQUARE;
+    let unit = if is_square { "1/cell" } else { "1/smaller cell side" };
     let options = HeatOptions {
         title: title.to_owned(),
-        quantity: "FTLE on tensor lines / (1/cell)".to_owned(),
+        quantity: format!("FTLE on tensor lines / ({unit})"),
+        note: Some(format!("lines along {}", axes_words(axes))),
         samples_a_cell: found.samples,
+        cell: found.cell,
         overlays,
         cell_px,
         missing: Some("no line, or one that leaves the field".to_owned()),
@@ -118,11 +150,11 @@ pub fn exponents_picture(found: &Ftle, title: &str, overlays: Vec<Overlay>, cell
     heat_map(&found.larger, &options)
 }
 
-/// Scalars as image data that lie over the field as `convert` writes it: rows upwards.
+/// Scalars as image data that lie over the field as `convert` writes it, rows upwards, with so many samples a cell along x and y.
 #[must_use]
 pub fn image(
     arrays: &[(&str, &Field<f64>)],
-    samples: usize,
+    samples: [usize; 2],
     placement: &Placement,
     story: &str,
 ) -> ImageData {
@@ -131,7 +163,7 @@ pub fn image(
     let (origin, spacing) = placement.corner_and_spacing();
     let mut image = ImageData::empty([width, height, 1]);
     image.origin = [origin[0], origin[1], 0.0];
-    let fine = spacing.map(|s| s / samples as f64);
+    let fine = [spacing[0] / samples[0] as f64, spacing[1] / samples[1] as f64];
     image.spacing = [fine[0], fine[1], 1.0];
     image.point_active.scalars = Some((*name).to_owned());
     for (name, field) in arrays {

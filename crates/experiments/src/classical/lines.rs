@@ -1,13 +1,14 @@
 //! Tensor lines and hyperstreamlines.
 
 use super::{
-    Followed, Placement, axes_name, counts, family_name, line_overlay, plain_options, push_line, push_story,
+    Followed, Following, Placement, axes_name, axes_words, counts, family_name, line_overlay, major_name,
+    plain_options, push_line, push_story,
 };
 use thiserror::Error;
 use tigereye_core::{Field, Tensor2};
 use tigereye_io::{DataArray, PolyData};
 use tigereye_lines::{
-    Axes, Family, LineEnd, LineOptions, MAX_POINTS, TensorLine, evenly_spaced, half_widths, tensor_line,
+    Family, LineEnd, LineOptions, MAX_POINTS, TensorLine, evenly_spaced, half_widths, tensor_line,
 };
 use tigereye_render::{Overlay, PlainOptions, Rgba, Ribbon, Scene, plain_map};
 
@@ -17,7 +18,7 @@ const RIBBONS: [Rgba; 2] = [Rgba::hex(0x0072b2), Rgba::hex(0xd55e00)];
 /// Where lines begin.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Seeds {
-    /// All over the field, that many cells apart.
+    /// All over the field, that far apart, in the unit of the smaller side of a cell.
     Even(f64),
     /// At these points, in cells, y downwards.
     At(Vec<[f64; 2]>),
@@ -26,15 +27,16 @@ pub enum Seeds {
 /// Which lines of a field.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinesRequest {
-    /// The axes to follow.
-    pub axes: Axes,
+    /// The axes to follow, over which cells.
+    pub following: Following,
     /// One family or both.
     pub families: Vec<Family>,
     /// Where they begin.
     pub seeds: Seeds,
     /// How they are followed.
     pub options: LineOptions,
-    /// Half of a hyperstreamline's width in cells for the largest half-axis, or eigenvalue, of the field; none for plain lines.
+    /// Half of a hyperstreamline's width, in the unit of the smaller side of a cell, for the largest semi-axis, or eigenvalue, of
+    /// the field; none for plain lines.
     pub ribbon: Option<f64>,
 }
 
@@ -53,7 +55,7 @@ pub struct FieldLine {
     pub family: Family,
     /// Its points and ends.
     pub line: TensorLine,
-    /// Half of its width at every point, cells; empty for plain lines.
+    /// Half of its width at every point, in the unit of the smaller side of a cell; empty for plain lines.
     pub half_widths: Vec<f64>,
 }
 
@@ -69,10 +71,10 @@ pub struct TooManyPoints;
 /// # Errors
 /// [`TooManyPoints`] for more than [`MAX_POINTS`].
 pub fn lines(field: &Field<Tensor2>, request: &LinesRequest) -> Result<FieldLines, TooManyPoints> {
-    let followed = Followed::new(field, request.axes);
+    let followed = Followed::new(field, request.following);
     let between = followed.interpolated();
     let scale = request.ribbon.map(|widest| {
-        let values = field.values().iter().filter_map(|t| request.axes.values(t)).flatten();
+        let values = field.values().iter().filter_map(|t| request.following.axes.values(t)).flatten();
         let largest = values.map(f64::abs).fold(0.0, f64::max);
         if largest > 0.0 { widest / largest } else { 0.0 }
     });
@@ -114,11 +116,11 @@ impl FieldLines {
         let overlays = [Family::Major, Family::Minor].into_iter().filter_map(|family| {
             let lines: Vec<&TensorLine> =
                 self.lines.iter().filter(|l| l.family == family).map(|l| &l.line).collect();
-            let label = format!("{} lines ({})", family_name(family), axes_words(self.axes()));
+            let label = format!("{} lines ({})", family_name(family), axes_words(self.following().axes));
             (!lines.is_empty()).then(|| line_overlay(lines, family, &label))
         });
         let overlays = overlays.chain(more).collect();
-        let options = plain_options(field, self.axes(), title, "Tensor lines", overlays);
+        let options = plain_options(field, self.following(), title, "Tensor lines", overlays);
         plain_map(field.grid(), &PlainOptions { ribbons: self.ribbons(), cell_px, ..options })
     }
 
@@ -134,8 +136,16 @@ impl FieldLines {
         ribbons.into_iter().filter(|r| !r.points.is_empty()).collect()
     }
 
-    fn axes(&self) -> Axes {
-        self.followed.interpolated().axes()
+    const fn following(&self) -> Following {
+        self.followed.following
+    }
+
+    /// Length of all lines together, in the unit of the smaller side of a cell.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let cell = self.following().cell;
+        // The sum of nothing is -0.
+        self.lines.iter().map(|l| l.line.length(cell)).sum::<f64>() + 0.0
     }
 
     /// The lines as polylines. Point arrays: `values` (both half-lengths or eigenvalues, major first) and, for hyperstreamlines,
@@ -168,16 +178,6 @@ impl FieldLines {
     }
 }
 
-/// What axes are in words.
-#[must_use]
-pub fn axes_words(axes: Axes) -> &'static str {
-    match axes {
-        Axes::HalfAxes => "half-axes",
-        Axes::Eigenvectors => "eigenvectors",
-        Axes::DualEigenvectors => "dual eigenvectors",
-    }
-}
-
 const fn end_number(end: LineEnd) -> i32 {
     match end {
         LineEnd::Border => 0,
@@ -202,7 +202,8 @@ pub fn parameters(request: &LinesRequest) -> serde_json::Value {
         Method::DormandPrince { tolerance } => ("rk45", Some(tolerance)),
     };
     serde_json::json!({
-        "axes": axes_name(request.axes),
+        "axes": axes_name(request.following.axes.axes()),
+        "major": major_name(request.following.axes.major()),
         "family": request.families.iter().map(|f| family_name(*f)).collect::<Vec<_>>(),
         "seeds": seeds,
         "method": method,

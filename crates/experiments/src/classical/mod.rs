@@ -11,26 +11,27 @@ pub mod topology;
 pub use overlays::{line_overlay, point_overlays};
 
 use std::ops::Range;
-use tigereye_core::{Field, Grid, Tensor2};
+use tigereye_core::{CellShape, Field, Grid, Symmetry, Tensor2};
 use tigereye_io::{DataArray, FieldEntry, FieldValues, PROVENANCE, PolyData};
-use tigereye_lines::{Axes, Decomposition, Domain, Family, Interpolated, ellipse_tensors};
+use tigereye_lines::{
+    Axes, Decomposition, Family, Interpolated, Major, OrderedAxes, ellipse_tensors, signed_ellipse_tensors,
+};
 use tigereye_render::{Overlay, PlainOptions};
 
-/// Part of its largest component by which a tensor's two shear components differ at most to count as symmetric.
-const SYMMETRIC_BELOW: f64 = 1e-9;
-
-/// The axes that are usual for a field: eigenvectors where all tensors are symmetric, half-axes otherwise.
+/// The axes that are usual for a field: eigenvectors where it is symmetric ([`Symmetry`]), semi-axes otherwise.
 #[must_use]
 pub fn usual_axes(field: &Field<Tensor2>) -> Axes {
-    let symmetric =
-        field.values().iter().all(|t| t.asymmetry() <= SYMMETRIC_BELOW * t.max_abs() || !t.is_finite());
-    if symmetric { Axes::Eigenvectors } else { Axes::HalfAxes }
+    if Symmetry::of(field).is_symmetric() { Axes::Eigenvectors } else { Axes::HalfAxes }
 }
 
-/// Whether the eigenvalues of a tensor are complex: it turns more than it stretches.
+/// The part of the stretching by which the turning exceeds it at least: in simple shear both are equal but for rounding.
+const COMPLEX_ABOVE: f64 = 1e-6;
+
+/// Whether the eigenvalues of a tensor are complex: it turns more than it stretches. Ask it of [`Field::without_rounding`].
 #[must_use]
 pub fn is_complex(t: &Tensor2) -> bool {
-    t.is_finite() && Decomposition::of(t).domain() == Domain::Complex
+    let Decomposition { rotation, stretching, .. } = Decomposition::of(t);
+    t.is_finite() && rotation.abs() > (1.0 + COMPLEX_ABOVE) * stretching
 }
 
 /// The name of axes as the options and files spell it.
@@ -43,6 +44,27 @@ pub const fn axes_name(axes: Axes) -> &'static str {
     }
 }
 
+/// The name of an order as the options and files spell it.
+#[must_use]
+pub const fn major_name(major: Major) -> &'static str {
+    match major {
+        Major::Value => "value",
+        Major::Magnitude => "magnitude",
+    }
+}
+
+/// What axes are in words.
+#[must_use]
+pub const fn axes_words(axes: OrderedAxes) -> &'static str {
+    match (axes.axes(), axes.major()) {
+        (Axes::HalfAxes, Major::Magnitude) => "semi-axes, major by magnitude (the longer one)",
+        (Axes::HalfAxes, Major::Value) => "semi-axes, major by value (tension positive)",
+        (Axes::Eigenvectors, Major::Magnitude) => "eigenvectors, major by magnitude (the larger size)",
+        (Axes::Eigenvectors, Major::Value) => "eigenvectors, major by value (tension positive)",
+        (Axes::DualEigenvectors, _) => "dual eigenvectors, the longer one major",
+    }
+}
+
 /// The name of a family as the options and files spell it.
 #[must_use]
 pub const fn family_name(family: Family) -> &'static str {
@@ -52,29 +74,48 @@ pub const fn family_name(family: Family) -> &'static str {
     }
 }
 
-/// A field whose axes are followed between its cells. Half-axes are those of the ellipses, because the components of tensors that
-/// are not symmetric may cancel between cells whose ellipses agree.
+/// What lines follow: axes in an order, over cells of a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Following {
+    /// The axes, and which of them is major.
+    pub axes: OrderedAxes,
+    /// The shape of a cell.
+    pub cell: CellShape,
+}
+
+impl Following {
+    /// The longer side of a grid, in the unit of the smaller side of a cell.
+    #[must_use]
+    pub fn longer_side(&self, grid: Grid) -> f64 {
+        self.cell.longer_side([grid.width(), grid.height()])
+    }
+}
+
+/// A field whose axes are followed between its cells. Semi-axes are those of the ellipses, because the components of tensors that
+/// are not symmetric may cancel between cells whose ellipses agree. What rounding made asymmetric is symmetric.
 #[derive(Clone, Debug)]
 pub struct Followed {
     tensors: Field<Tensor2>,
-    axes: Axes,
+    following: Following,
 }
 
 impl Followed {
     /// The tensors to interpolate for these axes.
     #[must_use]
-    pub fn new(field: &Field<Tensor2>, axes: Axes) -> Self {
-        let tensors = match axes {
-            Axes::HalfAxes => ellipse_tensors(field),
-            Axes::Eigenvectors | Axes::DualEigenvectors => field.clone(),
+    pub fn new(field: &Field<Tensor2>, following: Following) -> Self {
+        let plain = field.without_rounding();
+        let tensors = match (following.axes.axes(), following.axes.major()) {
+            (Axes::HalfAxes, Major::Magnitude) => ellipse_tensors(&plain),
+            (Axes::HalfAxes, Major::Value) => signed_ellipse_tensors(&plain),
+            (Axes::Eigenvectors | Axes::DualEigenvectors, _) => plain,
         };
-        Self { tensors, axes }
+        Self { tensors, following }
     }
 
     /// The field between its cells.
     #[must_use]
-    pub const fn interpolated(&self) -> Interpolated<'_> {
-        Interpolated::new(&self.tensors).with_axes(self.axes)
+    pub fn interpolated(&self) -> Interpolated<'_> {
+        Interpolated::new(&self.tensors).with_axes(self.following.axes).with_cell(self.following.cell)
     }
 }
 
@@ -98,6 +139,12 @@ impl Placement {
     pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 3] {
         let up = (self.height - 1) as f64 - y;
         [self.origin[0] + x * self.spacing[0], self.origin[1] + up * self.spacing[1], 0.0]
+    }
+
+    /// The shape of a cell.
+    #[must_use]
+    pub fn cell(&self) -> CellShape {
+        CellShape::of(self.spacing)
     }
 
     /// Position of the lower left cell and distance of the cells.
@@ -136,14 +183,17 @@ fn push_story(data: &mut PolyData, story: &str) {
 /// those with complex eigenvalues shaded.
 fn plain_options(
     field: &Field<Tensor2>,
-    axes: Axes,
+    following: Following,
     title: &str,
     description: &str,
     overlays: Vec<Overlay>,
 ) -> PlainOptions {
     let missing = field.iter().filter(|(_, t)| t.is_zero() || !t.is_finite()).map(|(cell, _)| cell);
-    let complex = field.iter().filter(|(_, t)| axes != Axes::HalfAxes && is_complex(t)).map(|(cell, _)| cell);
+    let has_eigenvectors = following.axes.axes() != Axes::HalfAxes;
+    let plain = field.without_rounding();
+    let complex = plain.iter().filter(|(_, t)| has_eigenvectors && is_complex(t)).map(|(cell, _)| cell);
     PlainOptions {
+        cell: following.cell,
         title: title.to_owned(),
         description: description.to_owned(),
         overlays,

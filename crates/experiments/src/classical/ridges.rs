@@ -2,7 +2,7 @@
 
 use super::{push_line, push_story};
 use thiserror::Error;
-use tigereye_core::{Cell, Field, Grid};
+use tigereye_core::{Cell, CellShape, Field, Grid, math};
 use tigereye_io::{DataArray, ImageData, IoError, LTG_ARRAY, PolyData};
 use tigereye_lines::{
     ExtractionError, Polyline, Polylines, RidgeOptions, Surface, Volume, isolines, isosurface, ridge_lines,
@@ -52,6 +52,8 @@ pub struct ScalarImage {
     size: [usize; 3],
     /// Whether the third axis goes all the way round: the directions of a gradient.
     periodic: bool,
+    /// Whether it is a gradient, whose third axis is a direction.
+    is_gradient: bool,
     origin: [f64; 3],
     /// From an index to a place, a column for every axis.
     axes: [[f64; 3]; 3],
@@ -97,6 +99,7 @@ impl ScalarImage {
             values,
             size: image.dimensions,
             periodic: is_gradient && whole && depth > 1,
+            is_gradient,
             origin: image.origin,
             axes,
         })
@@ -112,6 +115,25 @@ impl ScalarImage {
     #[must_use]
     pub const fn is_periodic(&self) -> bool {
         self.periodic
+    }
+
+    /// The sides of a cell in the unit of the smaller of the first two. The third is `third` where it is given, otherwise the file's,
+    /// and 1 for the directions of a gradient: degrees have no length.
+    #[must_use]
+    pub fn cell(&self, third: Option<f64>) -> [f64; 3] {
+        let sides = self.axes.map(|[x, y, z]| math::hypot(math::hypot(x, y), z));
+        let [dx, dy] = self.shape().sides();
+        let smaller = sides[0].min(sides[1]);
+        let own = sides[2] / smaller;
+        let is_length = !self.is_gradient && own > 0.0 && own.is_finite();
+        [dx, dy, third.unwrap_or(if is_length { own } else { 1.0 })]
+    }
+
+    /// The shape of a cell of a layer.
+    #[must_use]
+    pub fn shape(&self) -> CellShape {
+        let [dx, dy] = [self.axes[0], self.axes[1]].map(|[x, y, z]| math::hypot(math::hypot(x, y), z));
+        CellShape::of([dx, dy])
     }
 
     /// One layer.
@@ -270,6 +292,7 @@ impl Found {
             quantity: image.array.clone(),
             overlays: vec![line_overlay(lines, label, Rgba::hex(0xd62728))],
             missing: Some("no value".to_owned()),
+            cell: image.shape(),
             ..HeatOptions::default()
         };
         Ok(Some(heat_map(&image.layer(*layer)?, &options)))

@@ -1,22 +1,24 @@
 //! Degenerate points and separatrices.
 
-use super::lines::axes_words;
 use super::{
-    Followed, Placement, counts, family_name, line_overlay, plain_options, point_overlays, push_line,
-    push_story,
+    Followed, Following, Placement, axes_name, axes_words, counts, family_name, line_overlay, major_name,
+    plain_options, point_overlays, push_line, push_story,
 };
 use serde_json::{Value, json};
 use tigereye_core::{Field, Tensor2};
 use tigereye_io::PolyData;
-use tigereye_lines::{
-    Axes, DegeneratePoint, Family, LineEnd, LineOptions, TensorLine, Topology, evenly_spaced,
-};
+use tigereye_lines::{DegeneratePoint, Family, LineEnd, LineOptions, TensorLine, Topology, evenly_spaced};
 use tigereye_render::{Overlay, Rgba, Scene, plain_map};
 
 /// The skeleton of a field.
 #[must_use]
-pub fn topology(field: &Field<Tensor2>, axes: Axes, families: &[Family], options: &LineOptions) -> Topology {
-    let followed = Followed::new(field, axes);
+pub fn topology(
+    field: &Field<Tensor2>,
+    following: Following,
+    families: &[Family],
+    options: &LineOptions,
+) -> Topology {
+    let followed = Followed::new(field, following);
     Topology::of(&followed.interpolated(), families, options)
 }
 
@@ -25,20 +27,20 @@ pub fn topology(field: &Field<Tensor2>, axes: Axes, families: &[Family], options
 pub fn picture(
     topology: &Topology,
     field: &Field<Tensor2>,
-    axes: Axes,
+    following: Following,
     families: &[Family],
     title: &str,
 ) -> Scene {
-    let longest = field.grid().width().max(field.grid().height()) as f64;
+    let longest = following.longer_side(field.grid());
     let mut overlays = Vec::new();
     for &family in families {
         let lines: Vec<&TensorLine> =
             topology.separatrices.iter().filter(|s| s.family == family).map(|s| &s.line).collect();
         let options = LineOptions { step: 0.2, length: longest, ..LineOptions::default() };
-        let followed = Followed::new(field, axes);
+        let followed = Followed::new(field, following);
         let around =
             evenly_spaced(&followed.interpolated(), family, (longest / LINES_A_SIDE).max(0.5), &options);
-        let label = format!("{} lines ({})", family_name(family), axes_words(axes));
+        let label = format!("{} lines ({})", family_name(family), axes_words(following.axes));
         overlays.push(Overlay { colour: CONTEXT, width_px: 0.8, ..line_overlay(&around, family, &label) });
         if !lines.is_empty() {
             let label = format!("separatrices of the {} axis", family_name(family));
@@ -48,7 +50,7 @@ pub fn picture(
     overlays.extend(point_overlays(&topology.points));
     plain_map(
         field.grid(),
-        &plain_options(field, axes, title, "Degenerate points and separatrices", overlays),
+        &plain_options(field, following, title, "Degenerate points and separatrices", overlays),
     )
 }
 
@@ -79,9 +81,9 @@ pub fn poly_data(topology: &Topology, placement: &Placement, story: &str) -> Pol
     data
 }
 
-/// The skeleton for machines: positions in cells (y downwards), indices, and where separatrices lead.
+/// The skeleton for machines: the axes it is of, positions in cells (y downwards), indices, and where separatrices lead.
 #[must_use]
-pub fn summary(topology: &Topology) -> Value {
+pub fn summary(topology: &Topology, following: Following) -> Value {
     let end = |end: LineEnd| match end {
         LineEnd::Border => "border",
         LineEnd::Degenerate => "degenerate",
@@ -101,11 +103,17 @@ pub fn summary(topology: &Topology) -> Value {
             json!({
                 "point": s.point,
                 "family": family_name(s.family),
-                "length": s.line.length(),
+                "length": s.line.length(following.cell),
                 "end": end(s.line.ends[1]),
             })
         })
         .collect();
     let sum = 0.5 * f64::from(topology.points.iter().map(DegeneratePoint::half_turns).sum::<i32>());
-    json!({ "points": points, "separatrices": separatrices, "index_sum": sum })
+    json!({
+        "axes": axes_name(following.axes.axes()),
+        "major": major_name(following.axes.major()),
+        "points": points,
+        "separatrices": separatrices,
+        "index_sum": sum,
+    })
 }

@@ -5,7 +5,7 @@ use crate::classical::is_complex;
 use crate::runs::RunError;
 use tigereye_core::{Anisotropy, Cell, Field, Svd, Tensor2, is_totally_anisotropic, math};
 use tigereye_fields::{Expression, ExpressionField, variables};
-use tigereye_lines::{Axes, Family};
+use tigereye_lines::{Family, OrderedAxes};
 
 /// Half-axes that differ by less count as equal: their direction is arbitrary.
 const ISOTROPIC_BELOW: f64 = 0.01;
@@ -26,7 +26,7 @@ pub(super) fn major_axis_deg(field: &Field<Tensor2>, (x, y): (usize, usize)) -> 
 /// Largest angle between the major axis and `phi_deg`, degrees; that of tensors without these axes is not counted.
 pub(super) fn major_axis_error_deg(
     field: &Field<Tensor2>,
-    axes: Axes,
+    axes: OrderedAxes,
     phi_deg: &str,
 ) -> Result<f64, RunError> {
     let expression = Expression::parse(phi_deg, &ExpressionField::VARIABLES)
@@ -50,7 +50,7 @@ pub(super) fn total_anisotropy_share(field: &Field<Tensor2>) -> f64 {
 }
 
 pub(super) fn complex_share(field: &Field<Tensor2>) -> f64 {
-    share(field, is_complex)
+    share(&field.without_rounding(), is_complex)
 }
 
 pub(super) fn zero_share(field: &Field<Tensor2>) -> f64 {

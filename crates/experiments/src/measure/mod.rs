@@ -76,7 +76,7 @@ impl Measure<'_> {
                 self.field(field).and_then(|f| fields::major_axis_deg(f, *cell))
             }
             Q::MajorAxisError { field, phi_deg, axes } => match self.field(field) {
-                Some(f) => Some(fields::major_axis_error_deg(f, axes_of(*axes, f), phi_deg)?),
+                Some(f) => Some(fields::major_axis_error_deg(f, axes_of(*axes, None, f), phi_deg)?),
                 None => None,
             },
             Q::IsotropicShare { field } => self.field(field).map(fields::isotropic_share),

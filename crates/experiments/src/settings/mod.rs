@@ -10,7 +10,7 @@ pub(crate) use sources::beside;
 pub use sources::{defined_plane, is_field_file, make_field, make_plane};
 
 use crate::Medium;
-use crate::classical::usual_axes;
+use crate::classical::{Following, usual_axes};
 use crate::evaluate::file_name;
 use crate::host::Host;
 use crate::places::{Known, Misplaced};
@@ -19,8 +19,8 @@ use crate::shortened;
 use crate::spec::{self, Experiment, Run, Scope, SourceText, SpecError};
 use crate::uses::{self, RunKind};
 use std::collections::BTreeMap;
-use tigereye_core::{Below, Cell, Directions, Field, Grid, Normalization, Tensor2};
-use tigereye_lines::{Axes, Family};
+use tigereye_core::{Below, Cell, CellShape, Directions, Field, Grid, Normalization, Tensor2};
+use tigereye_lines::{Axes, Family, Major, OrderedAxes};
 use tigereye_ltg::{omega_step_of_slices, omega_step_of_volumes};
 use tigereye_transport::{Light, SharedWeights, Stopping, StoppingRule, TransportError};
 
@@ -33,6 +33,8 @@ pub struct Settings {
     pub experiment: Experiment,
     /// Fields by name.
     pub fields: BTreeMap<String, Field<Tensor2>>,
+    /// The shape of their cells, by the same names.
+    pub cells: BTreeMap<String, CellShape>,
     /// Scenes by name; none has the name of a field.
     pub scenes: BTreeMap<String, PreparedScene>,
     /// Runs in order.
@@ -44,6 +46,12 @@ impl Settings {
     #[must_use]
     pub fn medium(&self, name: &str) -> Option<Medium<'_>> {
         medium(&self.fields, &self.scenes, name)
+    }
+
+    /// The shape of a field's cells.
+    #[must_use]
+    pub fn cell(&self, field: &str) -> CellShape {
+        self.cells.get(field).copied().unwrap_or_default()
     }
 }
 
@@ -86,11 +94,11 @@ impl RunSettings {
 pub struct FtleSettings {
     /// Name of the field.
     pub field: String,
-    /// The axes that lines follow.
-    pub axes: Axes,
+    /// The axes that lines follow, over which cells.
+    pub following: Following,
     /// Which of the two.
     pub family: Family,
-    /// Length of the lines to each side, cells.
+    /// Length of the lines to each side, in the unit of the smaller side of a cell.
     pub length: f64,
     /// Samples a cell along each side.
     pub samples: usize,
@@ -160,12 +168,16 @@ pub fn resolve(
     host: &dyn Host,
 ) -> Result<Settings, Vec<SpecError>> {
     let slug = slug_of(file);
-    let mut resolver = Resolver { file, source: SourceText::new(text), problems: Vec::new() };
+    let mut resolver =
+        Resolver { file, source: SourceText::new(text), cells: BTreeMap::new(), problems: Vec::new() };
     let mut experiment = experiment;
     let mut fields = BTreeMap::new();
     for (name, source) in experiment.fields.iter() {
-        match make_field(source, host) {
-            Ok(field) => _ = fields.insert(name.to_owned(), field),
+        match make_plane(source, host) {
+            Ok((plane, _)) => {
+                resolver.cells.insert(name.to_owned(), CellShape::of(plane.spacing));
+                fields.insert(name.to_owned(), plane.field);
+            }
             Err(problem) => resolver.fault_at(&["fields:"], name, &format!("field \"{name}\": {problem}")),
         }
     }
@@ -206,7 +218,7 @@ pub fn resolve(
             uses::keep_rows(table, &runs_now);
         }
         experiment.tables.retain(|t| !uses::is_empty(t));
-        Ok(Settings { slug, experiment, fields, scenes, runs })
+        Ok(Settings { slug, experiment, fields, cells: resolver.cells, scenes, runs })
     } else {
         Err(resolver.problems)
     }
@@ -238,6 +250,8 @@ const fn scope_of(run: &Run) -> Scope {
 struct Resolver<'a> {
     file: &'a str,
     source: SourceText<'a>,
+    /// The shape of the cells of every field.
+    cells: BTreeMap<String, CellShape>,
     problems: Vec<SpecError>,
 }
 
@@ -334,21 +348,19 @@ impl Resolver<'_> {
                 let setup = setup(*directions, *normalization, *weights, *stop);
                 self.pulses(name, setup, medium.grid(), cells, angles_deg)
             }
-            Run::Ftle { axes, family, length, samples, .. } => {
-                self.ftle(name, (field_name, medium.tensors()?), *axes, *family, length.get(), *samples)
+            Run::Ftle { axes, major, family, length, samples, .. } => {
+                let field = medium.tensors()?;
+                let axes = axes_of(*axes, *major, field);
+                let cell = self.cells.get(field_name).copied().unwrap_or_default();
+                let following = Following { axes, cell };
+                let (field, family, length) = (field_name.clone(), family_of(*family), length.get());
+                self.ftle(name, FtleSettings { field, following, family, length, samples: *samples })
             }
         }
     }
 
-    fn ftle(
-        &mut self,
-        name: &str,
-        (field_name, field): (&str, &Field<Tensor2>),
-        axes: spec::AxesChoice,
-        family: spec::FamilyChoice,
-        length: f64,
-        samples: usize,
-    ) -> Option<RunSettings> {
+    fn ftle(&mut self, name: &str, settings: FtleSettings) -> Option<RunSettings> {
+        let samples = settings.samples;
         if !(1..=MAX_SAMPLES_A_CELL).contains(&samples) {
             self.fault(
                 name,
@@ -356,8 +368,7 @@ impl Resolver<'_> {
             );
             return None;
         }
-        let (axes, family) = (axes_of(axes, field), family_of(family));
-        Some(RunSettings::Ftle(FtleSettings { field: field_name.to_owned(), axes, family, length, samples }))
+        Some(RunSettings::Ftle(settings))
     }
 
     #[expect(clippy::too_many_arguments, reason = "the parts of one variant of the file's Run")]
@@ -603,13 +614,22 @@ fn unfit_for_scenes(run: &Run) -> Option<&'static str> {
 /// Most samples a cell along each side: more show nothing.
 const MAX_SAMPLES_A_CELL: usize = 16;
 
-/// The axes of a choice.
-pub(crate) fn axes_of(choice: spec::AxesChoice, field: &Field<Tensor2>) -> Axes {
-    match choice {
+/// The axes of a choice, in the order chosen or their usual one.
+pub(crate) fn axes_of(
+    choice: spec::AxesChoice,
+    major: Option<spec::MajorChoice>,
+    field: &Field<Tensor2>,
+) -> OrderedAxes {
+    let axes = match choice {
         spec::AxesChoice::Usual => usual_axes(field),
         spec::AxesChoice::Half => Axes::HalfAxes,
         spec::AxesChoice::Eigen => Axes::Eigenvectors,
         spec::AxesChoice::Dual => Axes::DualEigenvectors,
+    };
+    match major {
+        None => axes.into(),
+        Some(spec::MajorChoice::Value) => axes.by(Major::Value),
+        Some(spec::MajorChoice::Magnitude) => axes.by(Major::Magnitude),
     }
 }
 

@@ -6,21 +6,31 @@ use serde::Deserialize;
 /// The axes that lines follow.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 pub enum AxesChoice {
-    /// Eigenvectors where all tensors are symmetric, half-axes otherwise.
+    /// Eigenvectors where the field is symmetric, semi-axes otherwise.
     #[default]
     Usual,
-    /// Half-axes of the ellipse: what light sees.
+    /// Semi-axes of the ellipse: what light sees.
     Half,
-    /// Eigenvectors, the larger eigenvalue first; pseudo-eigenvectors where eigenvalues are complex.
+    /// Eigenvectors; pseudo-eigenvectors where eigenvalues are complex.
     Eigen,
     /// Dual eigenvectors.
     Dual,
 }
 
+/// By what the major axis is the larger one; by default eigenvectors by value and semi-axes by magnitude. Dual eigenvectors have but one
+/// order, the longer first.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum MajorChoice {
+    /// By the value with its sign: tension before compression.
+    Value,
+    /// By the size of the value: the longer one.
+    Magnitude,
+}
+
 /// Which of the two axes.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 pub enum FamilyChoice {
-    /// The longer half-axis, or the larger eigenvalue.
+    /// The larger one, in the sense of [`MajorChoice`].
     #[default]
     Major,
     /// The other one.

@@ -1,6 +1,8 @@
 //! Pictures an experiment may draw.
 
-use super::{AxesChoice, FamilyChoice, Finite, MapSource, NonNegative, Positive, PulseNumber, RidgeSource};
+use super::{
+    AxesChoice, FamilyChoice, Finite, MajorChoice, MapSource, NonNegative, Positive, PulseNumber, RidgeSource,
+};
 use serde::Deserialize;
 use std::num::NonZeroUsize;
 
@@ -58,7 +60,7 @@ pub enum Panel {
         /// Heading of the panel.
         title: String,
     },
-    /// The direction of the major half-axis in colours.
+    /// The direction of the longer semi-axis in colours.
     Orientation {
         /// Name of the field.
         field: String,
@@ -72,6 +74,9 @@ pub enum Panel {
         /// The axes that lines follow.
         #[serde(default)]
         axes: AxesChoice,
+        /// By what the major one is larger.
+        #[serde(default)]
+        major: Option<MajorChoice>,
         /// Which of the two; both when left out.
         #[serde(default)]
         family: Option<FamilyChoice>,
@@ -85,6 +90,9 @@ pub enum Panel {
         /// The axes that lines follow.
         #[serde(default)]
         axes: AxesChoice,
+        /// By what the major one is larger.
+        #[serde(default)]
+        major: Option<MajorChoice>,
         /// Which of the two.
         #[serde(default)]
         family: FamilyChoice,

@@ -14,7 +14,7 @@ mod source_text;
 mod tables;
 
 pub use checks::{Check, Expectation, Mirror, PulseNumber, Quantity, SchemeConstant, Summary};
-pub use classical::{AxesChoice, DistanceNumber, FamilyChoice, MapSource, RidgeSource};
+pub use classical::{AxesChoice, DistanceNumber, FamilyChoice, MajorChoice, MapSource, RidgeSource};
 pub use figures::{
     Animation, Axis, Curve, Figure, FlatView, GlyphColour, Panel, ProfileSource, Scale, SeriesSource,
 };
@@ -108,7 +108,7 @@ pub enum FieldSource {
         #[serde(default)]
         parameters: Named<Parameter>,
     },
-    /// Half-axes by expressions in x, y (-1 to 1, y up), i, j, n, r, theta.
+    /// Semi-axes by expressions in x, y (-1 to 1, y up), i, j, n, r, theta.
     Axes {
         /// Cells per row.
         width: usize,
@@ -354,10 +354,13 @@ pub enum Run {
         /// The axes that lines follow.
         #[serde(default)]
         axes: AxesChoice,
+        /// By what the major one is larger.
+        #[serde(default)]
+        major: Option<MajorChoice>,
         /// Which of the two.
         #[serde(default)]
         family: FamilyChoice,
-        /// Length of the lines to each side, cells.
+        /// Length of the lines to each side, in the unit of the smaller side of a cell.
         length: Positive,
         /// Samples a cell along each side.
         #[serde(default = "two")]

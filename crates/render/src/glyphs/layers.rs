@@ -7,7 +7,7 @@ use crate::legend::Entry;
 use crate::scene::{PathBuilder, Scene};
 use crate::shapes;
 use std::collections::BTreeSet;
-use tigereye_core::{Anisotropy, Tensor2};
+use tigereye_core::{Anisotropy, Symmetry, Tensor2};
 
 const ANISOTROPY_STEPS: usize = 16;
 pub(super) const TENSION: Rgba = Rgba::hex(0xd55e00);
@@ -86,7 +86,8 @@ impl Layers {
             self.notes.insert(Note::Broken);
             return;
         }
-        if self.kind.is_symmetric() && t.asymmetry() > signed::NEGLIGIBLE * t.max_abs() {
+        let is_symmetric = t.is_symmetric_within(Symmetry::ROUNDING * scaling.largest);
+        if self.kind.is_symmetric() && !is_symmetric {
             self.notes.insert(Note::SymmetricPart);
         }
         if size == 0.0 {

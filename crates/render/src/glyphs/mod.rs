@@ -20,7 +20,7 @@ use crate::ribbon::{self, Ribbon};
 use crate::scene::Scene;
 use layers::Layers;
 pub use outlines::{GlyphOutline, GlyphPart, glyph_outlines};
-use tigereye_core::{Field, PrincipalAxes, Svd, Tensor2};
+use tigereye_core::{CellShape, Field, PrincipalAxes, Svd, Tensor2};
 
 /// What stands for a tensor. Zero tensors are small hollow dots and tensors that are not finite small crosses in every
 /// kind; half-axes are the singular values unless something else is said.
@@ -151,8 +151,10 @@ pub struct GlyphOptions {
     pub colour: GlyphColour,
     /// Draws every n-th cell; by default as many as stay readable.
     pub every: Option<usize>,
-    /// Pixels per cell; by default whole, such that the longer side has about 640.
+    /// Pixels of a cell's smaller side; by default whole, such that the longer side has about 640.
     pub cell_px: Option<usize>,
+    /// The shape of a cell.
+    pub cell: CellShape,
     /// Bands, such as hyperstreamlines.
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the glyphs and bands, such as tensor lines.
@@ -164,8 +166,9 @@ pub struct GlyphOptions {
 pub fn glyphs(field: &Field<Tensor2>, options: &GlyphOptions) -> Scene {
     let grid = field.grid();
     let kind = options.kind;
-    let cell = map_frame::cell_px(grid, options.cell_px, 640, 48);
-    let every = options.every.unwrap_or_else(|| map_frame::stride(cell, kind.pitch_px())).max(1);
+    let cell = map_frame::cell_px(grid, options.cell, options.cell_px, 640, 48);
+    let smaller = cell[0].min(cell[1]);
+    let every = options.every.unwrap_or_else(|| map_frame::stride(smaller, kind.pitch_px())).max(1);
     let bar = (options.colour == GlyphColour::Anisotropy).then(|| ColourBar {
         axis: Axis::linear(0.0, 1.0),
         map: ColourMap::Batlow,
@@ -177,7 +180,7 @@ pub fn glyphs(field: &Field<Tensor2>, options: &GlyphOptions) -> Scene {
     let mut page = MapFrame::begin(grid, &options.title, cell, side);
     page.grid_lines(every, Rgba::hex(0xececec));
     let largest = largest(field, kind);
-    let scaling = Scaling { kind: options.scale, largest, radius: kind.radius() * (cell * every as f64) };
+    let scaling = Scaling { kind: options.scale, largest, radius: kind.radius() * (smaller * every as f64) };
     let mut layers = Layers::of(kind, options.colour);
     for cell in map_frame::sampled_cells(grid, every) {
         layers.add(page.centre(cell), field.at(cell), &scaling);
@@ -216,7 +219,7 @@ fn remarks(options: &GlyphOptions, every: usize, largest: f64) -> Vec<Entry> {
         GlyphScale::SquareRoot if symmetric => {
             remarks.push(Entry::of(Mark::None, "lengths ∝ square root of the values"));
         }
-        GlyphScale::SquareRoot => remarks.push(Entry::of(Mark::None, "half-axes ∝ √s")),
+        GlyphScale::SquareRoot => remarks.push(Entry::of(Mark::None, "semi-axes ∝ √s")),
         GlyphScale::Glyph => remarks.push(Entry::of(Mark::None, "each glyph scaled to its cell")),
     }
     if every > 1 {

@@ -43,7 +43,7 @@ const CELL_PX: f64 = 64.0;
 /// Pieces of a cubic; those of an ellipse are a quarter of it.
 const PIECES: usize = 8;
 
-/// What [`super::glyphs`] draws, glyph by glyph, for every n-th cell (`every`, 1 by default) and the options `kind` and `scale`; the
+/// What [`super::glyphs`] draws, glyph by glyph, for every n-th cell (`every`, 1 by default) and the options `kind`, `scale` and `cell`; the
 /// others are those of pictures. Zero tensors and those that are not finite have none.
 #[must_use]
 pub fn glyph_outlines(field: &Field<Tensor2>, options: &GlyphOptions) -> Vec<GlyphOutline> {
@@ -55,9 +55,11 @@ pub fn glyph_outlines(field: &Field<Tensor2>, options: &GlyphOptions) -> Vec<Gly
         let mut layers = Layers::of(kind, GlyphColour::AxisSign);
         layers.add([0.0; 2], field.at(cell), &scaling);
         let middle = [cell.x as f64, cell.y as f64];
+        let sides = options.cell.sides();
         let mut push = |path: PathBuilder, part: GlyphPart, sign: i8| {
             for (points, closed) in pieces(&path.finish()) {
-                let points = points.iter().map(|p| [0, 1].map(|i| middle[i] + p[i] / CELL_PX)).collect();
+                let points =
+                    points.iter().map(|p| [0, 1].map(|i| middle[i] + p[i] / CELL_PX / sides[i])).collect();
                 outlines.push(GlyphOutline { cell, part, sign, closed, points });
             }
         };

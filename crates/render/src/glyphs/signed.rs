@@ -3,10 +3,10 @@
 use super::layers::{Layers, Tone};
 use super::legend::Note;
 use super::{Scaling, towards};
-use tigereye_core::{PrincipalAxes, Tensor2, math};
+use tigereye_core::{Eigenvalues, PrincipalAxes, Tensor2, math};
 
-/// Smaller parts of the larger principal value, or of the largest component, are rounding.
-pub(super) const NEGLIGIBLE: f64 = 1e-9;
+/// Smaller parts of the larger principal value are rounding.
+pub(super) const NEGLIGIBLE: f64 = Eigenvalues::ROUNDING;
 
 pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &Scaling) {
     let axes = PrincipalAxes::of(t);

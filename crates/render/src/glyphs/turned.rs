@@ -5,12 +5,13 @@ use super::legend::Note;
 use super::{GlyphColour, Scaling, quadric, towards};
 use crate::colour::Rgba;
 use crate::scene::{PathBuilder, Scene, Segment};
-use tigereye_core::{OrthogonalFactor, Svd, Tensor2, math};
+use tigereye_core::{OrthogonalFactor, Svd, Symmetry, Tensor2, math};
 
 /// Radius of sectors by the larger half-axis.
 const SECTOR: f64 = 0.6;
-/// Smaller angles are rounding, radians.
-const NO_TURN_RAD: f64 = 1e-9;
+/// Smaller angles are rounding, radians: as much as [`Symmetry::ROUNDING`] makes of a tensor's own size. So is what is missing to half
+/// a turn.
+const NO_TURN_RAD: f64 = Symmetry::ROUNDING;
 
 pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &Scaling) {
     let svd = Svd::of(t);
@@ -21,6 +22,7 @@ pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &
             if angle_rad.abs() <= NO_TURN_RAD {
                 return;
             }
+            let angle_rad = if angle_rad < NO_TURN_RAD - math::PI { math::PI } else { angle_rad };
             let clockwise = angle_rad < 0.0;
             layers.notes.insert(if clockwise { Note::TurnedRight } else { Note::TurnedLeft });
             // A circle has no major axis.

@@ -1,0 +1,99 @@
+//! How lengths are measured where cells are not square.
+
+use crate::math;
+
+/// Sides that differ by less than this part are equal: spacings are kept in single precision, and as differences of positions.
+const SQUARE: f64 = 1e-6;
+
+/// The sides of a cell. Points are counted in cells along x and y; directions, lengths and areas are physical, in the unit of the smaller
+/// side. Where cells are square the two are the same, to the last bit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CellShape {
+    /// Along x and y, the smaller one 1.
+    sides: [f64; 2],
+}
+
+impl Default for CellShape {
+    fn default() -> Self {
+        Self::SQUARE
+    }
+}
+
+impl CellShape {
+    /// Cells as high as they are wide.
+    pub const SQUARE: Self = Self { sides: [1.0; 2] };
+
+    /// Of cells at distances `spacing` along x and y, in any unit and of either sign. Distances that are none (zero, or not finite) make
+    /// squares.
+    #[must_use]
+    pub fn of(spacing: [f64; 2]) -> Self {
+        let [dx, dy] = spacing.map(f64::abs);
+        let smaller = dx.min(dy);
+        let sides = [dx / smaller, dy / smaller];
+        let is_possible = smaller > 0.0 && sides.iter().all(|s| s.is_finite());
+        let differ = sides[0].max(sides[1]) - 1.0 > SQUARE;
+        if is_possible && differ { Self { sides } } else { Self::SQUARE }
+    }
+
+    /// The sides along x and y, the smaller one 1.
+    #[must_use]
+    pub const fn sides(self) -> [f64; 2] {
+        self.sides
+    }
+
+    /// A point, or a difference of points, in the unit of the smaller side.
+    #[must_use]
+    pub fn physical(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [x * self.sides[0], y * self.sides[1]]
+    }
+
+    /// A physical point, or direction, in cells.
+    #[must_use]
+    pub fn in_cells(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [x / self.sides[0], y / self.sides[1]]
+    }
+
+    /// Length of a line through points in cells.
+    #[must_use]
+    pub fn length(self, points: &[[f64; 2]]) -> f64 {
+        points.windows(2).map(|p| self.distance(p[0], p[1])).sum()
+    }
+
+    /// Distance of two points in cells.
+    #[must_use]
+    pub fn distance(self, a: [f64; 2], b: [f64; 2]) -> f64 {
+        let (p, q) = (self.physical(a), self.physical(b));
+        math::hypot(p[0] - q[0], p[1] - q[1])
+    }
+
+    /// The longer side of so many cells along x and y, in the unit of the smaller side of one.
+    #[must_use]
+    pub fn longer_side(self, [width, height]: [usize; 2]) -> f64 {
+        let [w, h] = self.physical([width as f64, height as f64]);
+        w.max(h)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_smaller_side_is_the_unit() {
+        for (spacing, sides) in [
+            ([0.5, 0.5], [1.0, 1.0]),
+            ([-2.0, 1.0], [2.0, 1.0]),
+            ([0.25, 0.75], [1.0, 3.0]),
+            ([f64::from(0.1_f32), 0.1], [1.0, 1.0]),
+            ([0.0, 1.0], [1.0, 1.0]),
+            ([f64::NAN, 1.0], [1.0, 1.0]),
+            ([1e-300, 1e300], [1.0, 1.0]),
+        ] {
+            assert_eq!(CellShape::of(spacing).sides(), sides, "{spacing:?}");
+        }
+        let cell = CellShape::of([0.2, 0.1]);
+        assert_eq!((cell.longer_side([3, 5]), cell.longer_side([2, 5])), (6.0, 5.0));
+        assert_eq!(cell.distance([1.0, 1.0], [3.0, 4.0]), 5.0);
+        assert_eq!(cell.in_cells(cell.physical([3.5, 7.25])), [3.5, 7.25]);
+    }
+}

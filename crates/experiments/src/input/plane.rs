@@ -5,7 +5,7 @@ use tigereye_core::{Field, Tensor2};
 use tigereye_fields::images::{
     MAX_RESAMPLED, MAX_RESAMPLED_CELLS, gradient_tensors, hessian_tensors, resampled, structure_tensors,
 };
-use tigereye_io::volume::{Cut, Lattice, TensorVolume};
+use tigereye_io::volume::{Cut, Lattice, PlaneGeometry, TensorVolume};
 
 /// A tensor field in the plane, with how it came about.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,10 +14,8 @@ pub struct PlaneField {
     pub field: Field<Tensor2>,
     /// What was read, assumed and done, a sentence each.
     pub story: Vec<String>,
-    /// Position of the lower left cell.
-    pub origin: [f64; 2],
-    /// Distance of the cells.
-    pub spacing: [f64; 2],
+    /// Where its cells lie.
+    pub geometry: PlaneGeometry,
 }
 
 /// Cells whose sides differ by more than this part are worth a warning.
@@ -57,18 +55,18 @@ fn derived(lattice: &Lattice, reading: &Reading, how: Derivation) -> Result<Plan
     let (mut field, cut, words) = match how.kind {
         Derived::Gradient => {
             let slice = lattice.vectors(reading.choice, reading.frame)?;
-            let field = gradient_tensors(&slice.field, slice.cut.spacing, how.sigma);
+            let field = gradient_tensors(&slice.field, slice.cut.geometry.spacing(), how.sigma);
             (field, slice.cut, format!("gradient tensor, {scale}"))
         }
         Derived::Hessian => {
             let slice = lattice.scalars(reading.choice)?;
-            let field = hessian_tensors(&slice.field, slice.cut.spacing, how.sigma);
+            let field = hessian_tensors(&slice.field, slice.cut.geometry.spacing(), how.sigma);
             (field, slice.cut, format!("Hessian, {scale}"))
         }
         Derived::Structure => {
             let slice = lattice.scalars(reading.choice)?;
             let window = how.window.unwrap_or(Derived::USUAL_WINDOW);
-            let field = structure_tensors(&slice.field, slice.cut.spacing, how.sigma, window);
+            let field = structure_tensors(&slice.field, slice.cut.geometry.spacing(), how.sigma, window);
             (field, slice.cut, format!("structure tensor, {scale}, averaged over {window} cells"))
         }
     };
@@ -85,20 +83,20 @@ fn derived(lattice: &Lattice, reading: &Reading, how: Derivation) -> Result<Plan
 }
 
 fn placed(field: Field<Tensor2>, story: Vec<String>, cut: &Cut) -> PlaneField {
-    PlaneField { field, story, origin: cut.origin, spacing: cut.spacing }
+    PlaneField { field, story, geometry: cut.geometry }
 }
 
 impl PlaneField {
-    /// A field that lies in the plane by itself.
+    /// A field that lies nowhere.
     #[must_use]
     pub const fn new(field: Field<Tensor2>, story: Vec<String>) -> Self {
-        Self { field, story, origin: [0.0; 2], spacing: [1.0; 2] }
+        Self { field, story, geometry: PlaneGeometry::UNPLACED }
     }
 
     /// Words of warning where cells are not square, as light and lines take them.
     #[must_use]
     pub fn oblong(&self) -> Option<String> {
-        let [dx, dy] = self.spacing;
+        let [dx, dy] = self.geometry.spacing();
         let off = (dx / dy - 1.0).abs() > SQUARE && (dy / dx - 1.0).abs() > SQUARE;
         let grid = self.field.grid();
         let columns = (grid.width() as f64 * dx / dy).round().max(1.0);
@@ -120,8 +118,7 @@ impl PlaneField {
         let Some(crop) = reading.crop else { return Ok(self) };
         let height = self.field.grid().height();
         self.field = crop.of(&self.field)?;
-        self.origin[0] += crop.x[0] as f64 * self.spacing[0];
-        self.origin[1] += (height - crop.y[1]) as f64 * self.spacing[1];
+        self.geometry = self.geometry.cropped(crop, height);
         self.story.push(format!(
             "cropped to columns {} to {} and rows {} to {} of the plane, row 0 on top",
             crop.x[0],
@@ -153,12 +150,7 @@ impl PlaneField {
         let grid = self.field.grid();
         let (before, after) = ([grid.width(), grid.height()], [width, height]);
         self.field = resampled(&self.field, width, height)?;
-        for axis in 0..2 {
-            let spacing = self.spacing[axis] * before[axis] as f64 / after[axis] as f64;
-            // Cells are squares around their points, and the outermost squares keep their outer sides.
-            self.origin[axis] += 0.5 * (spacing - self.spacing[axis]);
-            self.spacing[axis] = spacing;
-        }
+        self.geometry = self.geometry.resampled(before, after);
         self.story.push(format!(
             "resampled from {} x {} to {width} x {height} cells (triangle filter, component by component)",
             before[0], before[1]

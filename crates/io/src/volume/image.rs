@@ -69,7 +69,7 @@ pub fn lattice_from_image(
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let valid = image
         .point_array(VALID_POINTS)
-        .filter(|m| m.components == 1 && m.values.len() == size.iter().product());
+        .filter(|m| m.components == 1 && m.values.len() == size.iter().product::<usize>());
     let active = if association == Association::Points { &image.point_active } else { &image.cell_active };
     let named = TensorOrder::by_names(&names, array.components).ok();
     Ok(Lattice {

@@ -1,7 +1,7 @@
 //! Between VTK image data and volumes.
 
 use super::{Frame, IDENTITY, Known, Lattice, TensorOrder, TensorVolume, World};
-use crate::convert::{Association, TENSOR_ARRAY, Wanted, choose_array};
+use crate::convert::{Association, Rows, TENSOR_ARRAY, Wanted, choose_array};
 use crate::points::PointLattice;
 use crate::{ImageData, IoError, PolyData};
 
@@ -54,7 +54,7 @@ pub fn lattice_from_image(
         });
     }
     let d = image.direction.unwrap_or(IDENTITY);
-    let axes = [0, 1, 2].map(|a| [0, 1, 2].map(|i| d[3 * i + a] * image.spacing[a]));
+    let mut axes = [0, 1, 2].map(|a| [0, 1, 2].map(|i| d[3 * i + a] * image.spacing[a]));
     let mut origin = image.origin;
     if association == Association::Cells {
         for a in 0..3 {
@@ -63,6 +63,13 @@ pub fn lattice_from_image(
                 (0..3).for_each(|i| origin[i] += 0.5 * axes[a][i]);
             }
         }
+    }
+    let mut world = World::Viewer;
+    if Rows::of(image, &array.name) == Rows::Downwards {
+        // A result that lies nowhere has its first row on top.
+        (0..3).for_each(|i| origin[i] += (size[1] - 1) as f64 * axes[1][i]);
+        axes[1] = axes[1].map(|v| -v);
+        world = World::Absent;
     }
     let kind = if association == Association::Points { "point" } else { "cell" };
     let names: Vec<String> = array.component_names.iter().map(|n| n.to_ascii_lowercase()).collect();
@@ -79,7 +86,7 @@ pub fn lattice_from_image(
         scalar: array.scalar,
         axes,
         origin,
-        world: World::Viewer,
+        world,
         measurement: None,
         mask: valid.filter(|_| association == Association::Points).map(|m| m.values.clone()),
         order: named

@@ -5,7 +5,7 @@ import itertools
 import nibabel
 import nrrd
 import numpy as np
-from common import ORIGIN, SPACING, TURN, Checks, full_tensors, sample_tensors, six, tensors, turned
+from common import ORIGIN, SPACING, TURN, Checks, full_tensors, sample_tensors, six, slice_of, tensors, turned
 from dipy.reconst import dti
 
 SHAPE = (4, 5, 3)
@@ -15,8 +15,8 @@ AFFINE[:3, 3] = ORIGIN
 
 
 def plane_of(full, z):
-    """What tigereye shows of a volume (x, y, z, 3, 3) with components along the voxel axes: slice z, y upwards."""
-    return full[:, :, z, :2, :2].transpose(1, 0, 2, 3)[::-1]
+    """What tigereye shows of a volume (x, y, z, 3, 3) with components along the voxel axes: slice z."""
+    return slice_of(full, "z", z, TURN)
 
 
 class Nibabel(Checks):

@@ -7,7 +7,7 @@ import nrrd
 import numpy as np
 import vtk
 from check_vtk import array
-from common import ORIGIN, SPACING, TURN, Checks, six, tensors, turned
+from common import ORIGIN, SPACING, TURN, Checks, six, slice_of, tensors, turned
 from vtk.util.numpy_support import vtk_to_numpy
 
 SHAPE = (4, 5, 3)
@@ -30,14 +30,6 @@ def lattice_points(shape, origin, axes):
     """Positions of the points of a lattice, x fastest; the axes are the columns."""
     z, y, x = np.meshgrid(*(np.arange(n) for n in reversed(shape)), indexing="ij")
     return origin + np.stack([x, y, z], -1).reshape(-1, 3) @ np.asarray(axes).T
-
-
-def slice_of(voxel, axis, index):
-    """The plane across a voxel axis of tensors along the voxel axes, row 0 on top: (H, W, 2, 2)."""
-    right, up = AXES[axis]
-    layer = np.take(voxel, index, axis="xyz".index(axis))
-    chosen = layer[..., [right, up], :][..., :, [right, up]]
-    return chosen.transpose(1, 0, 2, 3)[::-1]
 
 
 def volume(full, directions=None, extent=None):
@@ -127,14 +119,16 @@ class Planes(Places):
             index = SHAPE["xyz".index(axis)] - 1 if last else 0
             what = f"{axis}={index} as .{ending}"
             with self.subTest(what):
-                expected = slice_of(upright, axis, index)
+                expected = slice_of(upright, axis, index, np.eye(3))
                 height, width = expected.shape[:2]
                 full = np.zeros((height, width, 3, 3))
                 full[..., :2, :2] = expected[::-1]
                 right, up = AXES[axis]
                 self.assertTrue((self.plane("a.vti", "--slice", f"{axis}={index}") == expected).all(), what)
                 self.run_program("convert", "a.vti", f"s.{ending}", "--slice", f"{axis}={index}", "--force")
-                origin = np.array([ORIGIN[right], ORIGIN[up], 0.0])
+                # Only the planes along x and y lie in the world as they are.
+                height_in_world = ORIGIN[2] + index * SPACING[2] if axis == "z" else 0.0
+                origin = np.array([ORIGIN[right], ORIGIN[up], height_in_world])
                 places = lattice_points((width, height, 1), origin, np.diag([SPACING[right], SPACING[up], 1.0]))
                 self.tensors_at(self.read(f"s.{ending}"), places, full.reshape(-1, 3, 3), what)
 
@@ -174,7 +168,7 @@ class Volumes(Places):
             for axis, index in [("x", 2), ("y", 0), ("z", 1)]:
                 with self.subTest(f"{file}, {axis}={index}"):
                     found = self.plane(file, "--slice", f"{axis}={index}")
-                    self.near(found, slice_of(voxel, axis, index), 1e-6, f"{file}, {axis}={index}")
+                    self.near(found, slice_of(voxel, axis, index, TURN), 1e-6, f"{file}, {axis}={index}")
 
     def test_direction_matrices(self):
         """VTK's turned image data: slices along their axes, and whole again."""
@@ -184,7 +178,7 @@ class Volumes(Places):
         for axis, index in [("x", 1), ("y", 4), ("z", 2)]:
             with self.subTest(f"{axis}={index}"):
                 found = self.plane("a.vti", "--slice", f"{axis}={index}")
-                self.near(found, slice_of(voxel, axis, index), 1e-12, f"{axis}={index}")
+                self.near(found, slice_of(voxel, axis, index, TURN), 1e-12, f"{axis}={index}")
         for ending in READERS:
             with self.subTest(f"as .{ending}"):
                 self.run_program("convert", "a.vti", f"o.{ending}", "--force")
@@ -200,7 +194,7 @@ class Volumes(Places):
                 self.written(volume(world, np.diag([*signs, signs[0] * signs[1]])))
                 # Neighbours along x and y of the world.
                 shown = world[:: int(signs[0]), :: int(signs[1])]
-                self.assertTrue((self.plane("a.vti", "--slice", "z=1") == slice_of(shown, "z", 1)).all())
+                self.assertTrue((self.plane("a.vti", "--slice", "z=1") == slice_of(shown, "z", 1, np.eye(3))).all())
 
     def test_extents_that_do_not_start_at_zero(self):
         """VTK's origin belongs to index 0, wherever the extent starts."""
@@ -230,7 +224,7 @@ class Volumes(Places):
         for axis, index in [("x", 3), ("y", 2), ("z", 0)]:
             with self.subTest(f"{axis}={index}"):
                 found = self.plane("a.vtp", "--slice", f"{axis}={index}")
-                self.near(found, slice_of(voxel, axis, index), 1e-9, f"{axis}={index}")
+                self.near(found, slice_of(voxel, axis, index, TURN), 1e-9, f"{axis}={index}")
         self.run_program("convert", "a.vtp", "o.vti")
         self.tensors_at(self.read("o.vti"), places, in_file_order(world), "poly data as .vti")
 
@@ -268,15 +262,36 @@ class Volumes(Places):
                 voxel = turned(world, TURN.T) if name == "grid" else world
                 found = self.plane("a.vtk", "--slice", "z=2")
                 # Text has six digits of a position, so axes are turned a little.
-                self.near(found, slice_of(voxel, "z", 2), 1e-5, what)
+                self.near(found, slice_of(voxel, "z", 2, TURN if name == "grid" else np.eye(3)), 1e-5, what)
                 self.run_program("convert", "a.vtk", "o.vti", "--force")
                 data_read = self.read("o.vti")
                 self.near(points_of(data_read), places, 1e-5, what)
 
 
 class Results(Places):
+    def test_results_lie_on_their_slice(self):
+        """Light, gradient and lines of an oblique slice are where VTK has the points of its voxels."""
+        world = tensors(SHAPE, seed=19)
+        self.written(volume(world, TURN))
+        index = 1
+        # The picture has the voxel axis y to the left and x down.
+        picture = lattice_points(SHAPE, ORIGIN, TURN * SPACING).reshape(*reversed(SHAPE), 3)[index, ::-1, ::-1]
+        expected = picture.swapaxes(0, 1).reshape(-1, 3)
+        chosen = ["a.vti", "--slice", f"z={index}", "--directions", "8", "--normalization", "local"]
+        self.run_program("propagate", *chosen, "--light", "1,1", "-o", "l.vti")
+        self.near(points_of(self.read("l.vti")), expected, 1e-6, "light")
+        self.run_program("ltg", *chosen, "-o", "g.vti")
+        found = points_of(self.read("g.vti"))[: len(expected)]
+        normal = TURN[:, 2] if np.linalg.det(TURN) > 0 else -TURN[:, 2]
+        off = (expected - found) @ TURN[:, 2]
+        self.near(found + np.outer(off, TURN[:, 2]), expected, 1e-6, "gradient, along its own axis")
+        self.assertLess(np.abs(found @ normal).max(), 1e-6, "the axis of directions begins at 0")
+        self.run_program("lines", "a.vti", "--slice", f"z={index}", "-o", "l.vtp")
+        lines = points_of(self.read("l.vtp"))
+        self.assertLess(np.abs((lines - expected[0]) @ TURN[:, 2]).max(), 1e-6, "lines")
+
     def test_light_and_its_gradient(self):
-        """What the sweep and the propagation write is placed as the field is."""
+        """What the sweep and the propagation write of a field that lies nowhere counts cells."""
         self.run_program("ltg", "inverse:size=9", "--directions", "8", "-o", "g.vti")
         self.run_program("propagate", "inverse:size=9", "--light", "4,7", "-o", "l.vti")
         self.run_program("convert", "inverse:size=9", "f.vti")

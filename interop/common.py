@@ -1,5 +1,6 @@
 """What the checks share: the program, temporary folders, and the tensors they send around."""
 
+import itertools
 import json
 import os
 import pathlib
@@ -31,6 +32,24 @@ def tensors(shape, symmetric=True, seed=1):
     """Numbers that single precision holds exactly: tensors (..., 3, 3) of small multiples of 1/64."""
     numbers = np.random.default_rng(seed).integers(-200, 200, size=(*shape, 3, 3)) / 64.0
     return (numbers + numbers.swapaxes(-1, -2)) / 2.0 if symmetric else numbers
+
+
+def slice_of(voxel, axis, index, directions):
+    """The plane across a voxel axis of tensors along the voxel axes, as a picture of the world: (H, W, 2, 2), row 0 on top.
+
+    Every voxel axis belongs to the world axis it is nearest to, all together; the lower one runs to the right, and axes that
+    run against the world's are reversed. The directions are columns.
+    """
+    orders = itertools.permutations(range(3))
+    world = max(orders, key=lambda order: sum(abs(directions[order[a], a]) for a in range(3)))
+    normal = "xyz".index(axis)
+    right, up = sorted((a for a in range(3) if a != normal), key=lambda a: world[a])
+    signs = [1 if directions[world[a], a] > 0.0 else -1 for a in (right, up)]
+    layer = np.take(voxel, index, axis=normal)
+    if right > up:
+        layer = layer.swapaxes(0, 1)
+    layer = layer[..., [right, up], :][..., :, [right, up]] * np.outer(signs, signs)
+    return layer[:: signs[0], :: signs[1]].transpose(1, 0, 2, 3)[::-1]
 
 
 def six(full, order):

@@ -14,7 +14,7 @@ use tigereye_experiments::provenance::hash_of_field;
 use tigereye_experiments::scene::is_scene_file;
 use tigereye_experiments::settings::{defined_plane, is_field_file, make_plane};
 use tigereye_experiments::spec::load_field;
-use tigereye_io::volume::Shear;
+use tigereye_io::volume::{PlaneGeometry, Shear};
 
 /// What INPUT is, before a plane is chosen.
 #[derive(Debug)]
@@ -83,9 +83,8 @@ pub(crate) struct Input {
     pub(crate) remarks: Vec<String>,
     /// A warning for those who take cells as squares, where they are not.
     pub(crate) oblong: Option<String>,
-    /// Position of the first point and distance between points, x and y.
-    pub(crate) origin: [f64; 2],
-    pub(crate) spacing: [f64; 2],
+    /// Where its cells lie.
+    pub(crate) geometry: PlaneGeometry,
     /// What a field file calls it.
     pub(crate) title: Option<String>,
     /// Names of the files it was read from.
@@ -129,15 +128,14 @@ impl Input {
         blake3: String,
     ) -> Self {
         let oblong = plane.oblong();
-        let PlaneField { field, story, origin, spacing, .. } = plane;
+        let PlaneField { field, story, geometry, .. } = plane;
         Self {
             name,
             field,
             assumptions: story,
             remarks,
             oblong,
-            origin,
-            spacing,
+            geometry,
             title: None,
             files: Vec::new(),
             kind,

@@ -7,6 +7,7 @@ mod checkpoint;
 mod commands;
 mod error;
 mod files;
+mod geometry;
 mod host;
 mod input;
 mod interrupt;

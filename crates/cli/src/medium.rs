@@ -10,6 +10,7 @@ use tigereye_core::{Directions, Field, Grid, Normalization, Surface, Transmissio
 use tigereye_experiments::input::Reading;
 use tigereye_experiments::scene::{PreparedScene, is_scene_file, light_fault, prepare};
 use tigereye_experiments::{Medium, normalization_name};
+use tigereye_io::volume::PlaneGeometry;
 use tigereye_transport::Light;
 
 /// The scene of a file, and the names of all files it was read from.
@@ -125,6 +126,14 @@ impl MediumInput {
     ) -> Result<TransmissionField, CliError> {
         let made = self.medium().transmission(directions, normalization);
         made.map_err(|e| CliError::input(self.name(), e))
+    }
+
+    /// Where its cells lie. A scene lies nowhere.
+    pub(crate) const fn geometry(&self) -> &PlaneGeometry {
+        match self {
+            Self::Tensors(input) => &input.geometry,
+            Self::Scene(..) => &PlaneGeometry::UNPLACED,
+        }
     }
 
     /// The walls of a scene.

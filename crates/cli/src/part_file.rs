@@ -1,12 +1,13 @@
 //! `.part` files: what a shard leaves, and checkpoints.
 
 use crate::error::CliError;
-use crate::files;
+use crate::{files, geometry};
 use serde_json::{Value, json};
 use std::path::Path;
 use tigereye_core::{Directions, Grid, SweepWork};
 use tigereye_experiments::provenance::VERSION;
 use tigereye_io::part;
+use tigereye_io::volume::PlaneGeometry;
 use tigereye_ltg::{Finished, LtgError, NUMERICS, PartialVolume, Shard};
 
 /// Parameters that do not show in the result. The input and its mask are known by their hash; what they are called may
@@ -22,6 +23,8 @@ pub(crate) struct Identity {
     /// All parameters, resolved, under the names of the options.
     pub(crate) parameters: Value,
     pub(crate) input_blake3: String,
+    /// Where the input's cells lie. It shows in the files, though not in the numbers.
+    pub(crate) geometry: PlaneGeometry,
 }
 
 /// What a computation cost beside its counters.
@@ -47,7 +50,7 @@ pub(crate) struct PartFile {
 
 impl Identity {
     /// The identity of this program's work.
-    pub(crate) fn new(parameters: &Value, input_blake3: &str) -> Self {
+    pub(crate) fn new(parameters: &Value, input_blake3: &str, geometry: PlaneGeometry) -> Self {
         // Numbers as a reader gets them, so that equal ones compare equal.
         let parameters = serde_json::from_str(&parameters.to_string()).unwrap_or_default();
         Self {
@@ -55,6 +58,8 @@ impl Identity {
             numerics: NUMERICS.into(),
             parameters,
             input_blake3: input_blake3.to_owned(),
+            // What lies nowhere has no other geometry in files.
+            geometry: if geometry.is_placed() { geometry } else { PlaneGeometry::UNPLACED },
         }
     }
 
@@ -78,6 +83,10 @@ impl Identity {
         }
         if self.input_blake3 != other.input_blake3 {
             return Some(("the input".to_owned(), self.input(), other.input()));
+        }
+        if self.geometry != other.geometry {
+            let [here, there] = [self, other].map(|i| geometry::to_json(&i.geometry).to_string());
+            return Some(("the place of the input".to_owned(), here, there));
         }
         let names =
             |p: &Value| p.as_object().map(|o| o.keys().cloned().collect::<Vec<_>>()).unwrap_or_default();
@@ -148,6 +157,7 @@ pub(crate) fn encoded(
         "command": command,
         "parameters": identity.parameters,
         "input_blake3": identity.input_blake3,
+        "geometry": geometry::to_json(&identity.geometry),
         "shard": shard.to_string(),
         "summary": summary(volume, identity, costs),
     });
@@ -219,6 +229,8 @@ fn decoded(part: part::Part) -> Result<PartFile, (usize, String)> {
             numerics: header["numerics"].as_u64().unwrap_or(0),
             parameters: header["parameters"].clone(),
             input_blake3: text("/input_blake3")?,
+            geometry: geometry::from_json(header.get("geometry"))
+                .ok_or_else(|| lacks("numbers of a place at /geometry"))?,
         },
         shard,
         costs: Costs {

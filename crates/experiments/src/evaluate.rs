@@ -7,7 +7,7 @@ use crate::draw::{Drawn, draw_figure};
 use crate::host::Host;
 use crate::measure;
 use crate::outcome::{DataFile, ExperimentOutcome};
-use crate::provenance::provenance;
+use crate::provenance::{provenance, with_rows};
 use crate::pulses::comma_separated;
 use crate::runs::{Results, RunError, run_all};
 use crate::settings::{RunSettings, Settings};
@@ -17,7 +17,8 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use thiserror::Error;
 use tigereye_core::Normalization;
-use tigereye_io::IoError;
+use tigereye_io::volume::PlaneGeometry;
+use tigereye_io::{IoError, Rows};
 use tigereye_transport::StoppingRule;
 
 /// An experiment that could not be evaluated.
@@ -153,11 +154,12 @@ fn data_files(
         }
         let story = story_of(settings, command, run);
         let image = if let Some(r) = results.lights.get(name) {
-            tigereye_io::image_from_light(&r.last, &story)
+            tigereye_io::image_from_light(&r.last, &PlaneGeometry::UNPLACED, &story)
         } else if let Some(g) = results.gradients.get(name) {
-            tigereye_io::image_from_ltg(&g.volume, &story)
+            tigereye_io::image_from_ltg(&g.volume, &PlaneGeometry::UNPLACED, &story)
         } else if let (Some(f), Some(field)) = (results.ftle.get(name), settings.fields.get(run.field())) {
-            let placement = Placement::new([0.0; 2], f.cell.sides(), field.grid());
+            let placement =
+                Placement::new(PlaneGeometry::UNPLACED.with_spacing(f.cell.sides()), field.grid());
             let arrays = [("FTLE", &f.larger), ("FTLE_smaller", &f.smaller)];
             fine::image(&arrays, [f.samples; 2], &placement, &story)
         } else {
@@ -190,7 +192,7 @@ fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
                 "length": f.length,
                 "samples": f.samples,
             });
-            return provenance(command, &parameters, &hash);
+            return provenance(command, &with_rows(parameters, Rows::Upwards), &hash);
         }
         RunSettings::Light(l) => {
             let lights: Vec<_> = l.lights.iter().map(|l| (l.cell.x, l.cell.y)).collect();
@@ -221,7 +223,7 @@ fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
     if let (Some(all), Value::Object(own)) = (parameters.as_object_mut(), own) {
         all.extend(own);
     }
-    provenance(command, &parameters, &hash)
+    provenance(command, &with_rows(parameters, Rows::of_results(&PlaneGeometry::UNPLACED)), &hash)
 }
 
 /// The name of a normalisation as options spell it.

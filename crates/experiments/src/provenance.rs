@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 use tigereye_core::{Field, Tensor2};
+use tigereye_io::Rows;
 
 /// Version of the program that makes the results.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -11,6 +12,15 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 pub fn provenance(command: &str, parameters: &Value, input_blake3: &str) -> String {
     json!({ "version": VERSION, "command": command, "parameters": parameters, "input_blake3": input_blake3 })
         .to_string()
+}
+
+/// Parameters with the way in which the rows of a written image run.
+#[must_use]
+pub fn with_rows(mut parameters: Value, rows: Rows) -> Value {
+    if let Some(all) = parameters.as_object_mut() {
+        all.insert(Rows::KEY.to_owned(), Value::from(rows.name()));
+    }
+    parameters
 }
 
 /// Hash of the bytes of an input file, hex.

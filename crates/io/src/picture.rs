@@ -80,7 +80,7 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
         scalar: format,
         axes: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]],
         origin: [0.0, (height - 1) as f64, 0.0],
-        world: World::Viewer,
+        world: World::Absent,
         measurement: None,
         mask: None,
         order: None,

@@ -6,8 +6,9 @@ mod support;
 use proptest::prelude::*;
 use support::{field_of, image_of};
 use tigereye_core::{Cell, Directions, Field, Grid, LightDistribution, LtgVolume, Tensor2};
+use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{
-    ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData, IoError, ScalarType, image_from_light,
+    ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData, IoError, Rows, ScalarType, image_from_light,
     image_from_ltg, ltg_from_image, matrices, npy, vti,
 };
 
@@ -72,8 +73,9 @@ fn tensors_survive_an_image() {
     let read = vti::read(&vti::write(&image).unwrap()).unwrap();
     let tensors = field_of(&read, None).unwrap();
     assert_eq!(tensors.field, field);
-    assert_eq!((tensors.cut.origin, tensors.cut.spacing), ([1.0, 2.0], [0.5, 0.25]));
-    assert!(tensors.cut.rows_flipped && !tensors.cut.columns_flipped);
+    let lies = tensors.cut.geometry;
+    assert_eq!((lies.corner(), lies.spacing()), ([1.0, 2.0, 0.0], [0.5, 0.25]));
+    assert_eq!(tensors.cut.reversed(), [false, false]);
 }
 
 #[test]
@@ -101,7 +103,7 @@ fn reversed_axes_are_put_right() {
     let mut image = image_of(&field, [0.0; 2], [1.0; 2]);
     image.direction = Some([-1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0]);
     let read = field_of(&image, None).unwrap();
-    assert!(read.cut.columns_flipped && !read.cut.rows_flipped);
+    assert_eq!(read.cut.reversed(), [true, true]);
     let turned = Field::from_fn(field.grid(), |c| *field.at(Cell::new(2 - c.x, 1 - c.y)));
     assert_eq!(read.field, turned);
     // Reversed by spacing, by direction, or by both, which is not at all.
@@ -112,7 +114,7 @@ fn reversed_axes_are_put_right() {
         image.direction = Some([direction[0], 0.0, 0.0, 0.0, direction[1], 0.0, 0.0, 0.0, 1.0]);
         image.spacing[1] = spacing;
         let read = field_of(&image, None).unwrap();
-        assert_eq!(read.cut.rows_flipped, !reversed, "{direction:?} {spacing}");
+        assert_eq!(read.cut.reversed(), [false, reversed], "{direction:?} {spacing}");
         let upside_down = Field::from_fn(field.grid(), |c| *field.at(Cell::new(c.x, 1 - c.y)));
         assert_eq!(read.field, if reversed { upside_down } else { field.clone() }, "{direction:?} {spacing}");
     }
@@ -153,7 +155,7 @@ fn gradient_volumes_keep_slices_rows_and_provenance() {
     let json = "{\"version\": \"0.1.0\", \"command\": \"ltg\"}";
     for (slices, named) in [((0..8).collect(), false), (vec![1, 4, 6], true)] {
         let volume = sample_volume(slices);
-        let image = image_from_ltg(&volume, json);
+        let image = image_from_ltg(&volume, &PlaneGeometry::UNPLACED, json);
         assert_eq!(image.numbers("slices").is_some(), named);
         assert_eq!(image.point_arrays[0].values, volume.values());
         let read = ltg_from_image(&vti::read(&vti::write(&image).unwrap()).unwrap()).unwrap();
@@ -162,9 +164,65 @@ fn gradient_volumes_keep_slices_rows_and_provenance() {
     }
 }
 
+/// A plane of the world's x and z: right x up is -y.
+fn upright() -> PlaneGeometry {
+    PlaneGeometry::new([1.0, 2.0, 3.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.5, 0.25])
+}
+
+const DOWN: &str = "{\"parameters\": {\"rows\": \"downwards\"}}";
+const UP: &str = "{\"parameters\": {\"rows\": \"upwards\"}}";
+
+/// The same numbers come out of a file with and without a place; the file with one has rows upwards and lies there.
+#[test]
+fn gradient_volumes_lie_on_their_field() {
+    let volume = sample_volume(vec![1, 4, 6]);
+    let placed = image_from_ltg(&volume, &upright(), UP);
+    let plain = image_from_ltg(&volume, &PlaneGeometry::UNPLACED, DOWN);
+    let through = |image: &ImageData| vti::read(&vti::write(image).unwrap()).unwrap();
+    for image in [&placed, &plain] {
+        let read = ltg_from_image(&through(image)).unwrap();
+        assert_eq!(read.into_volume(volume.directions()).unwrap(), volume);
+    }
+    let (grid, lies) = (volume.grid(), through(&placed));
+    let last = grid.cells() - grid.width();
+    assert_eq!(lies.point_arrays[0].values[0], volume.values()[last]);
+    // The axis of directions has its own origin.
+    assert_eq!((lies.origin, lies.spacing), ([1.0, 0.0, 3.0], [0.5, 0.25, 1.0]));
+    assert_eq!(lies.direction, Some([1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0]));
+    assert_eq!((plain.origin, plain.spacing, plain.direction), ([0.0; 3], [1.0; 3], None));
+    assert_eq!(plain.point_arrays[0].values, volume.values());
+}
+
+/// What says nothing: the published volumes and older results run downwards, foreign files upwards.
+#[test]
+fn rows_run_as_files_say_or_as_their_makers_have_them() {
+    let mut image = ImageData::empty([2, 2, 1]);
+    let rows = |image: &ImageData, name: &str| Rows::of(image, name);
+    assert_eq!(rows(&image, "Energy"), Rows::Downwards);
+    assert_eq!(rows(&image, "LTG"), Rows::Upwards);
+    image.origin[0] = 1.0;
+    assert_eq!(rows(&image, "Energy"), Rows::Upwards, "lies somewhere, as no published volume does");
+    image.push_text("tigereye", "{\"parameters\": {}}");
+    for (name, expected) in [
+        ("LTG", Rows::Downwards),
+        ("energy", Rows::Downwards),
+        ("intensity", Rows::Downwards),
+        ("flux", Rows::Downwards),
+        ("FTLE", Rows::Upwards),
+        ("LIC", Rows::Upwards),
+    ] {
+        assert_eq!(rows(&image, name), expected, "{name}");
+    }
+    for (story, expected) in [(UP, Rows::Upwards), (DOWN, Rows::Downwards)] {
+        image.field_data.clear();
+        image.push_text("tigereye", story);
+        assert_eq!((rows(&image, "LTG"), rows(&image, "FTLE")), (expected, expected));
+    }
+}
+
 #[test]
 fn impossible_slices_are_refused() {
-    let mut image = image_from_ltg(&sample_volume(vec![1, 4]), "{}");
+    let mut image = image_from_ltg(&sample_volume(vec![1, 4]), &PlaneGeometry::UNPLACED, "{}");
     let set = |image: &mut ImageData, values: Vec<f64>| {
         let values = FieldValues::Numbers { components: 1, values, scalar: ScalarType::Float64 };
         image.field_data[1].values = values;
@@ -187,10 +245,27 @@ fn sample_light() -> LightDistribution {
     LightDistribution::new(Directions::new(8).unwrap(), samples, incoming)
 }
 
+/// Light lies on its field: rows upwards, the flux along the axes of the world.
+#[test]
+fn light_lies_on_its_field() {
+    let light = sample_light();
+    let image = image_from_light(&light, &upright(), UP);
+    assert_eq!((image.origin, image.spacing), ([1.0, 2.0, 3.0], [0.5, 0.25, 1.0]));
+    let array = |name: &str| &image.point_array(name).unwrap().values[..];
+    // The first row of the file is the last of the field: cell (2, 1) is the third point.
+    let energy = light.energy();
+    assert_eq!(array("energy")[..3], energy.values()[3..]);
+    assert_eq!(array("energy")[3..], energy.values()[..3]);
+    assert_eq!(array("intensity")[..24], light.samples()[24..]);
+    // 2 W to the right, 1 W up: along x and z.
+    assert_eq!(array("flux")[6..9], [2.0, 0.0, 1.0]);
+}
+
 #[test]
 fn light_images_hold_energy_intensity_and_flux() {
     let light = sample_light();
-    let image = vti::read(&vti::write(&image_from_light(&light, "{}")).unwrap()).unwrap();
+    let image =
+        vti::read(&vti::write(&image_from_light(&light, &PlaneGeometry::UNPLACED, "{}")).unwrap()).unwrap();
     assert_eq!(image.dimensions, [3, 2, 1]);
     assert_eq!(image.point_array("energy").unwrap().values, light.energy().values());
     let intensity = image.point_array("intensity").unwrap();

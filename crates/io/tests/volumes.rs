@@ -128,10 +128,14 @@ fn measurement_frames_turn_tensors() {
     assert_eq!(slice(Some(Frame::Voxel)), Tensor2::symmetric(1.0, 2.0, 4.0));
     let turned = nrrd_one_voxel("space directions: none (0,1,0) (-1,0,0) (0,0,1)");
     assert_eq!(turned.frame, (Frame::World, Known::Assumed));
-    let volume = turned.tensors(Reading::default()).unwrap();
-    let slice = volume.slice(PlaneChoice::default()).unwrap();
-    // Voxel axis x points to y, so its component is yy.
-    assert_eq!(*slice.field.at(Cell::new(0, 0)), Tensor2::symmetric(4.0, -2.0, 1.0));
+    let slice = |frame| {
+        let volume = turned.clone().tensors(Reading { frame, ..Reading::default() }).unwrap();
+        *volume.slice(PlaneChoice::default()).unwrap().field.at(Cell::new(0, 0))
+    };
+    // The picture has x of the world to the right, whichever voxel axis points there.
+    assert_eq!(slice(None), Tensor2::symmetric(1.0, 2.0, 4.0));
+    // Voxel axis x points up, and y to the left.
+    assert_eq!(slice(Some(Frame::Voxel)), Tensor2::symmetric(4.0, -2.0, 1.0));
     let none = nrrd_one_voxel("").tensors(Reading { frame: Some(Frame::Measurement), ..Reading::default() });
     assert_eq!(none.unwrap_err(), IoError::NoMeasurementFrame);
     let skewed = nrrd_one_voxel("space directions: none (1,0,0) (0.5,1,0) (0,0,1)");
@@ -361,12 +365,14 @@ fn slices_show_the_last_voxel_on_top() {
     let xy = slice(Plane::Xy, 1);
     assert_eq!((xy.field.grid().width(), xy.field.grid().height()), (2, 3));
     assert_eq!(*xy.field.at(Cell::new(1, 0)), Tensor2::new(11.0, 101.0, 103.0, 104.0));
-    assert_eq!((xy.cut.origin, xy.cut.spacing), ([10.0, 20.0], [1.0, 2.0]));
+    let lies = xy.cut.geometry;
+    assert_eq!((lies.corner(), lies.spacing()), ([10.0, 20.0, 33.0], [1.0, 2.0]));
     let xz = slice(Plane::Xz, 2);
     assert_eq!(*xz.field.at(Cell::new(0, 3)), Tensor2::new(4.0, 102.0, 106.0, 108.0));
     let yz = slice(Plane::Yz, 1);
     assert_eq!(*yz.field.at(Cell::new(2, 0)), Tensor2::new(104.0, 105.0, 107.0, 108.0));
-    assert_eq!(yz.cut.origin, [20.0, 30.0]);
+    assert_eq!(yz.cut.geometry.corner(), [11.0, 20.0, 30.0]);
+    assert_eq!((yz.cut.geometry.right(), yz.cut.geometry.up()), ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]));
 }
 
 #[test]
@@ -473,24 +479,33 @@ fn masks_follow_their_axes() {
     assert_eq!(masked(own, ras()).0, [0.0, 0.5, 0.0, 3.0, 4.0, 5.0]);
 }
 
-/// An axis that runs against the world cannot be told by a position and a positive distance.
+/// An axis that runs against the world's is reversed, so that a position and positive distances tell where a plane lies.
 #[test]
-fn positions_are_told_only_where_axes_run_forwards() {
-    let volume = |axes: [[f64; 3]; 3], world: &str| {
+fn positions_are_those_of_the_lower_left_cell_of_the_picture() {
+    let cut = |axes: [[f64; 3]; 3], world: &str| {
         let mut lattice = scalars([2, 3, 1], axes, [10.0, 20.0, 30.0], world);
         lattice.components = 3;
         lattice.values = vec![1.0; 18];
         let reading = Reading { order: Some("nrrd"), ..Reading::default() };
-        lattice.tensors(reading).unwrap().slice(PlaneChoice::default()).unwrap().cut.origin
+        lattice.tensors(reading).unwrap().slice(PlaneChoice::default()).unwrap().cut
     };
     let left = [[-1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
     let down = [[1.0, 0.0, 0.0], [0.0, -2.0, 0.0], [0.0, 0.0, 3.0]];
-    assert_eq!(volume(STEPS, "RAS"), [10.0, 20.0]);
-    assert_eq!(volume(left, "LAS"), [0.0, 0.0]);
-    assert_eq!(volume(down, "RPS"), [0.0, 0.0]);
-    // A viewer's picture is turned upright.
-    assert_eq!(volume(left, ""), [9.0, 20.0]);
-    assert_eq!(volume(down, ""), [10.0, 16.0]);
+    for world in ["", "RAS", "LPS", "3D-left-handed"] {
+        let corner = |axes| cut(axes, world).geometry.corner();
+        assert_eq!(corner(STEPS), [10.0, 20.0, 30.0], "{world}");
+        assert_eq!(corner(left), [9.0, 20.0, 30.0], "{world}");
+        assert_eq!(corner(down), [10.0, 16.0, 30.0], "{world}");
+    }
+    let story = cut(left, "LPS").story("");
+    assert!(story.contains("voxel axis -x to the right (the world's +x, the patient's left)"), "{story}");
+    assert!(story.contains("y up (the world's +y, the patient's posterior)"), "{story}");
+    let oblique = [[0.8, 0.6, 0.0], [-1.2, 1.6, 0.0], [0.0, 0.0, 3.0]];
+    let story = cut(oblique, "").story("");
+    assert!(
+        story.contains("x to the right (mainly the world's +x), y up (mainly the world's +y)"),
+        "{story}"
+    );
 }
 
 /// Seven numbers are one thing, whatever the file.

@@ -1,52 +1,16 @@
 //! What is written comes back: every format of tensors, from fields and from turned volumes.
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
+mod support;
+
 use std::io::Read as _;
+use support::{FORMATS, Format, world};
 use tigereye_core::{Field, Grid, Tensor2};
 use tigereye_io::volume::{
-    Frame, Lattice, PlaneChoice, Reading, TensorVolume, image_from_volume, lattice_from_image,
-    lattice_from_points, points_from_image,
+    Frame, PlaneChoice, PlaneGeometry, Reading, TensorVolume, image_from_volume, lattice_from_image,
+    lattice_from_points,
 };
-use tigereye_io::{Cells, DataArray, ImageData, IoError, PolyData, Wanted, legacy, nifti, nrrd, vti, vtp};
-
-/// Reads and writes one format.
-struct Format {
-    name: &'static str,
-    through: fn(&TensorVolume) -> Result<Lattice, IoError>,
-}
-
-const FORMATS: [Format; 6] = [
-    Format {
-        name: "vti",
-        through: |v| lattice_from_image(&vti::read(&vti::write(&world(v)?)?)?, None, Wanted::Tensors),
-    },
-    Format {
-        name: "vtp",
-        through: |v| {
-            lattice_from_points(
-                vtp::read(&vtp::write(&points_from_image(world(v)?))?)?,
-                None,
-                Wanted::Tensors,
-            )
-        },
-    },
-    Format {
-        name: "vtk",
-        through: |v| {
-            lattice_from_image(&legacy::read(&legacy::write(&world(v)?, "title")?)?, None, Wanted::Tensors)
-        },
-    },
-    Format { name: "nrrd", through: |v| nrrd::read(&nrrd::write(v, Frame::World, "{\"a\\b\":\n1}")?, None) },
-    Format { name: "nii", through: |v| nifti::read(&nifti::write(v, nifti::WrittenAs::Matrices, "words")?) },
-    Format {
-        name: "nii.gz",
-        through: |v| nifti::read(&nifti::write_packed(v, nifti::WrittenAs::Matrices, "")?),
-    },
-];
-
-fn world(volume: &TensorVolume) -> Result<ImageData, IoError> {
-    image_from_volume(volume, Frame::World)
-}
+use tigereye_io::{Cells, DataArray, ImageData, IoError, PolyData, Wanted, legacy, nifti, nrrd, vtp};
 
 fn field(symmetric: bool) -> Field<Tensor2> {
     Field::from_fn(Grid::new(5, 4).unwrap(), |c| {
@@ -54,6 +18,11 @@ fn field(symmetric: bool) -> Field<Tensor2> {
         let yx = if symmetric { 0.1 + x - y } else { x * y - 3.0 };
         Tensor2::new(1.0 + x, 0.1 + x - y, yx, 2.5 - y * x)
     })
+}
+
+/// A plane in height 7.
+fn placed() -> PlaneGeometry {
+    PlaneGeometry::new([3.0, -2.0, 7.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.25])
 }
 
 fn slice(volume: &TensorVolume) -> Field<Tensor2> {
@@ -64,11 +33,11 @@ fn slice(volume: &TensorVolume) -> Field<Tensor2> {
 fn fields_come_back_from_every_format() {
     for symmetric in [true, false] {
         let field = field(symmetric);
-        let volume = TensorVolume::from_field(&field, [3.0, -2.0], [0.5, 0.25]);
+        let volume = TensorVolume::from_field(&field, &placed());
         assert_eq!(slice(&volume), field);
         for Format { name, through } in FORMATS {
             let lattice = through(&volume).unwrap();
-            assert_eq!((lattice.size, lattice.origin), ([5, 4, 1], [3.0, -2.0, 0.0]), "{name}");
+            assert_eq!((lattice.size, lattice.origin), ([5, 4, 1], [3.0, -2.0, 7.0]), "{name}");
             assert_eq!(lattice.spacing()[..2], [0.5, 0.25], "{name}");
             let back = lattice.tensors(Reading::default()).unwrap();
             assert_eq!(slice(&back), field, "{name}, symmetric: {symmetric}");
@@ -149,7 +118,7 @@ fn thin_fields_come_back_from_every_format() {
         let field = Field::from_fn(Grid::new(width, height).unwrap(), |c| {
             Tensor2::new(1.0 + c.x as f64, 2.0, 3.0, 4.0 + c.y as f64)
         });
-        let volume = TensorVolume::from_field(&field, [3.0, -2.0], [0.5, 0.25]);
+        let volume = TensorVolume::from_field(&field, &placed());
         for Format { name, through } in FORMATS {
             let lattice = through(&volume).unwrap();
             assert_eq!(lattice.size, [width, height, 1], "{name}");
@@ -161,7 +130,7 @@ fn thin_fields_come_back_from_every_format() {
 
 #[test]
 fn provenance_is_kept_by_formats_that_have_a_place() {
-    let volume = TensorVolume::from_field(&field(true), [0.0; 2], [1.0; 2]);
+    let volume = TensorVolume::from_field(&field(true), &PlaneGeometry::UNPLACED);
     let story = "{\"command\":\"a \\\"b\\\"\"}";
     let packed = nifti::write_packed(&volume, nifti::WrittenAs::Matrices, story).unwrap();
     let mut bytes = Vec::new();
@@ -178,7 +147,7 @@ fn provenance_is_kept_by_formats_that_have_a_place() {
 #[test]
 fn what_formats_cannot_hold_is_refused() {
     let field = Field::from_fn(Grid::new(40000, 3).unwrap(), |_| Tensor2::ZERO);
-    let long = TensorVolume::from_field(&field, [0.0; 2], [1.0; 2]);
+    let long = TensorVolume::from_field(&field, &PlaneGeometry::UNPLACED);
     let message = nifti::write(&long, nifti::WrittenAs::Matrices, "").unwrap_err().to_string();
     assert!(message.contains("40000 x 3 x 1") && message.contains("32767"), "{message}");
     let mut image = ImageData::empty([2, 1, 1]);

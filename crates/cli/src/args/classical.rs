@@ -100,7 +100,7 @@ impl AxesArgs {
             Some(MajorName::Value) => axes.by(Major::Value),
             Some(MajorName::Magnitude) => axes.by(Major::Magnitude),
         };
-        Ok(Following { axes: ordered, cell: CellShape::of(input.spacing) })
+        Ok(Following { axes: ordered, cell: CellShape::of(input.geometry.spacing()) })
     }
 }
 

@@ -30,7 +30,7 @@ pub(crate) struct ReadingArgs {
     /// Slice of a volume: axis and index, from 0 as the file counts, for example z=10.
     #[arg(long, value_name = "AXIS=INDEX", value_parser = parse_slice)]
     slice: Option<(Axis, usize)>,
-    /// Plane of a volume; the first letter to the right, the second up.
+    /// Plane of a volume, by its voxel axes; how it lies in the picture follows from the world of the file.
     #[arg(long, value_enum)]
     plane: Option<PlaneName>,
     /// Part of the plane: columns X0 to X1-1, rows Y0 to Y1-1, row 0 on top.

@@ -10,7 +10,7 @@ use std::path::Path;
 use tigereye_core::{Field, Tensor2};
 use tigereye_experiments::input::{Content, Reading, TensorFile};
 use tigereye_io::volume::lattice_from_image;
-use tigereye_io::{IoError, Wanted, npy, vti};
+use tigereye_io::{IoError, Rows, Wanted, npy, vti};
 
 /// Names of gradient volumes: ours and the published ones.
 const VOLUME_ARRAYS: [&str; 2] = [tigereye_io::LTG_ARRAY, "Energy"];
@@ -110,12 +110,9 @@ fn result(text: &str, bytes: &[u8]) -> Result<Option<Numbers>, CliError> {
     let Some(array) = array else { return Err(CliError::input(text, "holds no point array to compare")) };
     let [w, h, d] = image.dimensions;
     let shape = [d, h, w, array.components].into_iter().filter(|n| *n > 1).collect();
-    Ok(Some(Numbers {
-        what: format!("the array {}", array.name),
-        shape,
-        slices: None,
-        values: array.values.clone(),
-    }))
+    // Row 0 on top, whichever way the file has it.
+    let values = Rows::of(&image, &array.name).from_top(&array.values, [w, h], array.components);
+    Ok(Some(Numbers { what: format!("the array {}", array.name), shape, slices: None, values }))
 }
 
 fn of_tensors(field: &Field<Tensor2>) -> Numbers {

@@ -100,7 +100,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 Format::Numpy => Ok(npy::write_tensors(&input.field)),
                 Format::Matrices => matrices::write(&input.field),
                 _ => {
-                    let volume = TensorVolume::from_field(&input.field, input.origin, input.spacing);
+                    let volume = TensorVolume::from_field(&input.field, &input.geometry);
                     // The plane's own axes, whatever the tensors were read along.
                     encoded(format, &volume, Frame::World, args, &input.blake3)
                 }

@@ -56,7 +56,7 @@ pub(super) fn story(input: &Input, mut parameters: Value, reading: &ReadingArgs)
 
 /// Where the cells of an input lie.
 pub(super) const fn placement(input: &Input) -> Placement {
-    Placement::new(input.origin, input.spacing, input.field.grid())
+    Placement::new(input.geometry, input.field.grid())
 }
 
 /// What lengths are counted in: cells, or the smaller side of those that are not square.

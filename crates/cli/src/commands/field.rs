@@ -81,7 +81,7 @@ pub(crate) fn show(args: &FieldShowArgs) -> Result<u8, CliError> {
         normalization: input.normalization(args.normalization),
         light: args.light.map(|[x, y]| Cell::new(x, y)),
         slice_deg: args.slice_deg,
-        cell: CellShape::of(input.spacing),
+        cell: CellShape::of(input.geometry.spacing()),
         level: system::level()?,
     };
     let picture = sheet(&input.field, &options, &Interruption);

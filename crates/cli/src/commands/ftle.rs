@@ -6,7 +6,8 @@ use crate::error::CliError;
 use serde_json::json;
 use tigereye_experiments::classical::fine::{exponents, exponents_picture, image};
 use tigereye_experiments::classical::{axes_name, axes_words, family_name, major_name};
-use tigereye_io::vti;
+use tigereye_experiments::provenance::with_rows;
+use tigereye_io::{Rows, vti};
 use tigereye_lines::{Family, FtleOptions};
 
 pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
@@ -27,6 +28,7 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
         "step": step,
         "samples": samples,
     });
+    let parameters = with_rows(parameters, Rows::Upwards);
     let story = drawing::story(&input, parameters, &args.of.reading);
     drawing::write(
         &args.outputs,

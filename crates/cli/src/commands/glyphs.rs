@@ -43,7 +43,7 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
             "is the sharpness of superquadrics: expected --kind superquadric",
         ));
     }
-    let cell = CellShape::of(input.spacing);
+    let cell = CellShape::of(input.geometry.spacing());
     let options =
         GlyphOptions { title, kind, scale, colour, every: args.every, cell, ..GlyphOptions::default() };
     let parameters = json!({ "kind": name_of(args.kind), "scale": name_of(args.scale), "every": args.every });

@@ -3,9 +3,9 @@
 use crate::args::reading::InfoArgs;
 use crate::commands::{lattice, print_json, print_text};
 use crate::error::CliError;
-use crate::files;
 use crate::input::{Input, Source};
 use crate::interrupt;
+use crate::{files, geometry};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -13,7 +13,7 @@ use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Symmetry, Tensor2, is_t
 use tigereye_experiments::classical::is_complex;
 use tigereye_experiments::input::{Content, Reading, TensorFile, suggested_local_above};
 use tigereye_io::volume::lattice_from_image;
-use tigereye_io::{DataArray, IoError, PROVENANCE, Wanted, vti};
+use tigereye_io::{DataArray, IoError, PROVENANCE, Rows, Wanted, vti};
 
 /// Relative difference of the semi-axes below which a tensor counts as degenerate: files hold single precision.
 const DEGENERATE_BELOW: f64 = 1e-6;
@@ -79,6 +79,10 @@ fn facts_of_result(args: &InfoArgs) -> Result<Option<Value>, CliError> {
         "input": args.input,
         "kind": if image.text(PROVENANCE).is_some() { "result of tigereye" } else { "VTK image data" },
         "dimensions": image.dimensions,
+        "origin": image.origin,
+        "spacing": image.spacing,
+        "directions": image.direction.unwrap_or([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
+        "rows": image.point_arrays.first().map(|a| Rows::of(&image, &a.name).name()),
         "arrays": arrays,
         "provenance": image.text(PROVENANCE).and_then(|t| serde_json::from_str::<Value>(t).ok()),
     })))
@@ -92,10 +96,13 @@ fn array_facts(array: &DataArray) -> Value {
 
 fn result_as_text(facts: &Value) -> String {
     let mut text = format!(
-        "{} ({}): no tensor field; {} points\n",
+        "{} ({}): no tensor field; {} points, rows {}, origin {}, spacing {}\n",
         facts["input"].as_str().unwrap_or_default(),
         facts["kind"].as_str().unwrap_or_default(),
-        facts["dimensions"]
+        facts["dimensions"],
+        facts["rows"].as_str().unwrap_or("upwards"),
+        facts["origin"],
+        facts["spacing"]
     );
     // Writing to a string cannot fail.
     for array in facts["arrays"].as_array().into_iter().flatten() {
@@ -121,6 +128,7 @@ fn facts(input: &Input) -> Value {
     // What rounding made asymmetric has real eigenvalues.
     let plain = field.without_rounding();
     let complex = plain.values().iter().filter(|t| is_complex(t)).count() as f64 / grid.cells() as f64;
+    let [right, up, _] = input.geometry.flat().corner();
     let share = |test: &dyn Fn(&Tensor2) -> bool| {
         field.values().iter().filter(|t| test(t)).count() as f64 / grid.cells() as f64
     };
@@ -131,8 +139,9 @@ fn facts(input: &Input) -> Value {
         "height": grid.height(),
         "dimensions": [grid.width(), grid.height()],
         "cells": grid.cells(),
-        "origin": input.origin,
-        "spacing": input.spacing,
+        "origin": [right, up],
+        "spacing": input.geometry.spacing(),
+        "geometry": geometry::to_json(&input.geometry),
         "component_order": "xx,xy,yx,yy",
         "frame": "x right, y up, row 0 on top",
         "assumptions": input.assumptions,

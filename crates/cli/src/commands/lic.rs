@@ -8,7 +8,8 @@ use tigereye_experiments::classical::fine::{
     TextureRequest, image, texture, texture_parameters, texture_picture,
 };
 use tigereye_experiments::classical::{axes_name, axes_words, major_name};
-use tigereye_io::vti;
+use tigereye_experiments::provenance::with_rows;
+use tigereye_io::{Rows, vti};
 use tigereye_lines::ConvolutionOptions;
 
 pub(crate) fn run(args: &LicArgs) -> Result<u8, CliError> {
@@ -23,7 +24,8 @@ pub(crate) fn run(args: &LicArgs) -> Result<u8, CliError> {
         options: ConvolutionOptions { samples, half_length, seed },
     };
     let found = texture(&input.field, &request).map_err(|e| CliError::input(&args.of.input, e))?;
-    let story = drawing::story(&input, texture_parameters(&request), &args.of.reading);
+    let story =
+        drawing::story(&input, with_rows(texture_parameters(&request), Rows::Upwards), &args.of.reading);
     let picture = || texture_picture(&found, &input.field, &request, args.tint, &args.of.input, None);
     drawing::write(&args.outputs, &picture, &|| {
         vti::write(&image(&[("LIC", &found)], request.samples_a_cell(), &drawing::placement(&input), &story))

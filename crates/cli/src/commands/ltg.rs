@@ -14,7 +14,6 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Instant;
 use tigereye_core::Normalization;
-use tigereye_experiments::provenance::provenance;
 use tigereye_ltg::{
     LtgError, LtgSettings, PartialVolume, Precision, Shard, check_fit, omega_step_of_volumes, sweep_part,
 };
@@ -28,7 +27,7 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     let settings = settings_of(args)?;
     let normalization = input.normalization(args.scheme.normalization)?;
     let parameters = parameters(args, &settings, &input.normalization_name(normalization));
-    let identity = Identity::new(&parameters, input.blake3());
+    let identity = Identity::new(&parameters, input.blake3(), *input.geometry());
     let (computed, costs) = system::on_threads(args.resources.threads, || {
         compute(args, &settings, normalization, &input, &identity, start)
     })?;
@@ -39,11 +38,10 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
             files::write(output, &part_file::encoded(&command_line(), &identity, shard, &computed, &costs))?;
         }
         _ => {
-            let story = provenance(&command_line(), &parameters, input.blake3());
             let outcome = computed.into_outcome().map_err(fault)?;
-            volume::write(&args.outputs, &outcome.volume, input.surfaces(), input.title(), &story)?;
+            volume::write(&args.outputs, &outcome.volume, input.surfaces(), input.title(), &identity)?;
             if args.view {
-                volume::write_scripts(&args.outputs)?;
+                volume::write_scripts(&args.outputs, input.geometry())?;
             }
         }
     }

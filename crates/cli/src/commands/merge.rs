@@ -2,13 +2,12 @@
 
 use crate::args::light::MergeArgs;
 use crate::commands::propagate::check_outputs;
-use crate::commands::{command_line, print_json, print_text, volume};
+use crate::commands::{print_json, print_text, volume};
 use crate::error::CliError;
 use crate::medium::read_scene;
 use crate::part_file::{self, Costs, Identity, PartFile};
 use crate::{files, interrupt};
 use std::path::{Path, PathBuf};
-use tigereye_experiments::provenance::provenance;
 use tigereye_experiments::scene::{PreparedScene, is_scene_file};
 use tigereye_ltg::{PartialVolume, Shard};
 
@@ -44,13 +43,12 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     let identity = taken[0].identity.clone();
     let summary = part_file::summary(&sum, &identity, &costs(&taken));
     let outcome = sum.into_outcome().map_err(|e| CliError::input(&names(&taken), e))?;
-    let story = provenance(&command_line(), &identity.parameters, &identity.input_blake3);
     let drawn = args.outputs.iter().any(|output| volume::is_picture(output));
     let scene = if drawn { scene_of(&identity, &args.outputs)? } else { None };
     let walls = scene.as_ref().map(|scene| &scene.layout.surfaces);
     let input = identity.parameters["input"].as_str().unwrap_or_default();
     let title = scene.as_ref().map_or(input, |scene| &scene.title);
-    volume::write(&args.outputs, &outcome.volume, walls, title, &story)?;
+    volume::write(&args.outputs, &outcome.volume, walls, title, &identity)?;
     if args.json {
         print_json(&summary)?
     } else {

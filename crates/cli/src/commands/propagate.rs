@@ -14,9 +14,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tigereye_core::{Cell, Field, LightDistribution, PolarProfile, StopReason, Surface};
 use tigereye_experiments::Reel;
-use tigereye_experiments::provenance::provenance;
+use tigereye_experiments::provenance::{provenance, with_rows};
 use tigereye_experiments::settings::profile_of_expression;
-use tigereye_io::{npy, pvd, vti};
+use tigereye_io::volume::PlaneGeometry;
+use tigereye_io::{Rows, npy, pvd, vti};
 use tigereye_render::{
     HeatOptions, HeatScale, PolarOptions, Scene, TransmissionScale, heat_map, polar_overlay,
 };
@@ -50,10 +51,12 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     let stopping = args.steps.map_or_else(|| stopping_of(&args.scheme), Stopping::steps);
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
     let parameters = parameters(args, &stopping, &input.normalization_name(normalization));
-    let story = provenance(&command_line(), &parameters, input.blake3());
+    let rows = Rows::of_results(input.geometry());
+    let story = provenance(&command_line(), &with_rows(parameters, rows), input.blake3());
     problem.check().map_err(|e| CliError::input("--light", e))?;
     let collections = args.outputs.iter().filter(|o| is_collection(o));
-    let mut collections = collections.map(|o| Frames::new(o, &story)).collect::<Result<Vec<_>, _>>()?;
+    let mut collections =
+        collections.map(|o| Frames::new(o, input.geometry(), &story)).collect::<Result<Vec<_>, _>>()?;
     let mut reel = args.outputs.iter().any(|o| is_animation(o)).then(|| Reel::new(input.grid().cells(), 1));
     for frames in &mut collections {
         frames.add(&problem.before_first_step())?;
@@ -83,6 +86,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     let drawn = Drawn {
         problem: &problem,
         outcome: &outcome,
+        geometry: input.geometry(),
         title: input.title(),
         walls: input.surfaces(),
         reel: reel.as_ref(),
@@ -177,14 +181,15 @@ fn check_frames(output: &Path, args: &PropagateArgs) -> Result<(), CliError> {
 /// `NAME` beside it.
 struct Frames<'a> {
     output: &'a Path,
+    geometry: &'a PlaneGeometry,
     /// What made them.
     story: &'a str,
     files: files::Staging,
 }
 
 impl<'a> Frames<'a> {
-    fn new(output: &'a Path, story: &'a str) -> Result<Self, CliError> {
-        Ok(Self { output, story, files: files::Staging::new(&folder_of_frames(output))? })
+    fn new(output: &'a Path, geometry: &'a PlaneGeometry, story: &'a str) -> Result<Self, CliError> {
+        Ok(Self { output, geometry, story, files: files::Staging::new(&folder_of_frames(output))? })
     }
 
     fn add(&mut self, light: &LightDistribution) -> Result<(), CliError> {
@@ -193,7 +198,7 @@ impl<'a> Frames<'a> {
             let problem = format!("more than {MAX_FRAMES} steps: expected fewer for a .pvd (--steps)");
             return Err(CliError::input("-o", problem));
         }
-        let mut image = tigereye_io::image_of_energy(light);
+        let mut image = tigereye_io::image_of_energy(light, self.geometry);
         image.push_text(tigereye_io::PROVENANCE, self.story);
         let bytes = vti::write(&image).map_err(|e| CliError::input("a frame", e))?;
         self.files.add(&frame_file(step), &bytes)
@@ -300,7 +305,8 @@ fn encoded(output: &Path, args: &PropagateArgs, drawn: &Drawn<'_>, story: &str) 
     match files::extension(output).as_str() {
         "npy" => Ok(npy::write_light(light)),
         "vti" => {
-            vti::write(&tigereye_io::image_from_light(light, story)).map_err(|e| CliError::input(&name, e))
+            let image = tigereye_io::image_from_light(light, drawn.geometry, story);
+            vti::write(&image).map_err(|e| CliError::input(&name, e))
         }
         "apng" => {
             let reel = drawn.reel.ok_or_else(|| CliError::input(&name, "no step was kept"))?;
@@ -316,6 +322,7 @@ fn encoded(output: &Path, args: &PropagateArgs, drawn: &Drawn<'_>, story: &str) 
 struct Drawn<'a> {
     problem: &'a Problem<'a>,
     outcome: &'a Outcome,
+    geometry: &'a PlaneGeometry,
     title: &'a str,
     walls: Option<&'a Field<Option<Surface>>>,
     /// The steps, where an animation is asked for.

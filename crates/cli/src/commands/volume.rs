@@ -1,14 +1,18 @@
 //! Finished gradient volumes: files, pictures, and what is said about them.
 
 use crate::args::light::StopRule;
+use crate::commands::command_line;
 use crate::commands::propagate::{PNG_SCALE, stop_name};
 use crate::error::CliError;
 use crate::files;
+use crate::part_file::Identity;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use tigereye_core::{Field, LtgVolume, Surface};
+use tigereye_experiments::provenance::{provenance, with_rows};
 use tigereye_experiments::scene::{missing_label, where_result};
-use tigereye_io::{npy, vti};
+use tigereye_io::volume::PlaneGeometry;
+use tigereye_io::{Rows, npy, vti};
 use tigereye_render::{HeatOptions, Scene, heat_map};
 use tigereye_transport::Stopping;
 
@@ -34,28 +38,37 @@ pub(super) fn check_scripts(outputs: &[PathBuf]) -> Result<(), CliError> {
     images(outputs).try_for_each(|output| files::check_writable(&script_of(output)))
 }
 
-/// Beside every image file, a script that opens it in ParaView.
-pub(super) fn write_scripts(outputs: &[PathBuf]) -> Result<(), CliError> {
+/// Beside every image file, a script that opens it in ParaView. `geometry` is that of the field.
+pub(super) fn write_scripts(outputs: &[PathBuf], geometry: &PlaneGeometry) -> Result<(), CliError> {
+    let vector = |v: [f64; 3]| format!("{v:?}");
+    // Without a place the rows run downwards, and up is against them.
+    let (right, up, normal) = (geometry.right(), geometry.up(), geometry.normal());
+    let mirrored = if geometry.is_placed() { "False" } else { "True" };
     for output in images(outputs) {
         let name = output.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
         // Inside a Python string.
         let name = name.replace('\\', "\\\\").replace('"', "\\\"");
-        let script = include_str!("view.py").replace("@VOLUME@", &name);
+        let script = include_str!("view.py")
+            .replace("@VOLUME@", &name)
+            .replace("@RIGHT@", &vector(right))
+            .replace("@UP@", &vector(up))
+            .replace("@NORMAL@", &vector(normal))
+            .replace("@MIRRORED@", mirrored);
         files::write(&script_of(output), script.as_bytes())?;
     }
     Ok(())
 }
 
-/// Writes a volume to every output. `title` heads pictures, `story` is the provenance.
+/// Writes a volume to every output. `title` heads pictures; the identity says what made it and where it lies.
 pub(super) fn write(
     outputs: &[PathBuf],
     volume: &LtgVolume,
     walls: Option<&Field<Option<Surface>>>,
     title: &str,
-    story: &str,
+    identity: &Identity,
 ) -> Result<(), CliError> {
     let drawn = || picture(title, volume, walls);
-    outputs.iter().try_for_each(|output| files::write(output, &encoded(output, volume, &drawn, story)?))
+    outputs.iter().try_for_each(|output| files::write(output, &encoded(output, volume, &drawn, identity)?))
 }
 
 /// A volume in the format of the output's ending.
@@ -63,13 +76,17 @@ fn encoded(
     output: &Path,
     volume: &LtgVolume,
     drawn: &dyn Fn() -> Scene,
-    story: &str,
+    identity: &Identity,
 ) -> Result<Vec<u8>, CliError> {
     let name = output.display().to_string();
     match files::extension(output).as_str() {
         "npy" => Ok(npy::write_ltg(volume)),
         "vti" => {
-            vti::write(&tigereye_io::image_from_ltg(volume, story)).map_err(|e| CliError::input(&name, e))
+            let geometry = &identity.geometry;
+            let parameters = with_rows(identity.parameters.clone(), Rows::of_results(geometry));
+            let story = provenance(&command_line(), &parameters, &identity.input_blake3);
+            let image = tigereye_io::image_from_ltg(volume, geometry, &story);
+            vti::write(&image).map_err(|e| CliError::input(&name, e))
         }
         "png" => drawn().to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
         _ => drawn().to_svg().map(String::into_bytes).map_err(|e| CliError::input(&name, e)),

@@ -4,6 +4,7 @@
 mod classical;
 mod experiments;
 mod faults;
+mod geometry;
 #[cfg(unix)]
 mod interruption;
 mod machine;

@@ -150,7 +150,10 @@ fn archives_need_the_name_of_an_array_only_where_there_are_several() {
 /// A NIfTI file of 2 x 2 x 1 voxels with six components.
 fn nifti_of_six() -> Vec<u8> {
     let tensors = Field::from_fn(tigereye_core::Grid::new(2, 2).unwrap(), |_| Tensor2::IDENTITY);
-    let volume = tigereye_io::volume::TensorVolume::from_field(&tensors, [0.0; 2], [1.0; 2]);
+    let volume = tigereye_io::volume::TensorVolume::from_field(
+        &tensors,
+        &tigereye_io::volume::PlaneGeometry::UNPLACED,
+    );
     tigereye_io::nifti::write(&volume, tigereye_io::nifti::WrittenAs::Matrices, "").unwrap()
 }
 

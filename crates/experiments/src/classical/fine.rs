@@ -3,7 +3,7 @@
 use super::{Followed, Following, Placement, axes_name, axes_words, family_name, major_name};
 use serde_json::{Value, json};
 use tigereye_core::{Anisotropy, Cell, CellShape, Field, Tensor2};
-use tigereye_io::{DataArray, ImageData, PROVENANCE};
+use tigereye_io::{DataArray, ImageData, PROVENANCE, Rows};
 use tigereye_lines::{
     ConvolutionOptions, Family, Ftle, FtleOptions, Interpolated, OrderedAxes, SamplingError, convolved, ftle,
     hyper_convolved,
@@ -150,7 +150,8 @@ pub fn exponents_picture(
     heat_map(&found.larger, &options)
 }
 
-/// Scalars as image data that lie over the field as `convert` writes it, rows upwards, with so many samples a cell along x and y.
+/// Scalars as image data that lie on the field, with so many samples a cell along x and y: rows upwards, as the parameters of its
+/// provenance say ([`tigereye_io::Rows::KEY`]).
 #[must_use]
 pub fn image(
     arrays: &[(&str, &Field<f64>)],
@@ -160,15 +161,17 @@ pub fn image(
 ) -> ImageData {
     let Some((name, first)) = arrays.first() else { return ImageData::empty([1, 1, 1]) };
     let (width, height) = (first.grid().width(), first.grid().height());
-    let (origin, spacing) = placement.corner_and_spacing();
+    let geometry = placement.geometry();
     let mut image = ImageData::empty([width, height, 1]);
-    image.origin = [origin[0], origin[1], 0.0];
+    image.origin = geometry.corner();
+    let spacing = geometry.spacing();
     let fine = [spacing[0] / samples[0] as f64, spacing[1] / samples[1] as f64];
     image.spacing = [fine[0], fine[1], 1.0];
+    image.direction = geometry.direction();
     image.point_active.scalars = Some((*name).to_owned());
     for (name, field) in arrays {
-        let rows = field.values().chunks(width).rev();
-        image.point_arrays.push(DataArray::new(name, 1, rows.flatten().copied().collect()));
+        let values = Rows::Upwards.from_top(field.values(), [width, height], 1);
+        image.point_arrays.push(DataArray::new(name, 1, values));
     }
     image.push_text(PROVENANCE, story);
     image

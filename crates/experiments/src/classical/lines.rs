@@ -155,7 +155,8 @@ impl FieldLines {
     pub fn poly_data(&self, placement: &Placement, story: &str) -> PolyData {
         let mut data = PolyData::default();
         let between = self.followed.interpolated();
-        let unit = placement.spacing[0].abs().min(placement.spacing[1].abs());
+        let [dx, dy] = placement.geometry().spacing();
+        let unit = dx.min(dy);
         let (mut values, mut widths) = (Vec::new(), Vec::new());
         for line in &self.lines {
             push_line(&mut data, line.line.points.iter().map(|p| placement.place(*p)));

@@ -12,6 +12,7 @@ pub use overlays::{line_overlay, point_overlays};
 
 use std::ops::Range;
 use tigereye_core::{CellShape, Field, Grid, Symmetry, Tensor2};
+use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{DataArray, FieldEntry, FieldValues, PROVENANCE, PolyData};
 use tigereye_lines::{
     Axes, Decomposition, Family, Interpolated, Major, OrderedAxes, ellipse_tensors, signed_ellipse_tensors,
@@ -119,38 +120,36 @@ impl Followed {
     }
 }
 
-/// Where the cells of a plane lie: x to the right, y **up**, as `convert` writes the field itself.
+/// Where the cells of a field lie, counted with y downwards as fields count them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
-    origin: [f64; 2],
-    spacing: [f64; 2],
+    geometry: PlaneGeometry,
     height: usize,
 }
 
 impl Placement {
-    /// From the position of the lower left cell and the distance of the cells.
+    /// Of the cells of a grid.
     #[must_use]
-    pub const fn new(origin: [f64; 2], spacing: [f64; 2], grid: Grid) -> Self {
-        Self { origin, spacing, height: grid.height() }
+    pub const fn new(geometry: PlaneGeometry, grid: Grid) -> Self {
+        Self { geometry, height: grid.height() }
     }
 
     /// The place of a point in cells, y downwards.
     #[must_use]
     pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 3] {
-        let up = (self.height - 1) as f64 - y;
-        [self.origin[0] + x * self.spacing[0], self.origin[1] + up * self.spacing[1], 0.0]
+        self.geometry.place([x, (self.height - 1) as f64 - y])
     }
 
     /// The shape of a cell.
     #[must_use]
     pub fn cell(&self) -> CellShape {
-        CellShape::of(self.spacing)
+        CellShape::of(self.geometry.spacing())
     }
 
-    /// Position of the lower left cell and distance of the cells.
+    /// Where the cells lie.
     #[must_use]
-    pub const fn corner_and_spacing(&self) -> ([f64; 2], [f64; 2]) {
-        (self.origin, self.spacing)
+    pub const fn geometry(&self) -> &PlaneGeometry {
+        &self.geometry
     }
 }
 

@@ -1,14 +1,18 @@
 //! Height ridges and contours of scalar images.
 
 use super::{push_line, push_story};
+use serde_json::Value;
 use thiserror::Error;
 use tigereye_core::{Cell, CellShape, Field, Grid, math};
-use tigereye_io::{DataArray, ImageData, IoError, LTG_ARRAY, PolyData};
+use tigereye_io::{DataArray, ImageData, IoError, LTG_ARRAY, PROVENANCE, PolyData, Rows};
 use tigereye_lines::{
     ExtractionError, Polyline, Polylines, RidgeOptions, Surface, Volume, isolines, isosurface, ridge_lines,
     ridge_surface,
 };
 use tigereye_render::{HeatOptions, Overlay, Rgba, Scene, heat_map};
+
+/// Most samples along the side of a cell that the commands make.
+const MAX_SAMPLES_A_CELL: usize = 64;
 
 /// What keeps an image from having ridges.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -48,14 +52,19 @@ pub enum RidgesError {
 pub struct ScalarImage {
     /// Name of the array.
     pub array: String,
+    /// Layer by layer with row 0 on top, whichever way the file has it.
     values: Vec<f64>,
     size: [usize; 3],
     /// Whether the third axis goes all the way round: the directions of a gradient.
     periodic: bool,
     /// Whether it is a gradient, whose third axis is a direction.
     is_gradient: bool,
+    /// Which way the rows of the file run.
+    rows: Rows,
+    /// Samples along the side of a cell, where this program sampled finer.
+    samples_a_cell: usize,
     origin: [f64; 3],
-    /// From an index to a place, a column for every axis.
+    /// From an index of the file to a place, a column for every axis.
     axes: [[f64; 3]; 3],
 }
 
@@ -82,7 +91,8 @@ impl ScalarImage {
         };
         let is_gradient = array.name == LTG_ARRAY;
         let [width, height, depth] = image.dimensions;
-        let mut values = array.values.clone();
+        let rows = Rows::of(image, &array.name);
+        let mut values = rows.from_top(&array.values, [width, height], 1);
         if is_gradient && width > 0 && height > 0 {
             for (i, v) in values.iter_mut().enumerate() {
                 let (x, y) = (i % width, i / width % height);
@@ -100,6 +110,8 @@ impl ScalarImage {
             size: image.dimensions,
             periodic: is_gradient && whole && depth > 1,
             is_gradient,
+            rows,
+            samples_a_cell: if is_gradient { 1 } else { samples_a_cell(image) },
             origin: image.origin,
             axes,
         })
@@ -154,10 +166,25 @@ impl ScalarImage {
         Volume::new(&self.values, self.size, [false, false, self.periodic])
     }
 
-    fn place(&self, index: [f64; 3]) -> [f64; 3] {
+    /// The place of a point in samples, y downwards.
+    fn place(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        let row = match self.rows {
+            Rows::Downwards => y,
+            Rows::Upwards => self.size[1].saturating_sub(1) as f64 - y,
+        };
+        let index = [x, row, z];
         [0, 1, 2]
             .map(|row| self.origin[row] + (0..3).map(|axis| self.axes[axis][row] * index[axis]).sum::<f64>())
     }
+}
+
+/// Samples along the side of a cell, as this program says of the images it makes.
+fn samples_a_cell(image: &ImageData) -> usize {
+    let told = || {
+        let story: Value = serde_json::from_str(image.text(PROVENANCE)?).ok()?;
+        usize::try_from(story.get("parameters")?.get("samples")?.as_u64()?).ok()
+    };
+    told().filter(|n| (1..=MAX_SAMPLES_A_CELL).contains(n)).unwrap_or(1)
 }
 
 /// What is looked for.
@@ -287,10 +314,14 @@ impl Found {
         label: &str,
     ) -> Result<Option<Scene>, RidgesError> {
         let Self::Lines { layer, lines, .. } = self else { return Ok(None) };
+        // In cells, as the field's other pictures.
+        let mut overlay = line_overlay(lines, label, Rgba::hex(0xd62728));
+        overlay.points.iter_mut().flatten().for_each(|v| *v /= image.samples_a_cell as f64);
         let options = HeatOptions {
             title: title.to_owned(),
             quantity: image.array.clone(),
-            overlays: vec![line_overlay(lines, label, Rgba::hex(0xd62728))],
+            samples_a_cell: image.samples_a_cell,
+            overlays: vec![overlay],
             missing: Some("no value".to_owned()),
             cell: image.shape(),
             ..HeatOptions::default()

@@ -6,7 +6,7 @@ use tigereye_fields::images::{
     MAX_RESAMPLED, MAX_RESAMPLED_CELLS, gradient_tensors, hessian_tensors, orientation_tensors, resampled,
     strain_rate_tensors, structure_tensors,
 };
-use tigereye_io::volume::{Cut, Lattice, Slice, TensorVolume};
+use tigereye_io::volume::{Cut, Lattice, PlaneGeometry, Slice, TensorVolume};
 
 /// A tensor field in the plane, with how it came about.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,10 +15,8 @@ pub struct PlaneField {
     pub field: Field<Tensor2>,
     /// What was read, assumed and done, a sentence each.
     pub story: Vec<String>,
-    /// Position of the lower left cell.
-    pub origin: [f64; 2],
-    /// Distance of the cells.
-    pub spacing: [f64; 2],
+    /// Where its cells lie.
+    pub geometry: PlaneGeometry,
     /// What everybody must hear of it beside the story.
     pub remarks: Vec<String>,
 }
@@ -55,7 +53,7 @@ fn derived(lattice: &Lattice, reading: &Reading, how: Derivation) -> Result<Plan
     let (found, samples, cut) = if how.kind.takes_vectors() {
         let slice = lattice.vectors(reading.choice, reading.frame)?;
         let samples = Samples::of(&slice, lattice, |v| v.iter().all(|v| v.is_finite()));
-        let spacing = slice.cut.spacing;
+        let spacing = slice.cut.geometry.spacing();
         let found = match how.kind {
             Derived::StrainRate => strain_rate_tensors(&samples.there, spacing, sigma),
             _ => gradient_tensors(&samples.there, spacing, sigma),
@@ -64,7 +62,7 @@ fn derived(lattice: &Lattice, reading: &Reading, how: Derivation) -> Result<Plan
     } else {
         let slice = lattice.scalars(reading.choice)?;
         let samples = Samples::of(&slice, lattice, |v| v.is_finite());
-        let spacing = slice.cut.spacing;
+        let spacing = slice.cut.geometry.spacing();
         let found = match how.kind {
             Derived::Hessian => hessian_tensors(&samples.there, spacing, sigma),
             Derived::Orientation => orientation_tensors(&samples.there, spacing, sigma, window),
@@ -165,20 +163,20 @@ impl Samples<()> {
 }
 
 fn placed(field: Field<Tensor2>, story: Vec<String>, cut: &Cut) -> PlaneField {
-    PlaneField { field, story, origin: cut.origin, spacing: cut.spacing, remarks: Vec::new() }
+    PlaneField { field, story, geometry: cut.geometry, remarks: Vec::new() }
 }
 
 impl PlaneField {
-    /// A field that lies in the plane by itself.
+    /// A field that lies nowhere.
     #[must_use]
     pub const fn new(field: Field<Tensor2>, story: Vec<String>) -> Self {
-        Self { field, story, origin: [0.0; 2], spacing: [1.0; 2], remarks: Vec::new() }
+        Self { field, story, geometry: PlaneGeometry::UNPLACED, remarks: Vec::new() }
     }
 
     /// Words of warning where cells are not square, as light takes them.
     #[must_use]
     pub fn oblong(&self) -> Option<String> {
-        let [dx, dy] = self.spacing;
+        let [dx, dy] = self.geometry.spacing();
         let off = (dx / dy - 1.0).abs() > SQUARE && (dy / dx - 1.0).abs() > SQUARE;
         let grid = self.field.grid();
         let columns = (grid.width() as f64 * dx / dy).round().max(1.0);
@@ -200,8 +198,7 @@ impl PlaneField {
         let Some(crop) = reading.crop else { return Ok(self) };
         let height = self.field.grid().height();
         self.field = crop.of(&self.field)?;
-        self.origin[0] += crop.x[0] as f64 * self.spacing[0];
-        self.origin[1] += (height - crop.y[1]) as f64 * self.spacing[1];
+        self.geometry = self.geometry.cropped(crop, height);
         self.story.push(format!(
             "cropped to columns {} to {} and rows {} to {} of the plane, row 0 on top",
             crop.x[0],
@@ -233,12 +230,7 @@ impl PlaneField {
         let grid = self.field.grid();
         let (before, after) = ([grid.width(), grid.height()], [width, height]);
         self.field = resampled(&self.field, width, height)?;
-        for axis in 0..2 {
-            let spacing = self.spacing[axis] * before[axis] as f64 / after[axis] as f64;
-            // Cells are squares around their points, and the outermost squares keep their outer sides.
-            self.origin[axis] += 0.5 * (spacing - self.spacing[axis]);
-            self.spacing[axis] = spacing;
-        }
+        self.geometry = self.geometry.resampled(before, after);
         self.story.push(format!(
             "resampled from {} x {} to {width} x {height} cells (triangle filter, component by component)",
             before[0], before[1]

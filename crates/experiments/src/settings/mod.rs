@@ -175,7 +175,7 @@ pub fn resolve(
     for (name, source) in experiment.fields.iter() {
         match make_plane(source, host) {
             Ok((plane, _)) => {
-                resolver.cells.insert(name.to_owned(), CellShape::of(plane.spacing));
+                resolver.cells.insert(name.to_owned(), CellShape::of(plane.geometry.spacing()));
                 fields.insert(name.to_owned(), plane.field);
             }
             Err(problem) => resolver.fault_at(&["fields:"], name, &format!("field \"{name}\": {problem}")),

@@ -64,8 +64,9 @@ pub fn make_plane(
                     .for_each(|words| host.remark(&format!("{path}: {words}")));
                 (plane, Some(file.kind))
             };
+            let height = plane.field.grid().height();
             plane.field = strided(&plane.field, *stride).map_err(|e| fault(&e))?;
-            plane.spacing = plane.spacing.map(|s| s * *stride as f64);
+            plane.geometry = plane.geometry.strided(*stride, height);
             Ok((plane, kind))
         }
     }

@@ -1,8 +1,10 @@
 //! Light transport gradients in image data: x fastest, then row, then direction.
 //!
-//! Row 0 is the field's first row and is **not** flipped, as in the published volumes.
+//! On a field that lies somewhere the rows run upwards. Otherwise row 0 is the field's first row and is **not** flipped, as in
+//! the published volumes.
 
-use super::{PROVENANCE, described};
+use super::{PROVENANCE, Rows, described, rows};
+use crate::volume::PlaneGeometry;
 use crate::{DataArray, FieldEntry, FieldValues, ImageData, IoError, ScalarType};
 use tigereye_core::{Directions, Grid, LtgVolume};
 
@@ -11,7 +13,7 @@ pub const LTG_ARRAY: &str = "LTG";
 /// Field data entry with the sample indices of the slices, where not all are held.
 pub const SLICES: &str = "slices";
 /// Name of the array in the published volumes.
-const PUBLISHED_ARRAY: &str = "Energy";
+pub(super) const PUBLISHED_ARRAY: &str = "Energy";
 
 /// A light transport gradient as read.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +24,7 @@ pub struct LtgImage {
     pub grid: Grid,
     /// Sample index of each slice, ascending.
     pub slices: Vec<usize>,
-    /// All values, slice by slice, each row-major.
+    /// All values, slice by slice, each row-major with the field's first row first, whichever way the file has it.
     pub values: Vec<f64>,
     /// What made the file: JSON text, if it is there.
     pub provenance: Option<String>,
@@ -43,12 +45,16 @@ impl LtgImage {
     }
 }
 
-/// An image of W x H x n points with the one array [`LTG_ARRAY`], and the JSON text in the field data.
+/// An image of W x H x n points with the one array [`LTG_ARRAY`], and the JSON text in the field data. On a field that lies
+/// somewhere the image has its origin, spacing and direction, and rows upwards; the third axis is that of the slices, from 0
+/// in steps of 1 along right x up. The provenance says which way rows run, under [`Rows::KEY`].
 #[must_use]
-pub fn image_from_ltg(volume: &LtgVolume, field_data_json: &str) -> ImageData {
+pub fn image_from_ltg(volume: &LtgVolume, geometry: &PlaneGeometry, field_data_json: &str) -> ImageData {
     let (grid, slices) = (volume.grid(), volume.slices());
     let mut image = ImageData::empty([grid.width(), grid.height(), slices.len()]);
-    image.point_arrays.push(DataArray::new(LTG_ARRAY, 1, volume.values().to_vec()));
+    rows::place(&mut image, geometry, true);
+    let values = Rows::of_results(geometry).from_top(volume.values(), [grid.width(), grid.height()], 1);
+    image.point_arrays.push(DataArray::new(LTG_ARRAY, 1, values));
     image.point_active.scalars = Some(LTG_ARRAY.to_owned());
     image.push_text(PROVENANCE, field_data_json);
     if slices.len() != volume.directions().count() {
@@ -77,7 +83,7 @@ pub fn ltg_from_image(image: &ImageData) -> Result<LtgImage, IoError> {
         array: array.name.clone(),
         grid,
         slices: slices(image, layers)?,
-        values: array.values.clone(),
+        values: Rows::of(image, &array.name).from_top(&array.values, [width, height], 1),
         provenance: image.text(PROVENANCE).map(str::to_owned),
     })
 }

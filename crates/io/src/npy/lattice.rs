@@ -94,7 +94,7 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
         axes: [[1.0, 0.0, 0.0], [0.0, down, 0.0], [0.0, 0.0, 1.0]],
         // The lower left cell is at 0.
         origin: [0.0, if down < 0.0 { (size[1] - 1) as f64 } else { 0.0 }, 0.0],
-        world: World::Viewer,
+        world: World::Absent,
         measurement: None,
         mask: None,
         order: content.order(tuple),

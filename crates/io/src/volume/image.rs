@@ -1,7 +1,9 @@
 //! Between VTK image data and volumes.
 
 use super::{Content, Frame, IDENTITY, Known, Lattice, Naming, TensorVolume, World, naming};
-use crate::convert::{ArrayChoice, Association, GHOSTS, TENSOR_ARRAY, VALID_POINTS, Wanted, choose_array};
+use crate::convert::{
+    ArrayChoice, Association, GHOSTS, Rows, TENSOR_ARRAY, VALID_POINTS, Wanted, choose_array,
+};
 use crate::points::PointLattice;
 use crate::{DataArray, ImageData, IoError, PolyData};
 
@@ -53,7 +55,7 @@ pub fn lattice_from_image<'a>(
     };
     check_size(&array, size)?;
     let d = image.direction.unwrap_or(IDENTITY);
-    let axes = [0, 1, 2].map(|a| [0, 1, 2].map(|i| d[3 * i + a] * image.spacing[a]));
+    let mut axes = [0, 1, 2].map(|a| [0, 1, 2].map(|i| d[3 * i + a] * image.spacing[a]));
     let mut origin = image.origin;
     if association == Association::Cells {
         for a in 0..3 {
@@ -62,6 +64,13 @@ pub fn lattice_from_image<'a>(
                 (0..3).for_each(|i| origin[i] += 0.5 * axes[a][i]);
             }
         }
+    }
+    let mut world = World::Viewer;
+    if Rows::of(image, &array.name) == Rows::Downwards {
+        // A result that lies nowhere has its first row on top.
+        (0..3).for_each(|i| origin[i] += (size[1] - 1) as f64 * axes[1][i]);
+        axes[1] = axes[1].map(|v| -v);
+        world = World::Absent;
     }
     let kind = if association == Association::Points { "point" } else { "cell" };
     let mut notes = vec![format!("a {kind} array of VTK image data")];
@@ -76,7 +85,7 @@ pub fn lattice_from_image<'a>(
         scalar: array.scalar,
         axes,
         origin,
-        world: World::Viewer,
+        world,
         measurement: None,
         mask,
         order,

@@ -9,6 +9,7 @@
 
 mod components;
 mod convention;
+mod geometry;
 mod image;
 mod names;
 mod order;
@@ -19,6 +20,7 @@ mod suspicion;
 pub use components::ComponentArrays;
 pub(crate) use components::{joined, joined_rows};
 pub use convention::{ALIASES, Alias, CONVENTIONS, Content, Convention, documentation};
+pub use geometry::PlaneGeometry;
 pub(crate) use image::points_of_image;
 pub use image::{image_from_volume, lattice_from_image, lattice_from_points, points_from_image};
 pub(crate) use names::{Group, Naming, groups, names_principal_values, naming, order_of, row_groups};
@@ -133,6 +135,8 @@ pub enum World {
     Viewer,
     /// The patient's or scanner's, by its name in the file.
     Scanner(String),
+    /// None: rows and columns of an array or a picture, which lie nowhere.
+    Absent,
 }
 
 /// Worlds of scanners with the signs that turn their axes to the right, anterior and superior, by NRRD's names.
@@ -143,6 +147,10 @@ const SCANNERS: [(&str, &str, [f64; 3]); 3] = [
 ];
 
 impl World {
+    const fn is_scanner(&self) -> bool {
+        matches!(self, Self::Scanner(_))
+    }
+
     /// Signs that turn the axes to the right, anterior and superior; `None` for worlds that are not the patient's.
     pub(crate) fn signs(&self) -> Option<[f64; 3]> {
         let Self::Scanner(name) = self else { return None };
@@ -345,8 +353,10 @@ impl Lattice {
         let [nx, ny, _] = self.size;
         let signs = match (self.world.signs(), mask.world.signs()) {
             (Some(a), Some(b)) => Some((a, b)),
-            // Viewers, and worlds of one name.
-            _ if self.world == mask.world => Some(([1.0; 3], [1.0; 3])),
+            // Viewers, what has rows on top or below, and worlds of one name.
+            _ if self.world == mask.world || !(self.world.is_scanner() || mask.world.is_scanner()) => {
+                Some(([1.0; 3], [1.0; 3]))
+            }
             _ => None,
         };
         let place = |v: [f64; 3], signs: [f64; 3]| [0, 1, 2].map(|i| signs[i] * v[i]);

@@ -1,6 +1,8 @@
 //! What writers of volumes share.
 
-use super::{Frame, IDENTITY, Known, Lattice, TensorOrder, TensorVolume, World, product, turned};
+use super::{
+    Frame, IDENTITY, Known, Lattice, PlaneGeometry, TensorOrder, TensorVolume, World, product, turned,
+};
 use crate::{IoError, ScalarType};
 use tigereye_core::{Field, Tensor2};
 
@@ -21,7 +23,7 @@ impl Lattice {
             scalar: ScalarType::Float64,
             axes: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]],
             origin: [0.0, (grid.height() - 1) as f64, 0.0],
-            world: World::Viewer,
+            world: World::Absent,
             measurement: None,
             mask: None,
             order: Some((order, Known::Convention)),
@@ -36,14 +38,17 @@ impl Lattice {
 
 impl TensorVolume {
     /// A field of the plane as a volume of one layer, its third row and column zero: row 0 of the field is the row of the
-    /// largest y. `origin` is the position of the lower left point.
+    /// largest y. It lies in the world where right and up are the world's x and y, else in a flat frame of its own.
     #[must_use]
-    pub fn from_field(field: &Field<Tensor2>, origin: [f64; 2], spacing: [f64; 2]) -> Self {
+    pub fn from_field(field: &Field<Tensor2>, geometry: &PlaneGeometry) -> Self {
         let rows = field.values().chunks(field.grid().width()).rev();
+        let upright = geometry.upright();
+        let [dx, dy] = upright.spacing();
         let lattice = Lattice {
             values: rows.flatten().flat_map(Tensor2::components).collect(),
-            axes: [[spacing[0], 0.0, 0.0], [0.0, spacing[1], 0.0], [0.0, 0.0, 1.0]],
-            origin: [origin[0], origin[1], 0.0],
+            axes: [[dx, 0.0, 0.0], [0.0, dy, 0.0], [0.0, 0.0, 1.0]],
+            origin: upright.corner(),
+            world: World::Viewer,
             ..Lattice::from_field(field)
         };
         let (order, frame) = (TensorOrder::ROWS2, lattice.frame);

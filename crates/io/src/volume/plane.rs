@@ -1,6 +1,7 @@
 //! From a volume to a field in a plane.
 
-use super::{Frame, Lattice, TensorVolume, World, turned};
+use super::geometry::world_axes;
+use super::{Frame, Lattice, PlaneGeometry, TensorVolume, World, turned};
 use crate::IoError;
 use tigereye_core::{Field, Grid, Tensor2};
 
@@ -16,7 +17,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
+    pub(super) const ALL: [Self; 3] = [Self::X, Self::Y, Self::Z];
 
     /// `x`, `y` or `z`.
     #[must_use]
@@ -35,14 +36,14 @@ impl Axis {
     }
 }
 
-/// A plane of voxel axes: the first to the right, the second up.
+/// A plane of two voxel axes. Which of them runs to the right is for the world to say, see [`Cut`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plane {
-    /// x right, y up.
+    /// The first and the second axis.
     Xy,
-    /// x right, z up.
+    /// The first and the third.
     Xz,
-    /// y right, z up.
+    /// The second and the third.
     Yz,
 }
 
@@ -83,7 +84,7 @@ impl Plane {
         }
     }
 
-    /// The axes to the right and up.
+    /// Its axes.
     const fn axes(self) -> (usize, usize) {
         match self {
             Self::Xy => (0, 1),
@@ -178,21 +179,43 @@ impl PlaneChoice {
     }
 }
 
-/// Which voxels a plane is made of, and how they lie in the picture.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A voxel axis in a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Side {
+    /// The voxel axis.
+    voxel: usize,
+    /// The world axis it is assigned to.
+    world: usize,
+    /// Whether it runs against that.
+    reversed: bool,
+}
+
+impl Side {
+    const fn sign(self) -> f64 {
+        if self.reversed { -1.0 } else { 1.0 }
+    }
+
+    /// The voxel in a column from the left, or in a row from below.
+    const fn voxel_at(self, at: usize, count: usize) -> usize {
+        if self.reversed { count - 1 - at } else { at }
+    }
+}
+
+/// Which voxels a plane is made of, and how they lie in the picture: as the world has them. Of the two axes of the plane the
+/// one along the lower world axis runs to the right (x before y before z) and the other one up, both the way the world's
+/// do, whatever the order and the signs of the voxel axes.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Cut {
     /// The plane.
     pub plane: Plane,
     /// Index of the slice.
     pub index: usize,
-    /// Whether columns run against the voxel axis, because that points to the left in the viewer's world.
-    pub columns_flipped: bool,
-    /// Whether row 0 is the last voxel of the upward axis: true unless that axis points down in the viewer's world.
-    pub rows_flipped: bool,
-    /// Position of the lower left cell, in the world where columns and rows run along its axes, else 0.
-    pub origin: [f64; 2],
-    /// Distance of the cells.
-    pub spacing: [f64; 2],
+    /// Where its cells lie.
+    pub geometry: PlaneGeometry,
+    right: Side,
+    up: Side,
+    /// What right and up are in the world, in words.
+    words: Option<[String; 2]>,
     grid: Grid,
     size: [usize; 3],
 }
@@ -207,79 +230,107 @@ pub struct Slice<T> {
 }
 
 impl Cut {
+    /// Whether columns, and rows from below, run against their voxel axes.
+    #[must_use]
+    pub const fn reversed(&self) -> [bool; 2] {
+        [self.right.reversed, self.up.reversed]
+    }
+
     /// How the picture was made, in a sentence; `dropped` is what became of the third direction.
     #[must_use]
     pub fn story(&self, dropped: &str) -> String {
-        let (right, up) = self.plane.axes();
-        let name = |axis: usize, backwards: bool| {
-            format!("{}{}", if backwards { "-" } else { "" }, Axis::ALL[axis].name())
+        let name =
+            |side: Side| format!("{}{}", if side.reversed { "-" } else { "" }, Axis::ALL[side.voxel].name());
+        let [right, up] = self
+            .words
+            .as_ref()
+            .map_or_else(Default::default, |words| words.each_ref().map(|words| format!(" ({words})")));
+        let rows = match (&self.words, self.up.reversed) {
+            (Some(_), _) => "",
+            (None, true) => "; rows as in the file",
+            (None, false) => "; rows flipped, the file runs upwards",
         };
         format!(
-            "plane {}, slice {}={}: voxel axis {} to the right, {} up{dropped}; rows {}",
+            "plane {}, slice {}={}: voxel axis {} to the right{right}, {} up{up}{dropped}{rows}",
             self.plane.name(),
             self.plane.normal().name(),
             self.index,
-            name(right, self.columns_flipped),
-            name(up, !self.rows_flipped),
-            if self.rows_flipped { "flipped, the file runs upwards" } else { "as in the file" }
+            name(self.right),
+            name(self.up),
         )
     }
 
     /// A field of what `value` says of each voxel, by its index `(k * ny + j) * nx + i`.
     fn field<T>(&self, mut value: impl FnMut(usize) -> T) -> Field<T> {
-        let (right, up) = self.plane.axes();
         let (width, height) = (self.grid.width(), self.grid.height());
         Field::from_fn(self.grid, |c| {
             let mut at = [self.index; 3];
-            at[right] = if self.columns_flipped { width - 1 - c.x } else { c.x };
-            at[up] = if self.rows_flipped { height - 1 - c.y } else { c.y };
+            at[self.right.voxel] = self.right.voxel_at(c.x, width);
+            at[self.up.voxel] = self.up.voxel_at(height - 1 - c.y, height);
             value((at[2] * self.size[1] + at[1]) * self.size[0] + at[0])
         })
     }
 }
 
 impl Lattice {
-    /// The voxels of a plane. Where the world is a viewer's, axes that run left or down are reversed, as the viewer
-    /// shows them.
+    /// The voxels of a plane, as the world has them.
     ///
     /// # Errors
     /// As [`PlaneChoice::resolve`].
     pub fn cut(&self, choice: PlaneChoice) -> Result<Cut, IoError> {
-        let (plane, index) = choice.resolve(self.size)?;
-        let (right, up) = plane.axes();
+        let assigned = world_axes(&self.axes);
+        let (plane, index) = self.with_own_plane(choice, assigned).resolve(self.size)?;
         let directions = self.directions();
-        let backwards = |axis: usize| {
-            // Axes that are not mainly their own stay as they are: no picture shows them upright.
-            let own = directions[4 * axis];
-            let main = (0..3).all(|i| directions[3 * i + axis].abs() <= own.abs());
-            self.world == World::Viewer && main && own < 0.0
+        let side = |voxel: usize| {
+            let world = assigned[voxel];
+            Side { voxel, world, reversed: directions[3 * world + voxel] < 0.0 }
         };
-        let (columns_flipped, rows_flipped) = (backwards(right), !backwards(up));
-        let spacing = self.spacing();
+        let (a, b) = plane.axes();
+        let (right, up) = if assigned[a] < assigned[b] { (side(a), side(b)) } else { (side(b), side(a)) };
+        let geometry = self.geometry([right, up], plane.normal() as usize, index);
+        let words = self.has_world().then(|| {
+            [(right, geometry.right()), (up, geometry.up())].map(|(side, v)| self.world.words(side.world, v))
+        });
         Ok(Cut {
             plane,
             index,
-            columns_flipped,
-            rows_flipped,
-            origin: self.corner(right, up, columns_flipped, rows_flipped),
-            spacing: [spacing[right], spacing[up]],
-            grid: Grid::new(self.size[right], self.size[up])?,
+            geometry,
+            right,
+            up,
+            words,
+            grid: Grid::new(self.size[right.voxel], self.size[up.voxel])?,
             size: self.size,
         })
     }
 
-    /// Position of the lower left cell, in the world where columns and rows run along its axes, else 0.
-    fn corner(&self, right: usize, up: usize, columns_flipped: bool, rows_flipped: bool) -> [f64; 2] {
-        let aligned = self.axes.iter().enumerate().all(|(a, v)| (0..3).all(|i| i == a || v[i] == 0.0));
-        let forward = |axis: usize, reversed: bool| (self.axes[axis][axis] < 0.0) == reversed;
-        if !aligned || !forward(right, columns_flipped) || !forward(up, !rows_flipped) {
-            return [0.0; 2];
+    /// Of several axes of one voxel, that of the last world axis is the normal where nobody chooses, so that a single row is
+    /// in the same plane whatever the order of its axes.
+    fn with_own_plane(&self, choice: PlaneChoice, assigned: [usize; 3]) -> PlaneChoice {
+        if choice != PlaneChoice::default() {
+            return choice;
         }
-        let far = |axis: usize, reversed: bool| {
-            let steps = if reversed { self.size[axis] - 1 } else { 0 };
-            self.origin[axis] + steps as f64 * self.axes[axis][axis]
-        };
-        [far(right, columns_flipped), far(up, !rows_flipped)]
+        let flat = (0..3).filter(|&a| self.size[a] == 1).max_by_key(|&a| assigned[a]);
+        flat.map_or(choice, |a| PlaneChoice { plane: Some(Plane::of_normal(Axis::ALL[a])), slice: None })
+    }
+
+    /// Whether the file says where its voxels lie.
+    fn has_world(&self) -> bool {
+        self.world != World::Absent
+    }
+
+    /// Where the cells of a plane lie.
+    fn geometry(&self, sides: [Side; 2], normal: usize, index: usize) -> PlaneGeometry {
+        let (spacing, directions) = (self.spacing(), self.directions());
+        let mut steps = [0.0; 3];
+        steps[normal] = index as f64;
+        for side in sides {
+            steps[side.voxel] = side.voxel_at(0, self.size[side.voxel]) as f64;
+        }
+        let corner =
+            [0, 1, 2].map(|i| self.origin[i] + (0..3).map(|a| steps[a] * self.axes[a][i]).sum::<f64>());
+        let [right, up] = sides.map(|side| [0, 1, 2].map(|i| side.sign() * directions[3 * i + side.voxel]));
+        let geometry = PlaneGeometry::new(corner, right, up, sides.map(|side| spacing[side.voxel]));
+        if self.has_world() { geometry } else { geometry.flat() }
     }
 
     /// One number a voxel, in a plane.
@@ -303,9 +354,7 @@ impl Lattice {
             return Err(self.tuple_size("two or three"));
         }
         let cut = self.cut(choice)?;
-        let (right, up) = cut.plane.axes();
         let turn = self.to_voxel(frame.unwrap_or(self.frame.0))?;
-        let signs = [if cut.columns_flipped { -1.0 } else { 1.0 }, if cut.rows_flipped { 1.0 } else { -1.0 }];
         let field = cut.field(|voxel| {
             let mut v = [0.0; 3];
             let from = voxel * self.components;
@@ -313,7 +362,7 @@ impl Lattice {
             if let Some(k) = &turn {
                 v = [0, 1, 2].map(|i| k[3 * i] * v[0] + k[3 * i + 1] * v[1] + k[3 * i + 2] * v[2]);
             }
-            [signs[0] * v[right], signs[1] * v[up]]
+            [cut.right, cut.up].map(|side| side.sign() * v[side.voxel])
         });
         Ok(Slice { field, cut })
     }
@@ -331,17 +380,17 @@ impl Lattice {
 }
 
 impl TensorVolume {
-    /// The field in a plane. Tensors are turned into the voxel axes and lose the third row and column, so that direction
-    /// 90 degrees is up in the picture. Voxels with mask 0 become zero tensors.
+    /// The field in a plane. Tensors are turned into the axes of the picture and lose the third row and column, so that
+    /// direction 90 degrees is up in the picture. Voxels with mask 0 become zero tensors.
     ///
     /// # Errors
     /// [`IoError::SkewedAxes`], and as [`Lattice::cut`].
     pub fn slice(&self, choice: PlaneChoice) -> Result<Slice<Tensor2>, IoError> {
         let cut = self.lattice.cut(choice)?;
-        let (right, up) = cut.plane.axes();
+        let (right, up) = (cut.right.voxel, cut.up.voxel);
         let turn = self.lattice.to_voxel(self.frame.0)?;
         // One reversed axis changes the sign of the off-diagonal components.
-        let mirrored = cut.columns_flipped == cut.rows_flipped;
+        let mirrored = cut.right.reversed != cut.up.reversed;
         let field = cut.field(|voxel| {
             if self.is_masked(voxel) {
                 return Tensor2::ZERO;

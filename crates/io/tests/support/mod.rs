@@ -6,9 +6,10 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use tigereye_core::{Field, Tensor2};
 use tigereye_io::volume::{
-    Frame, PlaneChoice, Reading, Slice, TensorVolume, image_from_volume, lattice_from_image,
+    Frame, Lattice, PlaneChoice, PlaneGeometry, Reading, Slice, TensorVolume, image_from_volume,
+    lattice_from_image, lattice_from_points, points_from_image,
 };
-use tigereye_io::{ImageData, IoError, Wanted};
+use tigereye_io::{ImageData, IoError, Wanted, legacy, nifti, nrrd, vti, vtp};
 
 /// The folder named by the environment variable, or `../shared/<name>` beside the workspace; `None`, and a line that
 /// says so, where it is absent.
@@ -30,9 +31,55 @@ pub(crate) fn json(folder: &std::path::Path, file: &str) -> serde_json::Value {
     serde_json::from_slice(&bytes(folder, file)).unwrap_or_else(|e| panic!("{file}: {e}"))
 }
 
+/// Reads and writes one format.
+pub(crate) struct Format {
+    pub(crate) name: &'static str,
+    pub(crate) through: fn(&TensorVolume) -> Result<Lattice, IoError>,
+}
+
+/// Every format that holds volumes.
+pub(crate) const FORMATS: [Format; 6] = [
+    Format {
+        name: "vti",
+        through: |v| lattice_from_image(&vti::read(&vti::write(&world(v)?)?)?, None, Wanted::Tensors),
+    },
+    Format {
+        name: "vtp",
+        through: |v| {
+            lattice_from_points(
+                vtp::read(&vtp::write(&points_from_image(world(v)?))?)?,
+                None,
+                Wanted::Tensors,
+            )
+        },
+    },
+    Format {
+        name: "vtk",
+        through: |v| {
+            lattice_from_image(&legacy::read(&legacy::write(&world(v)?, "title")?)?, None, Wanted::Tensors)
+        },
+    },
+    Format { name: "nrrd", through: |v| nrrd::read(&nrrd::write(v, Frame::World, "{\"a\\b\":\n1}")?, None) },
+    Format { name: "nii", through: |v| nifti::read(&nifti::write(v, nifti::WrittenAs::Matrices, "words")?) },
+    Format {
+        name: "nii.gz",
+        through: |v| nifti::read(&nifti::write_packed(v, nifti::WrittenAs::Matrices, "")?),
+    },
+];
+
+/// The volume along the axes of the world.
+pub(crate) fn world(volume: &TensorVolume) -> Result<ImageData, IoError> {
+    image_from_volume(volume, Frame::World)
+}
+
 /// The image that a field is written as.
 pub(crate) fn image_of(field: &Field<Tensor2>, origin: [f64; 2], spacing: [f64; 2]) -> ImageData {
-    image_from_volume(&TensorVolume::from_field(field, origin, spacing), Frame::World).unwrap()
+    image_from_volume(&TensorVolume::from_field(field, &flat(origin, spacing)), Frame::World).unwrap()
+}
+
+/// A plane of the world's x and y, in height 0.
+pub(crate) fn flat([x, y]: [f64; 2], spacing: [f64; 2]) -> PlaneGeometry {
+    PlaneGeometry::new([x, y, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], spacing)
 }
 
 /// The field in the only plane of an image.

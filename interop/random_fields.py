@@ -18,6 +18,7 @@ import zlib
 
 import numpy as np
 from common import PROGRAM, tensors, turned
+from read_back import OUTPUTS, read_vti
 from scipy.spatial import cKDTree
 
 SEED = int(os.environ.get("RANDOM_SEED", "1"))
@@ -84,6 +85,21 @@ class Written:
 
     def tensors(self):
         return self.world if self.kept is None else np.where(self.kept[..., None, None], self.world, 0.0)
+
+    def permuted(self, order):
+        """The same field with its voxel axes in another order."""
+        place = Lattice(tuple(self.lattice.size[a] for a in order), self.lattice.origin, self.lattice.axes[:, order])
+        kept = None if self.kept is None else self.kept.transpose(order)
+        return dataclasses.replace(self, lattice=place, world=self.world.transpose(*order, 3, 4), kept=kept)
+
+    def taken(self, index):
+        """A part of the field: one slice a voxel axis, with the step 1 or -1."""
+        starts = [range(n)[i][0] for n, i in zip(self.lattice.size, index, strict=True)]
+        world = self.world[tuple(index)]
+        origin = self.lattice.origin + self.lattice.axes @ starts
+        place = Lattice(world.shape[:3], origin, self.lattice.axes * [i.step or 1 for i in index])
+        kept = None if self.kept is None else self.kept[tuple(index)]
+        return dataclasses.replace(self, lattice=place, world=world, kept=kept)
 
     def along_the_voxel_axes(self):
         """Lattice and tensors of a file that is asked to be along its voxel axes: they are its world."""
@@ -238,16 +254,16 @@ class RandomChecks(unittest.TestCase):
         if failed:
             self.fail(f"{len(failed)} of {len(numbers)} cases of {name}:\n" + "\n".join(lines))
 
-    def readings(self, name, count, write, outputs):
-        """Reads what `write(generator, folder)` wrote, whole by one of `outputs` and one plane of it, and compares."""
+    def readings(self, name, count, write):
+        """Reads what `write(generator, folder)` wrote, whole and one plane of it, and compares."""
 
         def one(generator, folder, words):
             written = write(generator, folder)
             words.extend([written.file, *written.words])
             faults = []
-            for check in (whole_volume, plane):
+            for check in (whole_volume, plane, plane_as_image):
                 try:
-                    check(generator, folder, written, outputs)
+                    check(generator, folder, written)
                 except AssertionError as wrong:
                     faults.append(str(wrong))
             if faults:
@@ -256,13 +272,13 @@ class RandomChecks(unittest.TestCase):
         self.cases(name, count, one)
 
 
-def whole_volume(generator, folder, written, outputs):
-    """`convert IN OUT` against the oracle, read by the program that OUT belongs to."""
+def whole_volume(generator, folder, written):
+    """`convert IN OUT` against the oracle, read by a program that OUT is for."""
     if min(written.lattice.size) == 1:
         # A file of one layer is written as the plane it is.
         return
-    read = outputs[int(generator.integers(len(outputs)))]
-    out = f"whole.{read.__name__.removeprefix('read_')}"
+    ending, read = OUTPUTS[int(generator.integers(len(OUTPUTS)))]
+    out = f"whole.{ending}"
     run_program(folder, "convert", written.file, out, *written.options)
     positions, found, in_patient = read(folder / out)
     if in_patient:
@@ -271,17 +287,42 @@ def whole_volume(generator, folder, written, outputs):
         lattice_, expected = written.along_the_voxel_axes()
     else:
         lattice_, expected = written.lattice, written.tensors()
-    compare_places(positions, found, lattice_, expected, written.tolerance, f"whole as {out}")
+    what = f"whole as {out} by {read.__name__}"
+    compare_places(positions, found, lattice_, expected, written.tolerance, what)
 
 
-def plane(generator, folder, written, _):
-    """`convert IN plane.npy --slice AXIS=INDEX` against the oracle."""
-    if not written.has_axes:
-        return
+def chosen_plane(generator, written):
+    """A voxel axis, an index along it, and the options that choose them."""
     size = written.lattice.size
     axis = size.index(1) if 1 in size else int(generator.integers(3))
     index = int(generator.integers(size[axis]))
     # A plane of one layer needs no choice.
-    chosen = [] if 1 in size else ["--slice", f"{'xyz'[axis]}={index}"]
+    return axis, index, [] if 1 in size else ["--slice", f"{'xyz'[axis]}={index}"]
+
+
+def plane(generator, folder, written):
+    """`convert IN plane.npy --slice AXIS=INDEX` against the oracle."""
+    if not written.has_axes:
+        return
+    axis, index, chosen = chosen_plane(generator, written)
     run_program(folder, "convert", written.file, "plane.npy", *written.options, *chosen)
-    compare(np.load(folder / "plane.npy"), picture(written, axis, index).field, written.tolerance, f"plane {chosen}")
+    right = picture(written, axis, index).field
+    compare(np.load(folder / "plane.npy"), right, written.tolerance, f"plane {' '.join(chosen)}")
+
+
+def plane_as_image(generator, folder, written):
+    """Of some planes, where they lie: in the world where they show its x and y, else along axes of their own."""
+    if not written.has_axes or generator.random() > 0.3:
+        return
+    axis, index, chosen = chosen_plane(generator, written)
+    run_program(folder, "convert", written.file, "plane.vti", *written.options, *chosen)
+    positions, found, _ = read_vti(folder / "plane.vti")
+    shown = picture(written, axis, index)
+    upright = np.allclose([shown.right, shown.up], np.eye(3)[:2], rtol=0.0, atol=TIE)
+    corner = shown.corner if upright else np.array([shown.corner @ shown.right, shown.corner @ shown.up, 0.0])
+    height, width = shown.field.shape[:2]
+    place = Lattice((width, height, 1), corner, np.diag([*shown.spacing, 1.0]))
+    full = np.zeros((width, height, 1, 3, 3))
+    full[:, :, 0, :2, :2] = shown.field[::-1].transpose(1, 0, 2, 3)
+    what = f"plane {' '.join(chosen)} as image data"
+    compare_places(positions, found, place, full, written.tolerance, what)

@@ -1,9 +1,10 @@
 """Whole volumes that tigereye wrote, read by the programs that the formats belong to.
 
-Each function gives positions (N, 3), tensors (N, 3, 3) along the axes of the world of these positions, and whether that world
-is the patient's, to the right, anterior and superior; else it is the file's own.
+Each function gives positions (N, 3), tensors (N, 3, 3) along the axes of the world of these positions, and whether that
+world is the patient's, to the right, anterior and superior; else it is the file's own.
 """
 
+import meshio
 import nibabel
 import nrrd
 import numpy as np
@@ -46,6 +47,12 @@ def read_vtk(file):
     return _vtk(vtk.vtkDataSetReader(), file)
 
 
+def read_meshio(file):
+    """meshio takes a structured file apart into points and cells; it has no `.vti`."""
+    found = meshio.read(file, file_format="vtk")
+    return found.points, found.point_data["Tensors"].reshape(-1, 3, 3), False
+
+
 def positions_of_affine(size, affine):
     """(nx, ny, nz, 3)"""
     return np.moveaxis(np.indices(size), 0, -1) @ affine[:3, :3].T + affine[:3, 3]
@@ -74,3 +81,15 @@ def read_nrrd(file):
     affine[:3, 3] = signs * header["space origin"]
     positions = positions_of_affine(values.shape[:3], affine)
     return positions.reshape(-1, 3), turned(full, frame).reshape(-1, 3, 3), True
+
+
+# The ending of a whole volume and who reads it.
+OUTPUTS = [
+    ("vti", read_vti),
+    ("vtp", read_vtp),
+    ("vtk", read_vtk),
+    ("vtk", read_meshio),
+    ("nii", read_nii),
+    ("nii.gz", read_nii),
+    ("nrrd", read_nrrd),
+]

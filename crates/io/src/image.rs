@@ -141,6 +141,14 @@ impl DataArray {
         Self { name: name.to_owned(), components, component_names, values, scalar: ScalarType::Float64 }
     }
 
+    /// Puts the tuples into another order: the one at `i` comes from `order[i]`. Arrays of another number of tuples stay as they are.
+    pub(crate) fn reorder(&mut self, order: &[usize]) {
+        if self.values.len() == order.len() * self.components {
+            let tuple = |&at: &usize| &self.values[at * self.components..(at + 1) * self.components];
+            self.values = order.iter().flat_map(tuple).copied().collect();
+        }
+    }
+
     /// The same array with names for its components.
     #[must_use]
     pub fn with_component_names(mut self, names: &[&str]) -> Self {

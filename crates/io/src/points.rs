@@ -73,6 +73,43 @@ impl PointLattice {
         Self::of(points, size)
     }
 
+    /// The lattice along the world's axes of points in any order, and which point is at each of its places, x fastest.
+    ///
+    /// # Errors
+    /// The first point that is off the lattice, or shares its place with one before.
+    pub(crate) fn scattered(points: &[[f64; 3]]) -> Result<(Self, Vec<usize>), usize> {
+        let mut size = [1; 3];
+        let (mut first, mut step) = ([0.0; 3], [0.0; 3]);
+        for axis in 0..3 {
+            let mut sorted: Vec<f64> = points.iter().map(|p| p[axis]).collect();
+            sorted.sort_by(f64::total_cmp);
+            let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) else { return Err(0) };
+            let largest_gap = sorted.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
+            let steps = if largest_gap > 0.0 { ((high - low) / largest_gap).round() } else { 0.0 };
+            // More steps than points, or no numbers.
+            if !(0.0..points.len() as f64).contains(&steps) {
+                return Err(0);
+            }
+            size[axis] = steps as usize + 1;
+            (first[axis], step[axis]) = (low, if steps > 0.0 { (high - low) / steps } else { 0.0 });
+        }
+        if size.iter().map(|&n| n as u128).product::<u128>() != points.len() as u128 {
+            return Err(0);
+        }
+        let mut order = vec![usize::MAX; points.len()];
+        for (point, p) in points.iter().enumerate() {
+            let at = [0, 1, 2].map(|a| if step[a] > 0.0 { (p[a] - first[a]) / step[a] } else { 0.0 });
+            let [x, y, z] = at.map(|v| v.round() as usize);
+            let place = order.get_mut((z * size[1] + y) * size[0] + x).ok_or(point)?;
+            if at.iter().any(|v| (v - v.round()).abs() > TOLERANCE) || *place != usize::MAX {
+                return Err(point);
+            }
+            *place = point;
+        }
+        let axes = [0, 1, 2].map(|a| [0, 1, 2].map(|i| if i == a { step[a] } else { 0.0 }));
+        Ok((Self { size, axes, origin: first }, order))
+    }
+
     /// Gives an image the lattice's size, spacing, directions and origin; axes of one point get the directions that are
     /// left.
     pub(crate) fn place(&self, image: &mut ImageData) {
@@ -174,6 +211,26 @@ mod tests {
                 assert!(kept.into_iter().all(|off| off.abs() < 1e-12), "{along:?} at {place}");
             }
         }
+    }
+
+    #[test]
+    fn points_in_any_order_are_put_in_theirs() {
+        let points = grid([4, 3, 2], [[0.5, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0]]);
+        // 7 and 24 have no common factor.
+        let shuffled: Vec<[f64; 3]> = (0..24).map(|i| points[7 * i % 24]).collect();
+        let (lattice, order) = PointLattice::scattered(&shuffled).expect("a lattice");
+        assert_eq!((lattice.size, lattice.origin), ([4, 3, 2], [5.0; 3]));
+        assert!(order.iter().zip(&points).all(|(&at, p)| shuffled[at] == *p));
+        let mut twice = shuffled.clone();
+        twice[3] = twice[2];
+        assert!(PointLattice::scattered(&twice).is_err());
+        let mut off = shuffled;
+        off[3][1] += 0.01;
+        assert!(PointLattice::scattered(&off).is_err());
+        for odd in [f64::NAN, f64::INFINITY, 1e300] {
+            assert!(PointLattice::scattered(&[[0.0; 3], [odd, 0.0, 0.0], [1.0, 0.0, 0.0]]).is_err());
+        }
+        assert!(PointLattice::scattered(&[]).is_err());
     }
 
     #[test]

@@ -448,6 +448,23 @@ fn transforms_that_disagree_are_said() {
     assert!(apart[0].contains("disagree by up to 5.000"), "{apart:?}");
 }
 
+/// Half turns come with parts of single precision, whose squares do not add up to 1.
+#[test]
+fn half_turns_of_quaternions_are_exact() {
+    let half = (0.5_f32).sqrt();
+    let mut file = nifti_voxel(RAS, [4, 1, 1, 1, 6, 1, 1, 1], 0, &[0.0; 6], Some([0.0; 3]));
+    // No sform; half a turn about the diagonal of x and y swaps them and reverses z.
+    file[254..256].copy_from_slice(&0_i16.to_le_bytes());
+    for (i, part) in [half, half, 0.0].into_iter().enumerate() {
+        file[256 + 4 * i..260 + 4 * i].copy_from_slice(&part.to_le_bytes());
+    }
+    let axes = nifti::read(&file).unwrap().axes;
+    let expected = [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]];
+    for (found, expected) in axes.iter().flatten().zip(expected.iter().flatten()) {
+        assert!((found - expected).abs() < 1e-7, "{axes:?}");
+    }
+}
+
 /// Single precision stays single: teem's `tend` takes no double.
 #[test]
 fn files_are_written_in_the_precision_they_had() {

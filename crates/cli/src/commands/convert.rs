@@ -10,7 +10,7 @@ use tigereye_core::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
 use tigereye_experiments::input::{Content, Reading, TensorFile, finite_volume, format_of};
 use tigereye_experiments::provenance::provenance;
 use tigereye_io::volume::{Frame, Known, PlaneChoice, TensorVolume, image_from_volume, points_from_image};
-use tigereye_io::{DataArray, ImageData, IoError, legacy, matrices, nifti, npy, nrrd, vti, vtp};
+use tigereye_io::{DataArray, ImageData, IoError, ScalarType, legacy, matrices, nifti, npy, nrrd, vti, vtp};
 
 /// Whether a volume is written as it is: no plane, part or size was asked for, and the file has axes of its own.
 fn is_whole(volume: &TensorVolume, reading: &Reading) -> bool {
@@ -91,6 +91,10 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             encoded(format, &volume.as_stated(), frame, args, &blake3)
         }
         source => {
+            let scalar = match &source {
+                Source::File(file) => file.scalar(),
+                Source::Generated(_) => ScalarType::Float64,
+            };
             if args.invariants {
                 let problem = "are those of a volume of 3 x 3 tensors: expected a file that holds one, whole";
                 return Err(CliError::input("--invariants", problem));
@@ -100,7 +104,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 Format::Numpy => Ok(npy::write_tensors(&input.field)),
                 Format::Matrices => matrices::write(&input.field),
                 _ => {
-                    let volume = TensorVolume::from_field(&input.field, &input.geometry);
+                    let volume = TensorVolume::from_field(&input.field, &input.geometry).with_scalar(scalar);
                     // The plane's own axes, whatever the tensors were read along.
                     encoded(format, &volume, Frame::World, args, &input.blake3)
                 }

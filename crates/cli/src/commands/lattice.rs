@@ -115,6 +115,7 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
             "negative": share(negative),
         },
         "warning": file.warning(),
+        "remarks": file.remarks(),
     });
     merge(&mut facts, more);
     facts
@@ -126,6 +127,11 @@ pub(super) fn number_facts(file: &TensorFile, lattice: &Lattice) -> Value {
     lattice.values.iter().for_each(|&v| range.add(v));
     let mut facts = about(&file.name, file.kind, &file.blake3, lattice);
     let mut story = lattice.story();
+    if lattice.components > 1 {
+        let (frame, known) = lattice.frame;
+        story.push(format!("vectors along {} ({})", frame.words(), known.words()));
+    }
+    story.extend(lattice.warnings.iter().map(|w| format!("WARNING: {w}")));
     story.push("no tensors; --derive makes some".to_owned());
     let more = json!({ "assumptions": story, "range": range.json() });
     merge(&mut facts, more);
@@ -183,8 +189,8 @@ pub(super) fn as_text(facts: &Value) -> String {
         let _ = writeln!(text, "  {name:<10}  min {min:>14}  max {max:>14}  mean {mean:>14}");
     }
     text += &shares_as_text(facts);
-    if let Some(warning) = facts["warning"].as_str() {
-        let _ = writeln!(text, "  WARNING: {warning}");
+    for remark in facts["remarks"].as_array().into_iter().flatten() {
+        let _ = writeln!(text, "  {}", remark.as_str().unwrap_or_default());
     }
     text
 }

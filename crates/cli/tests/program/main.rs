@@ -13,6 +13,7 @@ mod own_fields;
 #[cfg(unix)]
 mod parts;
 mod reading;
+mod reports;
 mod results;
 mod review;
 mod scenes;

@@ -6,7 +6,8 @@ use tigereye_io::volume::{
     Frame, Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
 };
 use tigereye_io::{
-    ArrayChoice, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, picture, vectors_text, vti, vtp,
+    ArrayChoice, IoError, Limits, ScalarType, Wanted, legacy, matrices, nifti, npy, nrrd, picture,
+    vectors_text, vti, vtp,
 };
 
 /// What a data file holds.
@@ -70,7 +71,7 @@ pub fn open(
     bytes_of: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
 ) -> Result<TensorFile, InputError> {
     if !is_readable(name) {
-        return Err(InputError::of_extension(&format_of(name)));
+        return Err(InputError::of_name(name));
     }
     reading.check()?;
     if format_of(name) == "png" && reading.derive.is_none() {
@@ -253,6 +254,15 @@ impl TensorFile {
         match &self.content {
             Content::Tensors(volume) => volume.lattice().size,
             Content::Numbers(lattice) => lattice.size,
+        }
+    }
+
+    /// Type of the numbers in the file.
+    #[must_use]
+    pub const fn scalar(&self) -> ScalarType {
+        match &self.content {
+            Content::Tensors(volume) => volume.lattice().scalar,
+            Content::Numbers(lattice) => lattice.scalar,
         }
     }
 

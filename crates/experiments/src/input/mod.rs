@@ -134,7 +134,7 @@ pub enum InputError {
 /// Formats of tensors that are not read: their extensions, names, and what converts them.
 const FOREIGN: &[(&[&str], &str, &str)] = &[
     (
-        &["mif", "mif.gz", "mih"],
+        &["mif", "mih"],
         "MRtrix's image format",
         "`mrconvert IN.mif OUT.nii.gz` writes NIfTI (then --order mrtrix)",
     ),
@@ -168,9 +168,11 @@ const FOREIGN: &[(&[&str], &str, &str)] = &[
 ];
 
 impl InputError {
-    /// What is wrong with an extension that is not read.
-    fn of_extension(extension: &str) -> Self {
-        let known = FOREIGN.iter().find(|(extensions, _, _)| extensions.contains(&extension));
+    /// What is wrong with a name whose extension is not read.
+    fn of_name(name: &str) -> Self {
+        let unpacked = name.strip_suffix(".gz").unwrap_or(name);
+        let extension = format_of(unpacked);
+        let known = FOREIGN.iter().find(|(extensions, _, _)| extensions.contains(&extension.as_str()));
         known.map_or(Self::Ending, |&(_, format, help)| Self::Foreign { format, help })
     }
 }

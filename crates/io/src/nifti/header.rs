@@ -279,13 +279,17 @@ fn disagreement(fields: &Bytes, size: [usize; 3]) -> Option<f64> {
     (largest > APART * voxel).then_some(largest)
 }
 
-/// Axes from the three imaginary parts of a unit quaternion; the third axis may be reversed.
+/// What three numbers of single precision may be off from a length of 1, squared.
+const HALF_TURN: f64 = 3.0 * f32::EPSILON as f64;
+
+/// Axes from the three imaginary parts of a unit quaternion; the third axis may be reversed. Parts of length 1, up to single precision, are
+/// a half turn: the root of what is left would be a rotation by the root of the rounding, 3e-4.
 fn rotated([b, c, d]: [f64; 3], steps: [f64; 3], flip: f64) -> [[f64; 3]; 3] {
     let square = b * b + c * c + d * d;
-    // Single precision may leave a little more than 1.
-    let shrink = if square > 1.0 { 1.0 / square.sqrt() } else { 1.0 };
+    let is_half_turn = square > 1.0 - HALF_TURN;
+    let shrink = if is_half_turn { 1.0 / square.sqrt() } else { 1.0 };
     let [b, c, d] = [b, c, d].map(|v| v * shrink);
-    let a = (1.0 - (b * b + c * c + d * d)).max(0.0).sqrt();
+    let a = if is_half_turn { 0.0 } else { (1.0 - square).sqrt() };
     let first = [a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)];
     let second = [2.0 * (b * c - a * d), a * a + c * c - b * b - d * d, 2.0 * (c * d + a * b)];
     let third = [2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a + d * d - c * c - b * b];

@@ -12,7 +12,7 @@ use crate::{DataArray, ImageData, IoError, PolyData};
 const HIDDEN_POINT: u8 = 2;
 const HIDDEN_CELL: u8 = 32 | 8;
 
-/// Takes an array out of poly data whose points form a lattice, x fastest.
+/// Takes an array out of poly data whose points form a lattice: row by row in any direction, or along the world's axes in any order.
 ///
 /// # Errors
 /// [`IoError::NoLattice`], and as [`lattice_from_image`]. Cell arrays belong to polygons and are not looked at.
@@ -21,14 +21,27 @@ pub fn lattice_from_points<'a>(
     array: impl Into<ArrayChoice<'a>>,
     wanted: Wanted,
 ) -> Result<Lattice, IoError> {
-    let lattice = PointLattice::find(&data.points).map_err(|point| IoError::NoLattice { point })?;
+    let (lattice, order) = match PointLattice::find(&data.points) {
+        Ok(lattice) => (lattice, None),
+        Err(point) => {
+            let scattered = PointLattice::scattered(&data.points);
+            let (lattice, order) = scattered.map_err(|_| IoError::NoLattice { point })?;
+            (lattice, Some(order))
+        }
+    };
     let mut image = ImageData::empty(lattice.size);
     lattice.place(&mut image);
     image.point_arrays = data.point_arrays;
+    if let Some(order) = &order {
+        image.point_arrays.iter_mut().for_each(|array| array.reorder(order));
+    }
     image.point_active = data.point_active;
     image.skipped = data.skipped;
     let mut found = lattice_from_image(&image, array, wanted)?;
     found.notes[0] = "a point array of VTK poly data whose points form a lattice".to_owned();
+    if order.is_some() {
+        found.notes.push("points put in the order of their lattice".to_owned());
+    }
     let left_out: Vec<String> = data.cell_arrays.into_iter().map(|a| format!("`{}`", a.name)).collect();
     if !left_out.is_empty() {
         found.notes.push(format!("arrays of polygons left out: {}", left_out.join(", ")));

@@ -55,6 +55,13 @@ impl TensorVolume {
         Self { lattice, order: (order, Known::Stated), frame }
     }
 
+    /// The same tensors, to be written in the precision of another type.
+    #[must_use]
+    pub fn with_scalar(mut self, scalar: ScalarType) -> Self {
+        self.lattice.scalar = scalar;
+        self
+    }
+
     /// All tensors along the axes of `frame` (world, voxel or FSL's), row by row; those of voxels with mask 0 are zero.
     ///
     /// # Errors

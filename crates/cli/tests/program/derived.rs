@@ -15,7 +15,8 @@ fn array(shape: &[usize], value: impl Fn(usize) -> f64) -> Vec<u8> {
 }
 
 fn converted(place: &Place, options: &[&str]) -> Field<Tensor2> {
-    place.succeeds(&[&["convert"], options, &["out.npy", "--force"]].concat());
+    let run = place.tigereye(&[&["convert"], options, &["out.npy", "--force"]].concat());
+    assert_eq!(run.code, 0, "{options:?}: {}", run.stderr);
     npy::read_tensors(&place.read("out.npy")).unwrap()
 }
 

@@ -19,8 +19,8 @@ pub struct Anisotropy {
     pub planar: f64,
     /// Fractional anisotropy, FA (Basser and Pierpaoli 1996): [`fractional_anisotropy3`] of the tensor as a volume holds it,
     /// with a third row and column of zeros, so that a plane and a volume of one layer say the same. From the signed
-    /// eigenvalues of the symmetric part: sqrt(1/2) for isotropic tensors, 1 for one vanishing axis, above 1 only for
-    /// indefinite tensors, up to sqrt(3/2) for pure shear; not a number where the eigenvalues are not finite.
+    /// eigenvalues of the symmetric part: sqrt(1/2) for isotropic tensors, 1 for one vanishing axis, above 1 only where
+    /// the signs differ, up to sqrt(3/2) for pure shear; not a number where the eigenvalues are not finite.
     pub fractional: f64,
     /// Mean half-axis `(s1 + s2) / 2`, in the tensor's unit.
     pub mean: f64,

@@ -237,9 +237,7 @@ fn tables_of_vectors_take_no_more_than_their_lines() {
     let message = vectors_text::read(far.as_bytes()).unwrap_err().to_string();
     assert!(message.contains("1000 vectors on a lattice of 1000 x 1000 positions"), "{message}");
     assert!(!vectors_text::is_table(far.as_bytes()));
-    for text in
-        ["0 0 1 2\n1e308 -1e308 1 2\n-1e308 1e308 1 2\n", "0 0 1 2\n5e-324 5e-324 1 2\n", "x y u v\n1 2\n"]
-    {
+    for text in ["0 0 1 2\n1e308 -1e308 1 2\n-1e308 1e308 1 2\n", "x y u v\n1 2\n"] {
         let _ = vectors_text::is_table(text.as_bytes());
         assert!(vectors_text::read(text.as_bytes()).is_err(), "{text}");
     }

@@ -78,13 +78,15 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
     }
     let source = Source::open(&args.input, &args.reading)?;
     source.check_apart(std::slice::from_ref(&args.output))?;
-    if let Source::File(file) = &source {
-        file.remarks().iter().for_each(|line| eprintln!("{}: {line}", file.name));
-    }
+    let remarks = match &source {
+        Source::File(file) => file.remarks(),
+        Source::Generated(_) => Vec::new(),
+    };
     let bytes = match source {
         Source::File(TensorFile { content: Content::Tensors(volume), name, blake3, .. })
             if !format.is_flat() && is_whole(&volume, &reading) =>
         {
+            remarks.iter().for_each(|line| eprintln!("{name}: {line}"));
             let volume = finite_volume(volume, &reading).map_err(|e| CliError::input(&name, e))?;
             let frame = if reading.frame == Some(Frame::Voxel) { Frame::Voxel } else { Frame::World };
             // What the file states about its components stands; the option says how they are written.
@@ -100,6 +102,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 return Err(CliError::input("--invariants", problem));
             }
             let input = Input::of(source, &args.reading)?;
+            input.tell();
             match format {
                 Format::Numpy => Ok(npy::write_tensors(&input.field)),
                 Format::Matrices => matrices::write(&input.field),

@@ -201,7 +201,8 @@ pub(super) fn shares_as_text(facts: &Value) -> String {
     if let Some(bars) = facts["fractional_anisotropy_histogram"].as_array() {
         let counts: Vec<String> = bars.iter().map(Value::to_string).collect();
         let above = facts["fractional_anisotropy_above_1"].as_u64().filter(|n| *n > 0);
-        let above = above.map_or_else(String::new, |n| format!(", and {n} above 1 (indefinite tensors)"));
+        let above =
+            above.map_or_else(String::new, |n| format!(", and {n} above 1 (indefinite symmetric parts)"));
         let _ = writeln!(text, "  FA from 0 to 1 in steps of 0.1: {}{above}", counts.join(" "));
     }
     if let Some(bars) = facts["negative_eigenvalues_histogram"].as_array() {

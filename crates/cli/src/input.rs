@@ -81,7 +81,7 @@ pub(crate) struct Input {
     pub(crate) assumptions: Vec<String>,
     /// What everybody must hear of it: assumptions that the options could replace, and warnings.
     pub(crate) remarks: Vec<String>,
-    /// A warning for those who take cells as squares, where they are not.
+    /// A warning for light, which takes cells as squares, where they are not.
     pub(crate) oblong: Option<String>,
     /// Where its cells lie.
     pub(crate) geometry: PlaneGeometry,
@@ -155,7 +155,7 @@ impl Input {
         files::check_apart(&self.files, outputs)
     }
 
-    /// As [`Self::open`], for what takes cells as squares, light and lines: with a warning where they are not.
+    /// As [`Self::open`], for light, which takes cells as squares: with a warning where they are not.
     pub(crate) fn open_for_squares(text: &str, reading: &ReadingArgs) -> Result<Self, CliError> {
         let input = Self::open(text, reading)?;
         if let Some(words) = &input.oblong {

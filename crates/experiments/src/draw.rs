@@ -136,8 +136,9 @@ impl Draw<'_> {
                 shown(self.map(map, *ridges, own_title(title)), title, figure)
             }
             Panel::Ridges { field, sources, title } => {
-                let field = self.settings.fields.get(field);
-                let scene = field.and_then(|f| self.ridges(f, sources, own_title(title)));
+                let cell = self.settings.cell(field);
+                let fields = &self.settings.fields;
+                let scene = fields.get(field).and_then(|f| self.ridges((f, cell), sources, own_title(title)));
                 shown(scene, title, figure)
             }
             Panel::Overlay { run, step, scale, transmission, title } => {
@@ -290,7 +291,7 @@ impl Draw<'_> {
 
     fn ridges(
         &self,
-        field: &Field<Tensor2>,
+        (field, cell): (&Field<Tensor2>, CellShape),
         sources: &[(String, RidgeSource)],
         title: String,
     ) -> Option<Scene> {
@@ -300,7 +301,8 @@ impl Draw<'_> {
         let options = PlainOptions {
             title,
             description: "Height ridges".to_owned(),
-            cell_px: self.cell_px(field.grid()),
+            cell_px: self.cell_px_of(field.grid(), cell),
+            cell,
             overlays: overlays.collect::<Option<_>>()?,
             ..PlainOptions::default()
         };

@@ -44,11 +44,10 @@ fn lines_lie_over_the_field() {
         })
         .expect("a file"),
     );
-    // Cells that are no squares are worth a warning.
-    let run = place.tigereye(&["lines", "far.vti", "--seed", "2,1", "--ribbon", "-o", "l.vtp"]);
-    assert!(run.code == 0 && run.stderr.contains("cells are 0.5 x 2"), "{}", run.stderr);
+    // Cells that are no squares bend no line: it lies at 45 degrees in the file's unit.
+    place.succeeds(&["lines", "far.vti", "--seed", "2,1", "--ribbon", "-o", "l.vtp"]);
     let data = poly_data(&place, "l.vtp");
-    assert!(data.points.iter().all(|[x, y, _]| ((x - 101.0) / 0.5 - (y + 44.0) / 2.0).abs() < 1e-9));
+    assert!(data.points.iter().all(|[x, y, _]| ((x - 101.0) - (y + 44.0)).abs() < 1e-9));
     assert!(data.point_arrays.iter().any(|a| a.name == "half_width"));
 }
 
@@ -92,7 +91,115 @@ fn topology_names_points_and_separatrices() {
         place.succeeds(&["topology", "trisector:size=21", "--family", "both", "--json", "-o", "t.vtp"]);
     assert_eq!(both.json()["separatrices"].as_array().map(Vec::len), Some(6));
     let words = place.succeeds(&["topology", "wedge:size=21", "-o", "w.svg"]).stdout;
-    assert_eq!(words, "1 degenerate point of index sum 0.5, 1 separatrix\n");
+    assert_eq!(
+        words,
+        "1 degenerate point of index sum 0.5, 1 separatrix; eigenvectors, major by value (tension positive)\n"
+    );
+}
+
+/// Radial tension of 2 and hoop compression of -5 about a point outside of the field, xy and yx apart by rounding in single precision.
+const MIXED: &str = r#"(format: 1, title: "mixed", field: Components(width: 21, height: 15,
+    xx: "2*cos(atan2(7*(y+3),10*(x+3)))^2 - 5*sin(atan2(7*(y+3),10*(x+3)))^2",
+    xy: "7*sin(atan2(7*(y+3),10*(x+3)))*cos(atan2(7*(y+3),10*(x+3))) + 1e-7*sin(40*x)",
+    yx: "7*sin(atan2(7*(y+3),10*(x+3)))*cos(atan2(7*(y+3),10*(x+3))) - 1e-7*cos(50*y)",
+    yy: "2*sin(atan2(7*(y+3),10*(x+3)))^2 - 5*cos(atan2(7*(y+3),10*(x+3)))^2"))"#;
+
+/// Rounding turns nothing: tension is major by value, compression by magnitude, and everything says which.
+#[test]
+fn the_major_axis_is_named_and_does_not_hang_on_rounding() {
+    let place = Place::new();
+    place.write("m.field.ron", MIXED);
+    // Distances of the line's ends from the centre: along a radius they differ, around it they do not.
+    let bends = |more: &[&str]| {
+        let found = place
+            .succeeds(&[&["lines", "m.field.ron", "--seed", "10,7", "--json", "-o", "l.vtp"], more].concat());
+        let data = poly_data(&place, "l.vtp");
+        let distance = |p: [f64; 3]| {
+            let (x, y) = (p[0] + 20.0, p[1] + 14.0);
+            (x * x + y * y).sqrt()
+        };
+        let ends = [data.points[0], data.points[data.points.len() - 1]].map(distance);
+        let names = (found.json()["axes"].clone(), found.json()["major"].clone());
+        assert_eq!(story(&data)["parameters"]["major"], names.1);
+        ((ends[0] - ends[1]).abs() > 5.0, names)
+    };
+    let is = |axes: &str, major: &str| (json!(axes), json!(major));
+    assert_eq!(bends(&[]), (true, is("eigen", "value")));
+    assert_eq!(bends(&["--major", "magnitude"]), (false, is("eigen", "magnitude")));
+    assert_eq!(bends(&["--axes", "half"]), (false, is("half", "magnitude")));
+    assert_eq!(bends(&["--axes", "half", "--major", "value"]), (true, is("half", "value")));
+    let words = place.succeeds(&["lines", "m.field.ron", "-o", "l.svg"]).stdout;
+    assert!(words.contains("along eigenvectors, major by value (tension positive)"), "{words}");
+    for (command, output, length) in [
+        ("topology", "t.vtp", "--length=9"),
+        ("lic", "t.vti", "--half-length=3"),
+        ("ftle", "t.vti", "--length=3"),
+    ] {
+        let words = place.succeeds(&[command, "m.field.ron", length, "-o", output]).stdout;
+        assert!(words.contains("eigenvectors, major by value"), "{command}: {words}");
+        let found =
+            place.succeeds(&[command, "m.field.ron", "--major", "magnitude", "--json", "-o", output]).json();
+        assert_eq!((&found["axes"], &found["major"]), (&json!("eigen"), &json!("magnitude")), "{command}");
+        place.refuses(
+            &[command, "m.field.ron", "--axes", "dual", "--major", "value", "-o", output],
+            &["--major", "one order"],
+        );
+    }
+    let shares = place.succeeds(&["info", "m.field.ron", "--json"]).json()["shares"].clone();
+    assert_eq!((&shares["asymmetric"], &shares["complex"]), (&json!(0.0), &json!(0.0)), "{shares}");
+    let odd = place.succeeds(&["field", "lint", "m.field.ron"]).stdout;
+    assert!(!odd.contains("not symmetric"), "{odd}");
+}
+
+/// A wave whose crests lie at 45 degrees, sampled twice as coarsely along x: ridges, glyphs and textures see its true shape.
+#[test]
+fn oblong_cells_keep_their_shape() {
+    let place = Place::new();
+    let spaced = |name: &str, spacing: [f64; 3]| {
+        let image = place.image("t.vti");
+        let image = tigereye_io::ImageData { spacing, ..image };
+        place.write(name, tigereye_io::vti::write(&image).expect("a file"));
+    };
+    place.write(
+        "t.field.ron",
+        r#"(format: 1, title: "t", field: Axes(width: 13, height: 25, phi: "pi / 4", s1: "2", s2: "1"))"#,
+    );
+    place.succeeds(&["convert", "t.field.ron", "t.vti"]);
+    spaced("wide.vti", [2.0, 1.0, 1.0]);
+    place.succeeds(&["glyphs", "wide.vti", "-o", "g.vtp", "g.png", "g.svg"]);
+    // An ellipse is as long as it is wide around its centre, in the file's unit: at 45 degrees both extents are the same.
+    let data = poly_data(&place, "g.vtp");
+    let first = data.polys.iter().next().expect("an ellipse").to_vec();
+    let extent = |axis: usize| {
+        let all = first.iter().map(|&i| data.points[i][axis]);
+        all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+    };
+    assert!((extent(0) / extent(1) - 1.0).abs() < 1e-3, "{} {}", extent(0), extent(1));
+    let size = |name: &str| {
+        let text = String::from_utf8(place.read(name)).expect("text");
+        let number = |key: &str| {
+            let (_, rest) = text.split_once(key).expect("a size");
+            rest.split('"').next().and_then(|v| v.parse::<f64>().ok()).expect("a number")
+        };
+        number("width=\"") / number("height=\"")
+    };
+    place.succeeds(&["lic", "wide.vti", "-o", "l.svg", "l.vti"]);
+    place.succeeds(&["lic", "t.vti", "-o", "s.svg"]);
+    assert!(size("l.svg") > 1.4 * size("s.svg"), "{} {}", size("l.svg"), size("s.svg"));
+    // Samples as far apart along both sides.
+    let texture = place.image("l.vti");
+    assert_eq!((texture.dimensions, texture.spacing), ([97, 97, 1], [0.25, 0.25, 1.0]));
+    let found = place.succeeds(&["ftle", "wide.vti", "--length", "3", "-o", "f.vti", "f.png"]).stdout;
+    assert!(found.contains("per smaller cell side"), "{found}");
+    place.succeeds(&["ridges", "f.vti", "--array", "FTLE", "-o", "r.vtp", "r.svg"]);
+    place.succeeds(&["topology", "wide.vti", "-o", "t.png"]);
+    // Light takes cells as squares, and says so.
+    let run = place.tigereye(&["field", "show", "wide.vti", "-o", "sheet.png"]);
+    assert!(
+        run.code == 0 && run.stderr.contains("cells are 2 x 1, and light takes them as squares"),
+        "{}",
+        run.stderr
+    );
 }
 
 /// What has no axes gives empty results, and no field makes them run on.
@@ -168,7 +275,7 @@ fn textures_and_exponents_lie_over_the_field() {
         assert!(values.iter().filter(|v| v.is_finite()).count() > 100, "{command}");
     }
     let hyper = place.succeeds(&["lic", "x:size=9", "--hyper", "--tint", "-o", "h.png"]).stdout;
-    assert_eq!(hyper, "33 x 33 samples\n");
+    assert_eq!(hyper, "33 x 33 samples; eigenvectors, major by value (tension positive)\n");
     let [one, two] = ["1", "2"].map(|n| {
         place.succeeds(&["lic", "inverse:size=31", "-o", "t.vti", "--seed", n]);
         place.read("t.vti")

@@ -91,10 +91,9 @@ pub fn texture_picture(
 /// Along which axes noise was smeared, for the legend.
 fn smeared_words(request: &TextureRequest) -> String {
     let axes = axes_words(request.following.axes);
-    if request.hyper {
-        format!("smeared along both {axes}")
-    } else {
-        format!("smeared along {} {axes}", family_name(request.family))
+    match request.hyper {
+        true => format!("smeared along both axes: {axes}"),
+        false => format!("smeared along the {} axis: {axes}", family_name(request.family)),
     }
 }
 

@@ -116,7 +116,7 @@ impl FieldLines {
         let overlays = [Family::Major, Family::Minor].into_iter().filter_map(|family| {
             let lines: Vec<&TensorLine> =
                 self.lines.iter().filter(|l| l.family == family).map(|l| &l.line).collect();
-            let label = format!("{} lines ({})", family_name(family), axes_words(self.following().axes));
+            let label = format!("{} lines: {}", family_name(family), axes_words(self.following().axes));
             (!lines.is_empty()).then(|| line_overlay(lines, family, &label))
         });
         let overlays = overlays.chain(more).collect();

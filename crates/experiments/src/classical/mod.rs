@@ -203,3 +203,35 @@ fn plain_options(
         ..PlainOptions::default()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tigereye_fields::{generate, generators, parse_spec};
+
+    /// What is symmetric has no asymmetry but rounding, and what is not has much: nothing lies near to the border.
+    #[test]
+    fn generators_are_judged_with_a_wide_margin() {
+        let (mut symmetric, mut others) = (0, 0);
+        for generator in generators() {
+            let spec = parse_spec(generator.name()).expect("a generator");
+            let field = generate(&spec.name, &spec.arguments).expect("a field");
+            let ratio = Symmetry::of(&field).ratio();
+            let is_symmetric = usual_axes(&field) == Axes::Eigenvectors;
+            assert!(ratio < 1e-12 || ratio > 0.05, "{}: {ratio}", generator.name());
+            assert_eq!(is_symmetric, ratio < 1e-12, "{}", generator.name());
+            symmetric += usize::from(is_symmetric);
+            others += usize::from(!is_symmetric);
+        }
+        assert!(symmetric > 3 && others > 3, "{symmetric} {others}");
+    }
+
+    /// Simple shear stretches as much as it turns, in single precision, too.
+    #[test]
+    fn simple_shear_is_not_complex_by_rounding() {
+        for rounding in [0.0, 6e-8, -6e-8] {
+            assert!(!is_complex(&Tensor2::new(rounding, 1.0, rounding, -rounding)), "{rounding}");
+        }
+        assert!(is_complex(&Tensor2::new(0.0, 1.0, -1e-3, 0.0)));
+    }
+}

@@ -40,7 +40,7 @@ pub fn picture(
         let followed = Followed::new(field, following);
         let around =
             evenly_spaced(&followed.interpolated(), family, (longest / LINES_A_SIDE).max(0.5), &options);
-        let label = format!("{} lines ({})", family_name(family), axes_words(following.axes));
+        let label = format!("{} lines: {}", family_name(family), axes_words(following.axes));
         overlays.push(Overlay { colour: CONTEXT, width_px: 0.8, ..line_overlay(&around, family, &label) });
         if !lines.is_empty() {
             let label = format!("separatrices of the {} axis", family_name(family));

@@ -6,7 +6,8 @@ use super::{
 use crate::{IoError, ScalarType};
 use tigereye_core::{Field, Tensor2};
 
-/// Difference of two components that counts as rounding, relative to the largest component of the volume.
+/// Difference of two components that counts as rounding, relative to the largest component of the volume. It decides how tensors are
+/// written, not what they are: with six components where nothing is lost, with nine otherwise, and both read back alike.
 const ROUNDING: f64 = 1e-12;
 
 impl Lattice {

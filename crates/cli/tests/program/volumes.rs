@@ -42,7 +42,7 @@ fn slices_become_fields_with_up_on_top() {
     let xz = lattice_from_image(&place.image("xz.vti"), None, Wanted::Tensors).unwrap();
     let xz = xz.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap();
     assert_eq!(xz.field.values()[0], Tensor2::symmetric(7.0, 0.5, 30.0));
-    assert_eq!(xz.cut.spacing, [2.0, 4.0]);
+    assert_eq!(xz.cut.geometry.spacing(), [2.0, 4.0]);
     assert!(place.image("xz.vti").text("tigereye").unwrap().contains("\"slice\":\"y=0\""));
     place.succeeds(&["convert", "xz.vti", "part.txt", "--crop", "1:3,1:2"]);
     let part = matrices::read(&place.read("part.txt")).unwrap();

@@ -62,7 +62,8 @@ impl Reports {
 #[track_caller]
 fn same(what: &str, found: &Tensor2, expected: &Tensor2) {
     let scale = expected.max_abs().max(1e-300);
-    let off = found.components().iter().zip(expected.components()).map(|(a, b)| (a - b).abs());
+    let both = found.components().into_iter().zip(expected.components());
+    let off = both.map(|(a, b)| (a - b).abs());
     assert!(off.fold(0.0, f64::max) <= DIGITS * scale, "{what}: {found:?} instead of {expected:?}");
 }
 

@@ -7,7 +7,7 @@ use super::{Frame, Known, TensorOrder};
 pub struct Alias {
     /// What `--order` takes.
     pub name: &'static str,
-    /// The programs that write tensors so, with the versions that were looked at.
+    /// The programs that write tensors so; those with a version are run by the checks in `interop/`.
     pub programs: &'static str,
     /// The orders, by their number of components; other numbers of components are refused.
     pub orders: &'static [TensorOrder],
@@ -19,13 +19,13 @@ pub struct Alias {
 pub const ALIASES: [Alias; 8] = [
     Alias {
         name: "vtk",
-        programs: "VTK 9, ParaView 5, CalculiX 2.20, Ansys",
+        programs: "VTK 9.7, ParaView, CalculiX, Ansys",
         orders: &[TensorOrder::VTK, TensorOrder::ROWS3],
         frame: None,
     },
     Alias {
         name: "nrrd",
-        programs: "teem 1.11, 3D Slicer 5, pynrrd 1.1",
+        programs: "teem 1.12, pynrrd 1.1, 3D Slicer",
         orders: &[TensorOrder::UPPER2, TensorOrder::ROWS2, TensorOrder::UPPER, TensorOrder::ROWS3],
         frame: None,
     },
@@ -37,7 +37,7 @@ pub const ALIASES: [Alias; 8] = [
     },
     Alias {
         name: "fsl",
-        programs: "FSL 6 (`dtifit --save_tensor`)",
+        programs: "FSL (`dtifit --save_tensor`)",
         orders: &[TensorOrder::UPPER],
         frame: Some(Frame::Fsl),
     },
@@ -47,7 +47,7 @@ pub const ALIASES: [Alias; 8] = [
         orders: &[TensorOrder::MRTRIX],
         frame: Some(Frame::World),
     },
-    Alias { name: "itk", programs: "ITK 5 and ANTs 2 in memory", orders: &[TensorOrder::UPPER], frame: None },
+    Alias { name: "itk", programs: "ITK and ANTs in memory", orders: &[TensorOrder::UPPER], frame: None },
     Alias {
         name: "voigt",
         programs: "textbooks and many finite-element codes",
@@ -116,7 +116,7 @@ pub struct Convention {
     pub order: Option<(TensorOrder, Known)>,
     /// The axes they are along; NRRD files with a measurement frame state their own.
     pub frame: (Frame, Known),
-    /// The programs that write so, with the versions that were looked at.
+    /// The programs that write so; those with a version are run by the checks in `interop/`.
     pub programs: &'static str,
 }
 
@@ -149,16 +149,16 @@ pub const CONVENTIONS: [Convention; 28] = {
             9,
             Some((O::ROWS3, Stated)),
             VTK_FRAME,
-            "VTK 9, ParaView 5",
+            "VTK 9.7, ParaView",
         ),
-        row(C::VtkTensors, "VTK, active `Tensors`", 6, Some((O::VTK, Stated)), VTK_FRAME, "VTK 9 (TENSORS6)"),
+        row(C::VtkTensors, "VTK, active `Tensors`", 6, Some((O::VTK, Stated)), VTK_FRAME, "VTK 9.7 (TENSORS6)"),
         row(
             C::VtkArray,
             "VTK, another array",
             9,
             Some((O::ROWS3, Usual)),
             VTK_FRAME,
-            "ParaView 5, meshio 5, pyvista",
+            "ParaView, pyvista",
         ),
         row(
             C::VtkArray,
@@ -166,7 +166,7 @@ pub const CONVENTIONS: [Convention; 28] = {
             6,
             Some((O::VTK, Assumed)),
             VTK_FRAME,
-            "ParaView 5, ccx2paraview 3",
+            "ParaView, ccx2paraview",
         ),
         row(C::VtkArray, "VTK, another array", 4, Some((O::ROWS2, Assumed)), VTK_FRAME, "2D solvers"),
         row(
@@ -184,7 +184,7 @@ pub const CONVENTIONS: [Convention; 28] = {
             6,
             Some((O::LOWER, Stated)),
             NIFTI_FRAME,
-            "dipy 1.12, ITK 5 and ANTs 2",
+            "dipy 1.12, ITK 5.4, ANTs",
         ),
         row(
             C::NiftiSymmetric,
@@ -202,7 +202,7 @@ pub const CONVENTIONS: [Convention; 28] = {
             6,
             Some((O::UPPER, Assumed)),
             NIFTI_FRAME,
-            "ITK 5 images of vectors",
+            "ITK, images of vectors",
         ),
         row(
             C::NiftiVector,
@@ -210,9 +210,9 @@ pub const CONVENTIONS: [Convention; 28] = {
             3,
             None,
             (Frame::World, Usual),
-            "ANTs 2 warps, 4D flow",
+            "ANTs (warps), 4D flow",
         ),
-        row(C::NiftiNumbers, "NIfTI, no intent", 9, Some((O::ROWS3, Assumed)), NIFTI_FRAME, "nibabel 5"),
+        row(C::NiftiNumbers, "NIfTI, no intent", 9, Some((O::ROWS3, Assumed)), NIFTI_FRAME, "nibabel 5.4"),
         row(
             C::NiftiNumbers,
             "NIfTI, no intent",
@@ -221,8 +221,8 @@ pub const CONVENTIONS: [Convention; 28] = {
             NIFTI_FRAME,
             "dipy 1.12; see the aliases for FSL and MRtrix3",
         ),
-        row(C::NiftiNumbers, "NIfTI, no intent", 4, Some((O::ROWS2, Assumed)), NIFTI_FRAME, "nibabel 5"),
-        row(C::NiftiNumbers, "NIfTI, no intent, a vector", 3, None, NIFTI_FRAME, "FSL 6 (V1)"),
+        row(C::NiftiNumbers, "NIfTI, no intent", 4, Some((O::ROWS2, Assumed)), NIFTI_FRAME, "nibabel 5.4"),
+        row(C::NiftiNumbers, "NIfTI, no intent, a vector", 3, None, NIFTI_FRAME, "FSL (V1)"),
         row(
             C::NrrdNumbers,
             "NRRD, kind list, vector or none",
@@ -237,9 +237,9 @@ pub const CONVENTIONS: [Convention; 28] = {
             6,
             Some((O::UPPER, Assumed)),
             NRRD_FRAME,
-            "ITK 5 images of vectors",
+            "ITK, images of vectors",
         ),
-        row(C::NrrdNumbers, "NRRD, a vector", 3, None, NRRD_FRAME, "ITK 5, teem 1.11"),
+        row(C::NrrdNumbers, "NRRD, a vector", 3, None, NRRD_FRAME, "ITK, teem 1.12"),
         row(C::NumpyMatrices, "NumPy (H, W, 2, 2)", 4, Some((O::ROWS2, Usual)), PLANE_FRAME, "this program"),
         row(C::NumpyPlane, "NumPy (H, W, 9), (H, W, 3, 3)", 9, Some((O::ROWS3, Usual)), PLANE_FRAME, "NumPy"),
         row(
@@ -282,7 +282,7 @@ pub const CONVENTIONS: [Convention; 28] = {
             AXES_FRAME,
             "dipy 1.12 (`lower_triangular`)",
         ),
-        row(C::NumpyVolume, "NumPy (X, Y, Z, 3), a vector", 3, None, AXES_FRAME, "nibabel 5"),
+        row(C::NumpyVolume, "NumPy (X, Y, Z, 3), a vector", 3, None, AXES_FRAME, "nibabel 5.4"),
     ]
 };
 
@@ -356,4 +356,6 @@ A tensor file holds several numbers a point, and few formats say which is which.
 they have no directions. `voxel` is along the voxel axes, `world` along the axes of the file's space, `fsl` along the voxel axes with x
 reversed where the determinant of the affine is positive, as FSL's gradient tables have it. NRRD files with a measurement frame state
 their own (`measurement`); those without space directions are taken as `voxel`.
+
+Programs with a version are run by the checks in `interop/`, the others are named after their documentation.
 ";

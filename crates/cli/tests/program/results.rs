@@ -376,8 +376,5 @@ fn a_script_for_paraview_lies_beside_the_volume() {
     place.succeeds(&["ltg", "inverse:size=5", "--directions", "8", "-o", "a \"b\".vti", "--view"]);
     place.refuses(&["ltg", "inverse:size=5", "-o", "a.npy", "--view"], &["--view", ".vti"]);
     let script = String::from_utf8(place.read("a \"b\".view.py")).unwrap();
-    assert!(
-        script.contains(r#"os.path.join(here, "a \"b\".vti")"#) && !script.contains('@'),
-        "{script}"
-    );
+    assert!(script.contains(r#"os.path.join(here, "a \"b\".vti")"#) && !script.contains('@'), "{script}");
 }

@@ -107,6 +107,14 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 Format::Numpy => Ok(npy::write_tensors(&input.field)),
                 Format::Matrices => matrices::write(&input.field),
                 _ => {
+                    let geometry = &input.geometry;
+                    if geometry.is_placed() && !geometry.upright().is_placed() {
+                        eprintln!(
+                            "{}: the plane is not the world's x and y: written in a frame of its own, x right, y up (lines, \
+                             light and gradients lie in the world)",
+                            input.name
+                        );
+                    }
                     let volume = TensorVolume::from_field(&input.field, &input.geometry).with_scalar(scalar);
                     // The plane's own axes, whatever the tensors were read along.
                     encoded(format, &volume, Frame::World, args, &input.blake3)

@@ -12,7 +12,7 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use tigereye_core::{Cell, Field, LightDistribution, PolarProfile, StopReason, Surface};
+use tigereye_core::{Cell, CellShape, Field, LightDistribution, PolarProfile, StopReason, Surface};
 use tigereye_experiments::Reel;
 use tigereye_experiments::provenance::{provenance, with_rows};
 use tigereye_experiments::settings::profile_of_expression;
@@ -341,6 +341,7 @@ impl Drawn<'_> {
             walls: self.walls.cloned(),
             quantity: "energy of a cell / W".to_owned(),
             scale: HeatScale::Logarithmic { decades: DECADES },
+            cell: CellShape::of(self.geometry.spacing()),
             ..HeatOptions::default()
         }
     }

@@ -8,7 +8,7 @@ use crate::files;
 use crate::part_file::Identity;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use tigereye_core::{Field, LtgVolume, Surface};
+use tigereye_core::{CellShape, Field, LtgVolume, Surface};
 use tigereye_experiments::provenance::{provenance, with_rows};
 use tigereye_experiments::scene::{missing_label, where_result};
 use tigereye_io::volume::PlaneGeometry;
@@ -67,7 +67,8 @@ pub(super) fn write(
     title: &str,
     identity: &Identity,
 ) -> Result<(), CliError> {
-    let drawn = || picture(title, volume, walls);
+    let cell = CellShape::of(identity.geometry.spacing());
+    let drawn = || picture(title, volume, walls, cell);
     outputs.iter().try_for_each(|output| files::write(output, &encoded(output, volume, &drawn, identity)?))
 }
 
@@ -94,7 +95,12 @@ fn encoded(
 }
 
 /// The only slice, or the mean over the slices.
-fn picture(title: &str, volume: &LtgVolume, walls: Option<&Field<Option<Surface>>>) -> Scene {
+fn picture(
+    title: &str,
+    volume: &LtgVolume,
+    walls: Option<&Field<Option<Surface>>>,
+    cell: CellShape,
+) -> Scene {
     let (field, quantity) = match volume.slices() {
         [t] => (volume.slice(*t), format!("LTG at {} degrees / (W/rad)", volume.directions().angle_deg(*t))),
         _ => (None, "mean LTG over direction / (W/rad)".to_owned()),
@@ -105,6 +111,7 @@ fn picture(title: &str, volume: &LtgVolume, walls: Option<&Field<Option<Surface>
         quantity,
         missing: Some(missing_label(walls).to_owned()),
         walls: walls.cloned(),
+        cell,
         ..HeatOptions::default()
     };
     // What is no result would stretch the scale.

@@ -94,7 +94,7 @@ fn masks_leave_voxels_out() {
 #[test]
 fn tensors_that_are_not_finite_are_refused_or_zero() {
     let place = Place::new();
-    place.write("t.npy", array(&[2, 2, 4], |i| if i == 9 { f64::NAN } else { 1.0 }));
+    place.write("t.npy", array(&[2, 2, 2, 2], |i| if i == 9 { f64::NAN } else { 1.0 }));
     place.refuses(&["info", "t.npy"], &["cell (0, 1)", "1 such", "--not-finite zero"]);
     let field = converted(&place, &["t.npy", "--not-finite", "zero"]);
     assert!(field.at(Cell::new(0, 1)).is_zero() && !field.at(Cell::new(1, 1)).is_zero());

@@ -193,7 +193,7 @@ fn wrong_orders_are_warned_of() {
     let place = Place::new();
     let input = data.join("small_64D_tensor_fsl.nii.gz").display().to_string();
     let facts = place.succeeds(&["info", &input, "--json"]).json();
-    assert!(facts["warning"].as_str().unwrap().contains("nrrd, fsl"), "{facts:#}");
+    assert!(facts["warning"].as_str().unwrap().contains("nrrd, itk, fsl"), "{facts:#}");
     let run = place.tigereye(&["convert", &input, "o.npy", "--slice", "z=3"]);
     assert!(
         run.stderr.contains("assumed component order") && run.stderr.contains("WARNING"),

@@ -21,6 +21,8 @@ pub struct TensorFile {
     pub blake3: String,
     /// What it holds.
     pub content: Content,
+    /// Whether the user says which axes vectors are along.
+    frame_is_given: bool,
     /// Words of warning where the mask lies elsewhere in the patient.
     mask_elsewhere: Option<String>,
     /// Names of all files that were read.
@@ -125,7 +127,8 @@ pub fn open(
         };
         Content::Tensors(lattice.tensors(words)?)
     };
-    Ok(TensorFile { name: name.to_owned(), kind, blake3, content, mask_elsewhere, files })
+    let (name, frame_is_given) = (name.to_owned(), reading.frame.is_some());
+    Ok(TensorFile { name, kind, blake3, content, frame_is_given, mask_elsewhere, files })
 }
 
 /// A volume with its tensors that are not finite as the reading wants them: refused, or zero.
@@ -295,11 +298,11 @@ impl TensorFile {
     pub fn assumptions(&self) -> Vec<String> {
         match &self.content {
             Content::Tensors(volume) => assumptions_of_tensors(volume),
-            Content::Numbers(lattice) if lattice.components > 1 => {
+            Content::Numbers(lattice) if lattice.components > 1 && !self.frame_is_given => {
                 let (frame, known) = lattice.frame;
                 let words = match known {
                     Known::Assumed => format!("assumed vectors along {} (--frame)", frame.words()),
-                    Known::Convention if frame == Frame::World && lattice.has_turned_axes() => {
+                    Known::Convention if lattice.is_of_scanner() && lattice.has_turned_axes() => {
                         format!("took vectors along {}, as the format has them (--frame)", frame.words())
                     }
                     _ => return Vec::new(),
@@ -323,6 +326,20 @@ impl TensorFile {
     }
 }
 
+/// Share of the tensors from which four numbers look like plane strain in the order of a matrix.
+const MOSTLY: f64 = 0.9;
+/// Difference of xy and yx, relative to the largest component of the tensor, that is no rounding.
+const ASYMMETRIC: f64 = 1e-3;
+
+/// Share of the tensors whose xy and yx differ.
+fn asymmetric_share(volume: &TensorVolume) -> f64 {
+    let differs = |t: &[f64; 9]| {
+        let largest = t.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        (t[1] - t[3]).abs() > ASYMMETRIC * largest
+    };
+    volume.tensors().filter(differs).count() as f64 / volume.lattice().voxels().max(1) as f64
+}
+
 /// What was assumed about tensors, with the option that says it.
 fn assumptions_of_tensors(volume: &TensorVolume) -> Vec<String> {
     let ((order, order_known), (frame, frame_known)) = (volume.order(), volume.frame());
@@ -334,6 +351,11 @@ fn assumptions_of_tensors(volume: &TensorVolume) -> Vec<String> {
             _ => "",
         };
         all.push(format!("assumed component order {order} (--order{other})"));
+        let asymmetric = asymmetric_share(volume);
+        if order.components() == 4 && asymmetric > MOSTLY {
+            let percent = 100.0 * asymmetric;
+            all.push(format!("WARNING: {percent:.0} % of the tensors are asymmetric in this order, as plane strain is"));
+        }
     }
     if let Some(stated) = volume.contradicted_order() {
         all.push(format!("WARNING: the file states the component order {stated}, taken as given: {order}"));

@@ -126,8 +126,15 @@ pub fn strain_rate_tensors(
     spacing: [f64; 2],
     sigma: f64,
 ) -> Field<Option<Tensor2>> {
-    gradient_tensors(vectors, spacing, sigma).map(|t| t.map(|t| t.symmetric_part()))
+    let strain = |t: &Tensor2| {
+        let rate = t.symmetric_part();
+        if rate.max_abs() <= ROUNDING * t.max_abs() { Tensor2::ZERO } else { rate }
+    };
+    gradient_tensors(vectors, spacing, sigma).map(|t| t.as_ref().map(strain))
 }
+
+/// Part of a gradient below which its rate of strain is what differences of rounded velocities leave of a rigid rotation.
+const ROUNDING: f64 = 1e-12;
 
 /// The Hessian of a scalar field; `None` where a sample or a difference is missing.
 #[must_use]

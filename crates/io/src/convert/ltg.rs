@@ -52,7 +52,8 @@ impl LtgImage {
 pub fn image_from_ltg(volume: &LtgVolume, geometry: &PlaneGeometry, field_data_json: &str) -> ImageData {
     let (grid, slices) = (volume.grid(), volume.slices());
     let mut image = ImageData::empty([grid.width(), grid.height(), slices.len()]);
-    rows::place(&mut image, geometry, true);
+    // A single slice has no axis of directions to keep.
+    rows::place(&mut image, geometry, slices.len() > 1);
     let values = Rows::of_results(geometry).from_top(volume.values(), [grid.width(), grid.height()], 1);
     image.point_arrays.push(DataArray::new(LTG_ARRAY, 1, values));
     image.point_active.scalars = Some(LTG_ARRAY.to_owned());

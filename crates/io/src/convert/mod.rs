@@ -16,5 +16,6 @@ pub const PROVENANCE: &str = "tigereye";
 
 /// Name and components of arrays, for messages.
 fn described<'a>(arrays: impl IntoIterator<Item = &'a crate::DataArray>) -> Vec<String> {
-    arrays.into_iter().map(|a| format!("`{}` ({} components)", a.name, a.components)).collect()
+    let words = |n: usize| if n == 1 { "1 component".to_owned() } else { format!("{n} components") };
+    arrays.into_iter().map(|a| format!("`{}` ({})", a.name, words(a.components))).collect()
 }

@@ -32,7 +32,8 @@ impl Layout {
             },
             Wanted::Scalars => match *shape {
                 [h, w] => picture(h, w, 1),
-                [x, y, z] => volume(x, y, z, 1),
+                // Two or three numbers a cell are a vector rather than layers.
+                [x, y, z] if z > 3 || x.min(y) <= 3 => volume(x, y, z, 1),
                 _ => None,
             },
         }

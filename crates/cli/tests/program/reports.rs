@@ -132,12 +132,7 @@ fn planes_are_laid_out_by_their_geometry() {
 #[test]
 fn components_are_what_their_names_say() {
     let Some(reports) = Reports::open() else { return };
-    for name in [
-        "plane_strain_named.vti",
-        "upper_S11.vti",
-        "upper_sigma_xx.vtp",
-        "voigt_named.vti",
-    ] {
+    for name in ["plane_strain_named.vti", "upper_S11.vti", "upper_sigma_xx.vtp", "voigt_named.vti"] {
         let said = reports.inner(name, &[], [5.0, 2.0, 2.0, -1.0]);
         assert_eq!(said, "", "{name}");
     }

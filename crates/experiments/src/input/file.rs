@@ -354,7 +354,9 @@ fn assumptions_of_tensors(volume: &TensorVolume) -> Vec<String> {
         let asymmetric = asymmetric_share(volume);
         if order.components() == 4 && asymmetric > MOSTLY {
             let percent = 100.0 * asymmetric;
-            all.push(format!("WARNING: {percent:.0} % of the tensors are asymmetric in this order, as plane strain is"));
+            all.push(format!(
+                "WARNING: {percent:.0} % of the tensors are asymmetric in this order, as plane strain is"
+            ));
         }
     }
     if let Some(stated) = volume.contradicted_order() {

@@ -354,6 +354,7 @@ impl Drawn<'_> {
                     sources: self.sources(),
                     walls: self.walls.cloned(),
                     transmission: TransmissionScale::Rate,
+                    cell: CellShape::of(self.geometry.spacing()),
                     ..PolarOptions::default()
                 };
                 polar_overlay(Some(self.problem.transmission), Some(&self.outcome.distribution), &options)

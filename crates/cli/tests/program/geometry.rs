@@ -156,7 +156,7 @@ fn everything_made_of_an_oblique_slice_lies_on_it() {
     }
 }
 
-/// A gradient lies on its field too; its directions have an axis of their own, from 0, and so have ridges in it.
+/// A gradient stands on its field: its first layer lies on it, the others follow at right angles, and so do ridges in them.
 #[test]
 fn gradients_and_their_ridges_lie_on_the_slice() {
     let place = Place::new();
@@ -165,10 +165,7 @@ fn gradients_and_their_ridges_lie_on_the_slice() {
     let ltg = ["ltg", "v.vti", "--slice", &slice, "--normalization", "local", "--directions", "16"];
     place.succeeds(&[&ltg[..], &["-o", "g.vti", "g.npy"]].concat());
     let image = place.image("g.vti");
-    let of_layer = |n: f64| {
-        let first = cells_of([0.0; 3])[2];
-        [0, 1, 2].map(|i| place_of([0.0, 0.0, first + n])[i])
-    };
+    let of_layer = |n: f64| place_of([0.0, 0.0, n]);
     let points = points_from_image(image.clone()).points;
     assert!(near(points[0], of_layer(0.0)) && near(points[5 * SIDE * SIDE], of_layer(5.0)));
     assert_eq!(parameters(&image)["rows"], "upwards");

@@ -46,7 +46,7 @@ pub fn image_of_energy(light: &LightDistribution, geometry: &PlaneGeometry) -> I
     let flux: Vec<f64> = light.net_flux().values().iter().flat_map(along).collect();
     let energy = light.energy();
     let mut image = ImageData::empty([width, height, 1]);
-    rows::place(&mut image, geometry, false);
+    rows::place(&mut image, geometry);
     image.point_arrays = vec![
         DataArray::new(ENERGY, 1, rows.from_top(energy.values(), [width, height], 1)),
         DataArray::new(FLUX, 3, rows.from_top(&flux, [width, height], 3))

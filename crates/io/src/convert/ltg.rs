@@ -46,14 +46,13 @@ impl LtgImage {
 }
 
 /// An image of W x H x n points with the one array [`LTG_ARRAY`], and the JSON text in the field data. On a field that lies
-/// somewhere the image has its origin, spacing and direction, and rows upwards; the third axis is that of the slices, from 0
-/// in steps of 1 along right x up. The provenance says which way rows run, under [`Rows::KEY`].
+/// somewhere the image has its origin, spacing and direction, and rows upwards; the third axis is that of the slices, from
+/// the plane in steps of 1 along right x up. The provenance says which way rows run, under [`Rows::KEY`].
 #[must_use]
 pub fn image_from_ltg(volume: &LtgVolume, geometry: &PlaneGeometry, field_data_json: &str) -> ImageData {
     let (grid, slices) = (volume.grid(), volume.slices());
     let mut image = ImageData::empty([grid.width(), grid.height(), slices.len()]);
-    // A single slice has no axis of directions to keep.
-    rows::place(&mut image, geometry, slices.len() > 1);
+    rows::place(&mut image, geometry);
     let values = Rows::of_results(geometry).from_top(volume.values(), [grid.width(), grid.height()], 1);
     image.point_arrays.push(DataArray::new(LTG_ARRAY, 1, values));
     image.point_active.scalars = Some(LTG_ARRAY.to_owned());

@@ -72,14 +72,13 @@ fn is_plain(image: &ImageData) -> bool {
     image.origin == [0.0; 3] && image.spacing == [1.0; 3] && image.direction.is_none_or(|d| d == IDENTITY)
 }
 
-/// Puts an image of a plane where its cells lie. A third axis, of directions, keeps its own origin at 0.
-pub(super) fn place(image: &mut ImageData, geometry: &PlaneGeometry, third_is_own: bool) {
+/// Puts an image of a plane where its cells lie. A third axis, of directions, begins at the plane and keeps its own distance of 1.
+pub(super) fn place(image: &mut ImageData, geometry: &PlaneGeometry) {
     if !geometry.is_placed() {
         return;
     }
-    let ([dx, dy], corner, normal) = (geometry.spacing(), geometry.corner(), geometry.normal());
-    let along = (0..3).map(|i| corner[i] * normal[i]).sum::<f64>();
-    image.origin = if third_is_own { [0, 1, 2].map(|i| corner[i] - along * normal[i] + 0.0) } else { corner };
+    let [dx, dy] = geometry.spacing();
+    image.origin = geometry.corner();
     image.spacing = [dx, dy, 1.0];
     image.direction = geometry.direction();
 }

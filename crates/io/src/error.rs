@@ -177,6 +177,16 @@ pub enum IoError {
         expected: &'static str,
     },
 
+    /// A table whose columns are not known.
+    #[error(
+        "line {line}: the columns `{found}` are not understood: expected a line above the numbers with names such as x, y, u, v"
+    )]
+    TableHeader {
+        /// The line that should name them, or the first of the numbers.
+        line: usize,
+        /// What stands there.
+        found: String,
+    },
     /// An array whose first axis, or first two, are the components.
     #[error(
         "an array of shape {shape:?} has its components first: expected them last, as numpy.moveaxis(array, 0, -1) puts them"
@@ -497,6 +507,16 @@ pub enum IoError {
         first: String,
         /// Name and components of all.
         found: Vec<String>,
+    },
+    /// Components of one plane where another one is shown.
+    #[error(
+        "the components are {order}, and the plane shows {needed}: expected its own components, for example --order {needed}"
+    )]
+    OtherPlane {
+        /// The order of the components.
+        order: String,
+        /// Components of the plane.
+        needed: String,
     },
     /// Tensors that six components cannot hold.
     #[error(

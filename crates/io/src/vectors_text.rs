@@ -58,11 +58,12 @@ impl Role {
         let mut words = name.split([' ', '[', '(', '"']).filter(|w| !w.is_empty());
         let first = words.next()?;
         let word = if ["velocity", "displacement"].contains(&first) { words.next()? } else { first };
-        match word {
-            "x" => Some(Self::X),
-            "y" => Some(Self::Y),
-            "u" | "vx" => Some(Self::U),
-            "v" | "vy" => Some(Self::V),
+        let word = word.replace(['_', ':', '-', '.'], "");
+        match word.as_str() {
+            "x" | "xpos" | "points0" => Some(Self::X),
+            "y" | "ypos" | "points1" => Some(Self::Y),
+            "u" | "vx" | "ux" | "u0" | "velx" | "velocityx" | "velocity0" | "uvel" => Some(Self::U),
+            "v" | "vy" | "uy" | "u1" | "vely" | "velocityy" | "velocity1" | "vvel" => Some(Self::V),
             "flags" | "flag" => Some(Self::Flags),
             "mask" => Some(Self::Mask),
             "chc" | "vector" | "isvalid" => Some(Self::Choice),
@@ -164,6 +165,8 @@ struct Text<'a> {
     /// Number of the first, from 1.
     first: usize,
     header: Option<Columns>,
+    /// The line above the numbers, where it has a word for every column but was not understood, and its number.
+    unknown: Option<(usize, String)>,
     separator: Separator,
 }
 
@@ -171,14 +174,23 @@ impl<'a> Text<'a> {
     fn of(bytes: &'a [u8]) -> Result<Self, IoError> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_end();
         let mut header = None;
+        let mut above: Option<(usize, &[u8])> = None;
         let mut lines = bytes.split(|&b| b == b'\n');
         for (i, line) in lines.by_ref().enumerate() {
             let separator = Separator::of(line);
             let begins = separator.words(line).next().and_then(|(_, word)| parsed(word));
             if begins.is_some() {
+                let columns = separator.words(line).count();
+                let names_all = |line: &[u8]| {
+                    let text = String::from_utf8_lossy(line);
+                    let names = text.trim().trim_start_matches(['#', '%', '/']).trim().to_owned();
+                    (separator.words(names.as_bytes()).count() == columns).then_some(names)
+                };
+                let unknown = above.filter(|_| header.is_none()).and_then(|(i, l)| Some((i, names_all(l)?)));
                 let lines = std::iter::once(line).chain(lines).collect();
-                return Ok(Self { lines, first: i + 1, header, separator });
+                return Ok(Self { lines, first: i + 1, header, unknown, separator });
             }
+            above = Some((i + 1, line));
             let named = Columns::of_header(&String::from_utf8_lossy(line), i + 1);
             header = named.or(header);
         }
@@ -269,6 +281,9 @@ struct Row {
 /// Names line and column of the first word that does not fit; positions off the lattice, and two vectors at one.
 pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     let mut text = Text::of(bytes)?;
+    if let Some((line, names)) = &text.unknown {
+        return Err(IoError::TableHeader { line: *line, found: shortened(names.as_bytes()) });
+    }
     let columns = text.header.take().unwrap_or_else(|| Columns::by_place(text.columns()));
     let mut rows = Vec::new();
     let (mut flagged, mut others) = (0, 0);
@@ -287,6 +302,12 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
         });
     }
     let mut notes = vec![words_of(&columns)];
+    if columns.named.is_none() && columns.roles.len() == 6 && is_flat(&rows) {
+        return Err(IoError::TableHeader {
+            line: text.first,
+            found: "six columns, the third of one value".to_owned(),
+        });
+    }
     if columns.named.is_none() && others > 0 {
         rows.iter_mut().for_each(|row| row.masked = false);
         notes.push("the sixth column holds more than 0 and 1 and is left aside".to_owned());
@@ -296,7 +317,16 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     let y_up = "y taken to run upwards and v with it (right-handed, as OpenPIV's transform_coordinates makes them); where a \
                 file has y downwards the picture is upside down";
     notes.push(y_up.to_owned());
-    lattice(&rows, text.first, notes)
+    let mut lattice = lattice(&rows, text.first, notes)?;
+    if columns.named.is_none() {
+        lattice.warnings.push(words_of(&columns));
+    }
+    Ok(lattice)
+}
+
+/// Whether what is taken for u has one value, as z of a plane would.
+fn is_flat(rows: &[Row]) -> bool {
+    rows.iter().all(|row| row.vector[0] == rows[0].vector[0])
 }
 
 /// The numbers of a line as far as they are needed.

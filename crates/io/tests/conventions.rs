@@ -494,3 +494,59 @@ fn points_are_masked_like_images() {
     assert_eq!(lattice.mask, Some(vec![1.0, 0.0, 1.0, 1.0]));
     assert!(lattice.notes.iter().any(|n| n.contains("1 points hidden")), "{:?}", lattice.notes);
 }
+
+/// ITK writes images of vectors as it has them in memory: left, posterior and superior.
+#[test]
+fn vectors_of_itk_are_read_along_its_axes() {
+    let file = nifti_voxel(RAS, [5, 1, 1, 1, 1, 3, 1, 1], 1007, &[1.0, 2.0, 3.0], None);
+    let lattice = nifti::read(&file).unwrap();
+    let plane = PlaneChoice { plane: Some(Plane::Xy), slice: None };
+    let shown = |frame| lattice.vectors(plane, frame).unwrap().field.values()[0];
+    assert_eq!((shown(None), shown(Some(Frame::Lps))), ([1.0, 2.0], [-1.0, -2.0]));
+}
+
+/// FSL reverses nothing where nobody says how a volume lies.
+#[test]
+fn volumes_without_an_affine_are_not_reversed_for_fsl() {
+    let mut file = nifti_voxel(RAS, [4, 1, 1, 1, 6, 1, 1, 1], 0, &[0.0; 6], None);
+    assert!(nifti::read(&file).unwrap().reverses_x_for_fsl());
+    file[254..256].copy_from_slice(&0_i16.to_le_bytes());
+    assert!(!nifti::read(&file).unwrap().reverses_x_for_fsl());
+}
+
+/// What a plane does not have is refused, not shown as zero; two components of a model in a plane are along its axes.
+#[test]
+fn components_belong_to_the_plane_that_is_shown() {
+    let upright = |components: usize, names: &[&str]| {
+        let mut image = ImageData::empty([3, 1, 2]);
+        let tuple: Vec<f64> = (1..=components).map(|v| v as f64).collect();
+        image.point_arrays.push(DataArray::new("t", components, tuple.repeat(6)).with_component_names(names));
+        image
+    };
+    let image = upright(3, &["S11", "S22", "S12"]);
+    let tensors = |reading| {
+        let lattice = lattice_from_image(&image, None, Wanted::Tensors).unwrap();
+        lattice.tensors(reading).unwrap().slice(PlaneChoice::default()).map(|s| s.field.values()[0])
+    };
+    let fault = tensors(Reading::default()).unwrap_err().to_string();
+    assert!(fault.contains("xx,yy,xy") && fault.contains("--order xx,zz,xz"), "{fault}");
+    let by = |order| tensors(Reading { order: Some(order), ..Reading::default() });
+    assert_eq!(by("xx,zz,xz"), Ok(Tensor2::symmetric(1.0, 3.0, 2.0)));
+    let vectors = lattice_from_image(&upright(2, &[]), None, Wanted::Vectors).unwrap();
+    assert_eq!(vectors.vectors(PlaneChoice::default(), None).unwrap().field.values()[0], [1.0, 2.0]);
+}
+
+#[test]
+fn nrrd_axes_may_be_given_by_their_ranges() {
+    let head = |more: &str| {
+        let text = format!(
+            "NRRD0004\ntype: float\ndimension: 3\nsizes: 6 3 2\nkinds: 3D-symmetric-matrix domain domain\nencoding: ascii\n\
+             axis mins: nan 1 10\naxis maxs: nan 4 14\n{more}\n\n{}",
+            "1 0 0 1 0 1 ".repeat(6)
+        );
+        let lattice = nrrd::read(text.as_bytes(), None).unwrap();
+        (lattice.axes[0][0], lattice.axes[1][1], lattice.origin)
+    };
+    assert_eq!(head("centerings: ??? node node"), (1.5, 4.0, [1.0, 10.0, 0.0]));
+    assert_eq!(head("centerings: ??? cell cell"), (1.0, 2.0, [1.5, 11.0, 0.0]));
+}

@@ -136,6 +136,8 @@ pub(crate) enum FrameName {
     Measurement,
     /// FSL's: the voxel axes with x reversed where the determinant of the affine is positive.
     Fsl,
+    /// Left, posterior and superior: ITK's, whose images of vectors in NIfTI keep them.
+    Lps,
 }
 
 impl From<FrameName> for Frame {
@@ -145,6 +147,7 @@ impl From<FrameName> for Frame {
             FrameName::World => Self::World,
             FrameName::Measurement => Self::Measurement,
             FrameName::Fsl => Self::Fsl,
+            FrameName::Lps => Self::Lps,
         }
     }
 }

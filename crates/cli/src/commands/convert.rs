@@ -93,9 +93,9 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             encoded(format, &volume.as_stated(), frame, args, &blake3)
         }
         source => {
-            let scalar = match &source {
-                Source::File(file) => file.scalar(),
-                Source::Generated(_) => ScalarType::Float64,
+            let (scalar, world) = match &source {
+                Source::File(file) => (file.scalar(), Some(file.lattice().world.clone())),
+                Source::Generated(_) => (ScalarType::Float64, None),
             };
             if args.invariants {
                 let problem = "are those of a volume of 3 x 3 tensors: expected a file that holds one, whole";
@@ -108,14 +108,18 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 Format::Matrices => matrices::write(&input.field),
                 _ => {
                     let geometry = &input.geometry;
-                    if geometry.is_placed() && !geometry.upright().is_placed() {
+                    if geometry.is_placed() && geometry.is_oblique() {
                         eprintln!(
-                            "{}: the plane is not the world's x and y: written in a frame of its own, x right, y up (lines, \
-                             light and gradients lie in the world)",
+                            "{}: the plane is oblique: written in a frame of its own, x right, y up (lines, light and \
+                             gradients lie in the world)",
                             input.name
                         );
                     }
                     let volume = TensorVolume::from_field(&input.field, &input.geometry).with_scalar(scalar);
+                    let volume = match world {
+                        Some(world) if geometry.upright().is_placed() => volume.with_world(world),
+                        _ => volume,
+                    };
                     // The plane's own axes, whatever the tensors were read along.
                     encoded(format, &volume, Frame::World, args, &input.blake3)
                 }

@@ -93,7 +93,7 @@ pub fn open(
     if let Some(mask) = &reading.mask {
         let (found, bytes) = mask_lattice(mask, lattice.size, reading.limits(), &mut read)?;
         mask_elsewhere = (lattice.mask_by(&found))
-            .then(|| format!("WARNING: the mask {mask} has the same size but lies elsewhere in the world"));
+            .then(|| format!("WARNING: the mask {mask} has the same size but lies elsewhere in the world, or in another; applied voxel by voxel"));
         hashed.extend(bytes);
     }
     match &mut lattice.mask {
@@ -260,13 +260,19 @@ impl TensorFile {
         }
     }
 
+    /// The numbers with what is known about them.
+    #[must_use]
+    pub const fn lattice(&self) -> &Lattice {
+        match &self.content {
+            Content::Tensors(volume) => volume.lattice(),
+            Content::Numbers(lattice) => lattice,
+        }
+    }
+
     /// Type of the numbers in the file.
     #[must_use]
     pub const fn scalar(&self) -> ScalarType {
-        match &self.content {
-            Content::Tensors(volume) => volume.lattice().scalar,
-            Content::Numbers(lattice) => lattice.scalar,
-        }
+        self.lattice().scalar
     }
 
     /// Whether a plane is chosen, or there is only one.
@@ -303,7 +309,11 @@ impl TensorFile {
                 let words = match known {
                     Known::Assumed => format!("assumed vectors along {} (--frame)", frame.words()),
                     Known::Convention if lattice.is_of_scanner() && lattice.has_turned_axes() => {
-                        format!("took vectors along {}, as the format has them (--frame)", frame.words())
+                        format!(
+                            "took vectors along {}, right, anterior and superior, as the format has them (--frame lps for images of \
+                             vectors that ITK and ANTs write)",
+                            frame.words()
+                        )
                     }
                     _ => return Vec::new(),
                 };
@@ -316,11 +326,7 @@ impl TensorFile {
     /// What everybody must hear: assumptions that options could replace, and warnings.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
-        let lattice = match &self.content {
-            Content::Tensors(volume) => volume.lattice(),
-            Content::Numbers(lattice) => lattice,
-        };
-        let warnings = lattice.warnings.iter().cloned().chain(self.warning());
+        let warnings = self.lattice().warnings.iter().cloned().chain(self.warning());
         let warnings = warnings.map(|w| format!("WARNING: {w}"));
         self.assumptions().into_iter().chain(warnings).chain(self.mask_elsewhere.clone()).collect()
     }
@@ -358,6 +364,12 @@ fn assumptions_of_tensors(volume: &TensorVolume) -> Vec<String> {
                 "WARNING: {percent:.0} % of the tensors are asymmetric in this order, as plane strain is"
             ));
         }
+    }
+    if order_known != Known::Given && volume.lattice().has_unknown_names() {
+        let names = volume.lattice().component_names.join(", ");
+        all.push(format!(
+            "WARNING: the component names {names} were not understood: components taken by their places"
+        ));
     }
     if let Some(stated) = volume.contradicted_order() {
         all.push(format!("WARNING: the file states the component order {stated}, taken as given: {order}"));

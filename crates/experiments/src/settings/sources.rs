@@ -164,7 +164,7 @@ fn reading_of(source: &FieldSource) -> Result<Reading, String> {
     }
     let frame = frame.as_ref().map(|name| {
         Frame::from_name(name)
-            .ok_or_else(|| format!("frame `{name}`: expected voxel, world, measurement or fsl"))
+            .ok_or_else(|| format!("frame `{name}`: expected voxel, world, measurement, fsl or lps"))
     });
     let shear = match shear.as_deref() {
         None => None,

@@ -114,6 +114,11 @@ impl Header {
         })
     }
 
+    /// The name of the world; without sform and qform nobody says how the volume lies.
+    pub(super) fn world(&self) -> &'static str {
+        if self.position.1 == BY_SIZES { "not stated" } else { "right-anterior-superior" }
+    }
+
     /// Numbers in all; within the limits.
     pub(super) fn values(&self) -> u64 {
         self.size.iter().map(|&n| n as u64).product::<u64>() * self.components as u64
@@ -216,6 +221,9 @@ fn meaning(fields: &Bytes, axes: i16, shape: [usize; 7]) -> Result<(usize, Conte
     }
 }
 
+/// What is left where there is neither.
+const BY_SIZES: &str = "the voxel sizes alone (no sform, no qform)";
+
 /// The sform where there is one, else the qform, else the voxel sizes.
 fn position(fields: &Bytes) -> Result<(Position, &'static str), IoError> {
     if let Some(sform) = sform(fields)? {
@@ -226,7 +234,7 @@ fn position(fields: &Bytes) -> Result<(Position, &'static str), IoError> {
     }
     let [x, y, z] = steps(fields);
     let axes = [[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]];
-    Ok(((axes, [0.0; 3]), "the voxel sizes alone (no sform, no qform)"))
+    Ok(((axes, [0.0; 3]), BY_SIZES))
 }
 
 fn sform(fields: &Bytes) -> Result<Option<Position>, IoError> {

@@ -69,7 +69,7 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<Lattice, IoError
         scalar: header.scalar,
         axes,
         origin,
-        world: World::Scanner("right-anterior-superior".to_owned()),
+        world: World::Scanner(header.world().to_owned()),
         measurement: None,
         mask: None,
         order: header.content.order(header.components),

@@ -132,13 +132,23 @@ pub fn lattice_of_members(
     }
     let choice = components.map_or(ArrayChoice::Usual, ArrayChoice::Components);
     let (_, array) = choose_array(&image, choice, wanted)?;
+    let aside: Vec<&str> = read
+        .iter()
+        .map(|(name, _)| name.as_str())
+        .filter(|n| matches!(*n, "x" | "y" | "z" | "X" | "Y" | "Z"))
+        .collect();
+    let warnings = if aside.is_empty() {
+        Vec::new()
+    } else {
+        vec![format!("positions {} left aside: cells of size 1, row 0 on top", aside.join(", "))]
+    };
     if let Some((name, lattice)) = read.iter().find(|(name, _)| **name == array.name) {
-        return Ok(Lattice { array: (*name).clone(), ..lattice.clone() });
+        return Ok(Lattice { array: (*name).clone(), warnings, ..lattice.clone() });
     }
     let first = array.name.split(", ").next().unwrap_or_default();
     let place = read.iter().find(|(name, _)| *name == first).map(|(_, lattice)| lattice.clone());
     let missing = || IoError::NoArray { wanted: "array".to_owned(), available: Vec::new() };
-    Ok(place.ok_or_else(missing)?.with_array(array.into_owned()))
+    Ok(Lattice { warnings, ..place.ok_or_else(missing)?.with_array(array.into_owned()) })
 }
 
 /// From `[x][y][z][component]` to tuples with x fastest.

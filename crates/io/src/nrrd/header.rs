@@ -49,6 +49,10 @@ pub(super) struct Header {
     directions: Vec<Option<[f64; 3]>>,
     directions_line: usize,
     spacings: Vec<f64>,
+    /// Least and greatest position along each axis; empty where there are none.
+    minima: Vec<f64>,
+    maxima: Vec<f64>,
+    centerings: Vec<String>,
     origin: Option<[f64; 3]>,
     limits: Limits,
     /// Lines of the header.
@@ -235,6 +239,11 @@ impl Header {
             directions,
             directions_line,
             spacings: fields.get(&["spacings"]).map_or(Ok(Vec::new()), |e| spacings(e, axes))?,
+            minima: fields.get(&["axismins"]).map_or(Ok(Vec::new()), |e| spacings(e, axes))?,
+            maxima: fields.get(&["axismaxs"]).map_or(Ok(Vec::new()), |e| spacings(e, axes))?,
+            centerings: fields
+                .get(&["centerings", "centers"])
+                .map_or_else(Vec::new, |e| e.value.split_whitespace().map(str::to_owned).collect()),
             origin: fields.get(&["spaceorigin"]).map(origin).transpose()?.flatten(),
             limits,
             lines: fields.lines,
@@ -382,6 +391,11 @@ impl Header {
         for (i, &a) in layout.lattice.iter().enumerate() {
             if let Some(Some(direction)) = self.directions.get(a) {
                 axes[i] = *direction;
+            } else if let Some([min, max]) =
+                self.range_of(a).filter(|_| self.spacings.get(a).is_none_or(|s| s.is_nan()))
+            {
+                let steps = self.sizes[a] as f64 - if self.is_node_centred(a) { 1.0 } else { 0.0 };
+                axes[i][i] = if steps > 0.0 && max != min { (max - min) / steps } else { 1.0 };
             } else if let Some(s) = self.spacings.get(a).filter(|s| s.is_finite() && **s != 0.0) {
                 axes[i][i] = *s;
             }
@@ -390,7 +404,29 @@ impl Header {
             // A plane gets the normal of its axes, so that turning stays possible.
             axes[2] = normal(axes[0], axes[1]).unwrap_or(axes[2]);
         }
-        (axes, self.origin.unwrap_or([0.0; 3]))
+        (axes, self.origin.unwrap_or_else(|| self.origin_of_ranges(layout, axes)))
+    }
+
+    /// First and last position along an axis, where the file has them.
+    fn range_of(&self, axis: usize) -> Option<[f64; 2]> {
+        let [min, max] = [&self.minima, &self.maxima].map(|v| v.get(axis).copied().filter(|v| v.is_finite()));
+        Some([min?, max?])
+    }
+
+    /// Samples at both ends of the range; otherwise they lie in the middle of equal parts, as teem has it where nothing is said.
+    fn is_node_centred(&self, axis: usize) -> bool {
+        self.centerings.get(axis).is_some_and(|c| c.eq_ignore_ascii_case("node"))
+    }
+
+    /// The first sample, where the file gives the least position along each axis.
+    fn origin_of_ranges(&self, layout: &Layout, axes: [[f64; 3]; 3]) -> [f64; 3] {
+        let mut origin = [0.0; 3];
+        for (i, &a) in layout.lattice.iter().enumerate() {
+            let least = self.minima.get(a).copied().filter(|v| v.is_finite());
+            let inside = if self.is_node_centred(a) { 0.0 } else { 0.5 * axes[i][i] };
+            origin[i] = least.map_or(0.0, |v| v + inside);
+        }
+        origin
     }
 }
 

@@ -210,7 +210,7 @@ pub const CONVENTIONS: [Convention; 28] = {
             3,
             None,
             (Frame::World, Usual),
-            "ANTs (warps), 4D flow",
+            "ANTs (warps, 1006), 4D flow; images of vectors of ITK (1007) are `lps`",
         ),
         row(C::NiftiNumbers, "NIfTI, no intent", 9, Some((O::ROWS3, Assumed)), NIFTI_FRAME, "nibabel 5.4"),
         row(
@@ -354,7 +354,8 @@ A tensor file holds several numbers a point, and few formats say which is which.
 
 `info` prints what was decided and how it is known. Components named as principal values (`Min`, `Mid`, `Max`, `Sigma 1`) are refused:
 they have no directions. `voxel` is along the voxel axes, `world` along the axes of the file's space, `fsl` along the voxel axes with x
-reversed where the determinant of the affine is positive, as FSL's gradient tables have it. NRRD files with a measurement frame state
+reversed where the determinant of the affine is positive, as FSL's gradient tables have it, `lps` along left, posterior and superior, as
+ITK has vectors in memory. NRRD files with a measurement frame state
 their own (`measurement`); those without space directions are taken as `voxel`.
 
 Programs with a version are run by the checks in `interop/`, the others are named after their documentation.

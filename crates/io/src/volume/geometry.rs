@@ -54,6 +54,13 @@ impl PlaneGeometry {
         if near(self.right, X) && near(self.up, Y) { Self { right: X, up: Y, ..*self } } else { self.flat() }
     }
 
+    /// Whether right or up is along no axis of the world, up to rounding.
+    #[must_use]
+    pub fn is_oblique(&self) -> bool {
+        let along_an_axis = |v: [f64; 3]| v.iter().any(|c| c.abs() >= 1.0 - ROUNDING);
+        !(along_an_axis(self.right) && along_an_axis(self.up))
+    }
+
     /// Position of the centre of the lower left cell, in the file's unit.
     #[must_use]
     pub const fn corner(&self) -> [f64; 3] {

@@ -46,11 +46,13 @@ pub enum Frame {
     /// The axes of FSL's gradient tables, and of tensors fitted with them: the voxel axes, the first reversed where the
     /// determinant of the affine is positive (FSL, "What conventions do the bvecs use?", FDT user guide).
     Fsl,
+    /// Left, posterior and superior, whatever the file's own world: ITK's axes, in which it writes images of vectors as they are.
+    Lps,
 }
 
 impl Frame {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Voxel, Self::World, Self::Measurement, Self::Fsl];
+    pub const ALL: [Self; 5] = [Self::Voxel, Self::World, Self::Measurement, Self::Fsl, Self::Lps];
 
     /// The frame of a name.
     #[must_use]
@@ -66,6 +68,7 @@ impl Frame {
             Self::World => "world",
             Self::Measurement => "measurement",
             Self::Fsl => "fsl",
+            Self::Lps => "lps",
         }
     }
 
@@ -77,6 +80,7 @@ impl Frame {
             Self::World => "the world axes",
             Self::Measurement => "the measurement axes",
             Self::Fsl => "the axes of FSL's gradient tables",
+            Self::Lps => "the axes left, posterior, superior",
         }
     }
 }
@@ -310,6 +314,10 @@ impl Lattice {
     /// anterior and superior, is positive.
     #[must_use]
     pub fn reverses_x_for_fsl(&self) -> bool {
+        // FSL takes a volume of which nobody says how it lies as one that needs no reversal.
+        if self.is_of_scanner() && self.world.signs().is_none() {
+            return false;
+        }
         let [a, b, c] = self.directions_by_axis();
         let signs = self.world.signs().unwrap_or([1.0; 3]);
         let determinant = a[0] * (b[1] * c[2] - b[2] * c[1])
@@ -336,6 +344,18 @@ impl Lattice {
         [0, 1, 2].map(|a| [d[a], d[a + 3], d[a + 6]])
     }
 
+    /// The axes left, posterior and superior in the world, one a column.
+    fn lps(&self) -> [f64; 9] {
+        let [x, y, z] = self.world.signs().unwrap_or([1.0; 3]);
+        [-x, 0.0, 0.0, 0.0, -y, 0.0, 0.0, 0.0, z]
+    }
+
+    /// Whether components have names that say nothing of a tensor.
+    #[must_use]
+    pub fn has_unknown_names(&self) -> bool {
+        naming(&self.component_names, self.components) == Naming::Other
+    }
+
     /// The signs that turn the voxel axes into FSL's.
     fn fsl_signs(&self) -> [f64; 9] {
         let x = if self.reverses_x_for_fsl() { -1.0 } else { 1.0 };
@@ -344,7 +364,7 @@ impl Lattice {
 
     /// Takes a mask of another file: a voxel keeps the smaller of both confidences. Where an axis of one lattice runs
     /// against that of the other, as far as both say where they lie, the mask is turned round along it. Returns whether the
-    /// mask lies elsewhere in the patient all the same.
+    /// mask lies elsewhere all the same, or in a world that cannot be compared.
     ///
     /// # Panics
     /// Where the mask has another size or holds tuples.
@@ -387,9 +407,11 @@ impl Lattice {
                 turned.join(" and ")
             ));
         }
-        let (Some((a, b)), World::Scanner(_), World::Scanner(_)) = (signs, &self.world, &mask.world) else {
+        if self.world == World::Absent || mask.world == World::Absent {
             return false;
-        };
+        }
+        // Worlds of different kinds cannot be compared.
+        let Some((a, b)) = signs else { return true };
         let step = self.spacing().into_iter().fold(f64::INFINITY, f64::min);
         let far = |v: [f64; 3], w: [f64; 3]| (0..3).any(|i| (v[i] - w[i]).abs() > 1e-2 * step);
         let mut first = mask.origin;
@@ -453,6 +475,7 @@ impl Lattice {
             (Frame::Voxel, _) => return Ok(None),
             (Frame::Fsl, _) => return Ok(self.reverses_x_for_fsl().then(|| self.fsl_signs())),
             (Frame::Measurement, Some(m)) => m,
+            (Frame::Lps, _) => self.lps(),
             _ => IDENTITY,
         };
         let directions = self.orthogonal_directions()?;
@@ -575,6 +598,7 @@ impl TensorVolume {
         let turn = match (self.frame.0, self.lattice.measurement) {
             (Frame::World, _) => return Ok(None),
             (Frame::Measurement, Some(m)) => m,
+            (Frame::Lps, _) => self.lattice.lps(),
             (Frame::Fsl, _) => product(&self.lattice.orthogonal_directions()?, &self.lattice.fsl_signs()),
             _ => self.lattice.orthogonal_directions()?,
         };

@@ -114,14 +114,22 @@ pub(crate) fn naming(names: &[String], components: usize) -> Naming {
 
 /// The order that names of all components spell.
 pub(crate) fn order_of<S: AsRef<str>>(names: &[S]) -> Option<TensorOrder> {
-    let pairs: Option<Vec<Pair>> = names.iter().map(|n| Some(pair_of(n.as_ref())?.0)).collect();
-    TensorOrder::by_entries(&entries_of(&pairs?)?).ok()
+    TensorOrder::by_entries(&entries(names)?).ok()
 }
 
-/// The entries that names spell, row by row.
+/// The entries that names spell, row by row. Where some are pairs, `SX` beside `SXY` is a normal component, as Ansys has it.
 pub(crate) fn entries<S: AsRef<str>>(names: &[S]) -> Option<Vec<usize>> {
-    let pairs: Option<Vec<Pair>> = names.iter().map(|n| Some(pair_of(n.as_ref())?.0)).collect();
+    let pair = |name: &S| pair_of(name.as_ref()).map(|(pair, _)| pair);
+    let has_pairs = names.iter().any(|n| pair(n).is_some());
+    let single = |name: &S| normal_of(name.as_ref()).filter(|_| has_pairs);
+    let pairs: Option<Vec<Pair>> = names.iter().map(|n| pair(n).or_else(|| single(n))).collect();
     entries_of(&pairs?)
+}
+
+/// The pair of a name that ends with one letter, `SX`.
+fn normal_of(name: &str) -> Option<Pair> {
+    let last = words_of(name).last()?.chars().last()?;
+    Pair::of(last, last).filter(|_| last.is_alphabetic())
 }
 
 /// Whether an array called so holds principal values: `S_Principal`, `eigenvalues`.
@@ -131,6 +139,10 @@ pub(crate) fn names_principal_values(array: &str) -> bool {
 
 /// Whether a name is that of a strain, whose shears may be engineering ones: `strain`, `TOSTRAIN`, `eps_xy`, `gamma_xy`, `E11`, `LE12`.
 pub(crate) fn names_strain(name: &str) -> bool {
+    name.split(", ").any(is_strain)
+}
+
+fn is_strain(name: &str) -> bool {
     let words = words_of(name);
     let short = pair_of(name).map(|(_, stem)| stem).unwrap_or_default();
     let is = |w: &str| {
@@ -139,7 +151,10 @@ pub(crate) fn names_strain(name: &str) -> bool {
             || word.ends_with("strain")
             || matches!(w, "eps" | "epsilon" | "gamma" | "ε" | "γ")
     };
-    words.iter().any(|w| is(w)) || is(&short) || matches!(short.as_str(), "e" | "le" | "ee" | "pe")
+    let stem = if short.is_empty() { words.concat() } else { short };
+    let is_code =
+        ["e", "le", "ee", "pe", "ne", "the", "epto", "epel", "eppl", "epth"].contains(&stem.as_str());
+    words.iter().any(|w| is(w)) || is(&stem) || is_code
 }
 
 /// A group of arrays of single numbers that are the components of one tensor.
@@ -176,7 +191,7 @@ pub(crate) fn groups(names: &[&str]) -> Vec<Group> {
     stems.into_iter().filter_map(group).collect()
 }
 
-/// Arrays of vectors called `T_x`, `T_y`, `T_z` (or `row1`, `row2`) are the rows of one tensor, arrays of numbers called so the components
+/// Arrays of vectors called `T_x`, `T_y`, `T_z` are the rows of one tensor, arrays of numbers called so the components
 /// of one vector: the indices of the arrays of every complete group, in the order of the rows.
 pub(crate) fn row_groups(names: &[&str], rows: usize) -> Vec<Vec<usize>> {
     let mut stems: Vec<(String, Vec<(char, usize)>)> = Vec::new();
@@ -188,12 +203,11 @@ pub(crate) fn row_groups(names: &[&str], rows: usize) -> Vec<Vec<usize>> {
             "w" | "W" => "velocity_z".to_owned(),
             _ => words_of(name).join("_"),
         };
-        let Some(last) = words.chars().last().filter(|c| matches!(c, 'x' | 'y' | 'z' | '0'..='3')) else {
-            continue;
-        };
+        // Numbers count eigenvectors or times.
+        let Some(last) = words.chars().last().filter(|c| matches!(c, 'x' | 'y' | 'z')) else { continue };
         let stem = words[..words.len() - last.len_utf8()].trim_end_matches('_').to_owned();
-        // `x` and `y` alone are positions.
-        if stem.is_empty() {
+        // `x` and `y` alone are positions, `d_dx` is the column of a gradient.
+        if stem.is_empty() || stem.ends_with('d') {
             continue;
         }
         match stems.iter_mut().find(|(s, _)| *s == stem) {
@@ -201,12 +215,10 @@ pub(crate) fn row_groups(names: &[&str], rows: usize) -> Vec<Vec<usize>> {
             None => stems.push((stem, vec![(last, at)])),
         }
     }
-    let sequences: [&[char]; 3] = [&['x', 'y', 'z'], &['1', '2', '3'], &['0', '1', '2']];
     let complete = |(_, mut members): (String, Vec<(char, usize)>)| {
         members.sort_unstable();
         let letters: Vec<char> = members.iter().map(|m| m.0).collect();
-        let fits = sequences.iter().any(|s| s[..rows.min(3)] == letters[..]);
-        fits.then(|| members.into_iter().map(|m| m.1).collect())
+        (['x', 'y', 'z'][..rows.min(3)] == letters[..]).then(|| members.into_iter().map(|m| m.1).collect())
     };
     stems.into_iter().filter_map(complete).collect()
 }
@@ -237,6 +249,7 @@ mod tests {
             "s.x.x s.y.y s.z.z s.y.z s.x.z s.x.y",
             "σxx σyy σzz τyz τxz τxy",
             "XX-stress YY-stress ZZ-stress YZ-stress XZ-stress XY-stress",
+            "SX SY SZ SYZ SXZ SXY",
         ] {
             assert_eq!(Ok(named(names)), voigt, "{names}");
         }
@@ -276,12 +289,26 @@ mod tests {
         let rows = row_groups(&["T_y", "grad", "T_x", "T_z"], 3);
         assert_eq!(rows, [[2, 0, 3]]);
         assert!(row_groups(&["u_x", "u_y"], 3).is_empty());
+        for others in [["V1", "V2", "V3"], ["vel_0", "vel_1", "vel_2"], ["d_dx", "d_dy", "d_dz"]] {
+            assert!(row_groups(&others, 3).is_empty(), "{others:?}");
+        }
         assert_eq!(row_groups(&["x", "y", "u", "v"], 2), [[2, 3]]);
     }
 
     #[test]
     fn strains_are_known_by_name() {
-        for name in ["strain", "TOSTRAIN", "eps_xy", "gamma_xy", "E11", "LE12", "plastic_strain_xx"] {
+        for name in [
+            "strain",
+            "TOSTRAIN",
+            "eps_xy",
+            "gamma_xy",
+            "E11",
+            "LE12",
+            "plastic_strain_xx",
+            "E",
+            "LE11, LE22, LE12",
+            "EPTOXY",
+        ] {
             assert!(names_strain(name), "{name}");
         }
         for name in ["stress", "S11", "sigma_xx", "energy", "constrained"] {

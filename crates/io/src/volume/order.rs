@@ -112,6 +112,11 @@ impl TensorOrder {
         Ok(Self { entries, components: list.len() })
     }
 
+    /// Whether an entry is given, by a component of its own or that of its mirror image.
+    pub(crate) const fn has(&self, row: usize, column: usize) -> bool {
+        self.entries[3 * row + column].is_some()
+    }
+
     /// Numbers per tuple.
     #[must_use]
     pub const fn components(&self) -> usize {

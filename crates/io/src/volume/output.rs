@@ -56,6 +56,13 @@ impl TensorVolume {
         Self { lattice, order: (order, Known::Stated), frame }
     }
 
+    /// The same tensors in a world of another name.
+    #[must_use]
+    pub fn with_world(mut self, world: World) -> Self {
+        self.lattice.world = world;
+        self
+    }
+
     /// The same tensors, to be written in the precision of another type.
     #[must_use]
     pub fn with_scalar(mut self, scalar: ScalarType) -> Self {
@@ -75,7 +82,7 @@ impl TensorVolume {
                 let to_voxel = self.lattice.to_voxel(self.frame.0)?;
                 Some(to_voxel.map_or(signs, |k| product(&signs, &k))).filter(|k| *k != IDENTITY)
             }
-            Frame::World | Frame::Measurement => self.to_world()?,
+            Frame::World | Frame::Measurement | Frame::Lps => self.to_world()?,
         };
         let tensor = |(voxel, t): (usize, [f64; 9])| {
             if self.is_masked(voxel) { [0.0; 9] } else { turn.as_ref().map_or(t, |k| turned(k, &t)) }

@@ -354,17 +354,32 @@ impl Lattice {
             return Err(self.tuple_size("two or three"));
         }
         let cut = self.cut(choice)?;
-        let turn = self.to_voxel(frame.unwrap_or(self.frame.0))?;
+        let frame = frame.unwrap_or(self.frame.0);
+        let turn = self.to_voxel(frame)?;
+        let axes = self.axes_of_components(&cut, frame)?;
         let field = cut.field(|voxel| {
             let mut v = [0.0; 3];
             let from = voxel * self.components;
-            v[..self.components].copy_from_slice(&self.values[from..from + self.components]);
+            axes.iter().zip(&self.values[from..from + self.components]).for_each(|(&axis, &c)| v[axis] = c);
             if let Some(k) = &turn {
                 v = [0, 1, 2].map(|i| k[3 * i] * v[0] + k[3 * i + 1] * v[1] + k[3 * i + 2] * v[2]);
             }
             [cut.right, cut.up].map(|side| side.sign() * v[side.voxel])
         });
         Ok(Slice { field, cut })
+    }
+
+    /// The axes that the components of vectors are along, in their frame: two components of a model in a plane are along its two axes.
+    fn axes_of_components(&self, cut: &Cut, frame: Frame) -> Result<Vec<usize>, IoError> {
+        let mut shown = [cut.right, cut.up].map(|s| if frame == Frame::Voxel { s.voxel } else { s.world });
+        shown.sort_unstable();
+        if self.components != 2 || shown == [0, 1] {
+            return Ok((0..self.components).collect());
+        }
+        if self.size[cut.plane.normal() as usize] == 1 {
+            return Ok(shown.to_vec());
+        }
+        Err(self.tuple_size("three for this plane, which the two do not lie in"))
     }
 
     /// Which cells of a plane the mask leaves out; `None` where there is no mask.
@@ -387,6 +402,7 @@ impl TensorVolume {
     /// [`IoError::SkewedAxes`], and as [`Lattice::cut`].
     pub fn slice(&self, choice: PlaneChoice) -> Result<Slice<Tensor2>, IoError> {
         let cut = self.lattice.cut(choice)?;
+        self.check_components(&cut)?;
         let (right, up) = (cut.right.voxel, cut.up.voxel);
         let turn = self.lattice.to_voxel(self.frame.0)?;
         // One reversed axis changes the sign of the off-diagonal components.
@@ -403,5 +419,18 @@ impl TensorVolume {
             if mirrored { plain.mirrored_y() } else { plain }
         });
         Ok(Slice { field, cut })
+    }
+
+    /// Refuses components of a plane that is not the one shown: what is shown would be zero.
+    fn check_components(&self, cut: &Cut) -> Result<(), IoError> {
+        let axis = |side: Side| if self.frame.0 == Frame::Voxel { side.voxel } else { side.world };
+        let has = |axis: usize| self.order.0.has(axis, axis);
+        let shown = [axis(cut.right), axis(cut.up)];
+        if shown.into_iter().all(has) {
+            return Ok(());
+        }
+        let [a, b] = shown.map(|axis| Axis::ALL[axis].name());
+        let needed = format!("{a}{a},{b}{b},{}", if a < b { format!("{a}{b}") } else { format!("{b}{a}") });
+        Err(IoError::OtherPlane { order: self.order.0.to_string(), needed })
     }
 }

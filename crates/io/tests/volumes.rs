@@ -458,8 +458,13 @@ fn masks_follow_their_axes() {
     let turned = vec![4.0, 5.0, 2.0, 3.0, 0.0, 1.0];
     let viewer = |axes| scalars(size, axes, [0.0; 3], "");
     assert_eq!(masked(viewer(STEPS), viewer(STEPS)), (plain.clone(), false));
-    assert_eq!(masked(viewer(STEPS), viewer(down)), (turned.clone(), false));
-    assert_eq!(masked(viewer(down), viewer(STEPS)), (turned.clone(), false));
+    // From its first voxel at the top, 2 (3 - 1) up, the same place.
+    let from_above = || scalars(size, down, [0.0, 4.0, 0.0], "");
+    assert_eq!(masked(viewer(STEPS), from_above()), (turned.clone(), false));
+    assert_eq!(masked(from_above(), viewer(STEPS)), (turned.clone(), false));
+    // Turned round, and still elsewhere; and a world that cannot be compared.
+    assert_eq!(masked(viewer(STEPS), viewer(down)), (turned.clone(), true));
+    assert!(masked(viewer(STEPS), scalars(size, STEPS, [0.0; 3], "RAS")).1);
     // The same place in the patient, in worlds of opposite axes; the same numbers in them are another place.
     let ras = || scalars(size, STEPS, [10.0, 20.0, 30.0], "RAS");
     let backwards = [[-1.0, 0.0, 0.0], [0.0, -2.0, 0.0], [0.0, 0.0, 3.0]];

@@ -171,7 +171,7 @@ fn derivatives_know_their_frames_and_holes() {
         &["--derive", "gradient", "--slice", "z=1"],
         [0.3, -0.7, 0.5, 0.2],
     );
-    assert!(said.contains("vectors along the world axes"), "{said}");
+    assert!(said.contains("vectors along the world axes, right, anterior and superior"), "{said}");
     let gradient = Tensor2::new(0.2, 0.1, 0.3, 0.0);
     let mask = reports.path("uv_mask.npy");
     for (name, options) in [

@@ -10,7 +10,8 @@ pub const MAX_RESAMPLED_CELLS: usize = 1 << 24;
 
 /// The same picture with another number of cells, component by component. Every new cell is a mean of the old ones under
 /// a triangle around its centre, as wide as two cells of the coarser of both grids: linear interpolation where the new
-/// grid is finer, an average where it is coarser. The same size gives the same field.
+/// grid is finer, an average where it is coarser. The same size gives the same field. Zero tensors, which stand for cells without any
+/// (masked ones), are not mixed in: a new cell is the mean of those that there are, or zero where they have less than half of its weight.
 ///
 /// # Errors
 /// [`FieldError::Grid`] and [`FieldError::ResampledSize`] for sizes that are none, or too large.
@@ -23,8 +24,26 @@ pub fn resampled(field: &Field<Tensor2>, width: usize, height: usize) -> Result<
     }
     let (columns, rows) = (weights(field.grid().width(), width), weights(field.grid().height(), height));
     let wide = Field::from_fn(wide, |c| mean(&columns[c.x], |x| field.at(Cell::new(x, c.y))));
-    Ok(Field::from_fn(grid, |c| mean(&rows[c.y], |y| wide.at(Cell::new(c.x, y)))))
+    let sums = Field::from_fn(grid, |c| mean(&rows[c.y], |y| wide.at(Cell::new(c.x, y))));
+    if !field.values().iter().any(Tensor2::is_zero) {
+        return Ok(sums);
+    }
+    let share = |c: Cell| -> f64 {
+        let is_there = |x: usize, y: usize| f64::from(u8::from(!field.at(Cell::new(x, y)).is_zero()));
+        let of_row = |y: usize| columns[c.x].iter().map(|&(x, w)| w * is_there(x, y)).sum::<f64>();
+        rows[c.y].iter().map(|&(y, w)| w * of_row(y)).sum()
+    };
+    Ok(Field::from_fn(grid, |c| match share(c) {
+        s if s < ENOUGH => Tensor2::ZERO,
+        s if s > 1.0 - ROUNDING => *sums.at(c),
+        s => sums.at(c).scaled(1.0 / s),
+    }))
 }
+
+/// Share of its weight that a new cell must have from cells with a tensor.
+const ENOUGH: f64 = 0.5;
+/// Weights add up to 1 up to rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Indices and weights, of sum 1, for each new cell.
 fn weights(old: usize, new: usize) -> Vec<Vec<(usize, f64)>> {
@@ -88,6 +107,23 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    /// What a mask leaves out is not mixed in: a constant field stays constant around its hole.
+    #[test]
+    fn zero_tensors_are_not_mixed_in() {
+        let t = Tensor2::new(1.0, 2.0, 3.0, 4.0);
+        let grid = Grid::new(12, 9).expect("a size");
+        let field = Field::from_fn(grid, |c| if c.x < 5 && c.y > 2 { Tensor2::ZERO } else { t });
+        for (width, height) in [(24, 18), (17, 13), (5, 4)] {
+            let found = resampled(&field, width, height).expect("a size");
+            let near =
+                |f: &Tensor2| f.components().iter().zip(t.components()).all(|(a, b)| (a - b).abs() < 1e-14);
+            assert!(found.values().iter().all(|f| f.is_zero() || near(f)), "{width} x {height}");
+            let holes =
+                found.values().iter().filter(|f| f.is_zero()).count() as f64 / (width * height) as f64;
+            assert!((holes - 30.0 / 108.0).abs() < 0.1, "{width} x {height}: {holes}");
         }
     }
 

@@ -371,7 +371,8 @@ impl Lattice {
 
     /// The axes that the components of vectors are along, in their frame: two components of a model in a plane are along its two axes.
     fn axes_of_components(&self, cut: &Cut, frame: Frame) -> Result<Vec<usize>, IoError> {
-        let mut shown = [cut.right, cut.up].map(|s| if frame == Frame::Voxel { s.voxel } else { s.world });
+        let mut shown = [cut.right, cut.up]
+            .map(|s| if matches!(frame, Frame::Voxel | Frame::Fsl) { s.voxel } else { s.world });
         shown.sort_unstable();
         if self.components != 2 || shown == [0, 1] {
             return Ok((0..self.components).collect());
@@ -423,7 +424,12 @@ impl TensorVolume {
 
     /// Refuses components of a plane that is not the one shown: what is shown would be zero.
     fn check_components(&self, cut: &Cut) -> Result<(), IoError> {
-        let axis = |side: Side| if self.frame.0 == Frame::Voxel { side.voxel } else { side.world };
+        let by_voxels = matches!(self.frame.0, Frame::Voxel | Frame::Fsl);
+        // Along the axes of a turned world a part of every component is shown.
+        if !by_voxels && cut.geometry.is_oblique() {
+            return Ok(());
+        }
+        let axis = |side: Side| if by_voxels { side.voxel } else { side.world };
         let has = |axis: usize| self.order.0.has(axis, axis);
         let shown = [axis(cut.right), axis(cut.up)];
         if shown.into_iter().all(has) {

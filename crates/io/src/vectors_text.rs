@@ -472,7 +472,7 @@ mod tests {
         let insight =
             "TITLE=\"run\" VARIABLES=\"X mm\", \"Y mm\", \"U m/s\", \"V m/s\", \"CHC\", ZONE I=4, J=3\n";
         is_read(
-            &table(&insight, |x, y| {
+            &table(insight, |x, y| {
                 format!("{x}, {y}, {x}, {}, {}", ten(y), if low(y) == 1 { -2 } else { 4 })
             }),
             4,

@@ -1,4 +1,5 @@
 //! What components mean: names, aliases, frames and what is assumed, read from bytes as programs write them.
+#![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
 use std::io::Write as _;
 use tigereye_core::{Svd, Tensor2};
@@ -486,8 +487,8 @@ fn files_are_written_in_the_precision_they_had() {
 /// A points file hides points like an image does.
 #[test]
 fn points_are_masked_like_images() {
-    let mut data = tigereye_io::PolyData::default();
-    data.points = (0..4).map(|i| [f64::from(i % 2), f64::from(i / 2), 0.0]).collect();
+    let points = (0..4).map(|i| [f64::from(i % 2), f64::from(i / 2), 0.0]).collect();
+    let mut data = tigereye_io::PolyData { points, ..tigereye_io::PolyData::default() };
     data.point_arrays.push(DataArray::new("t", 4, vec![1.0; 16]));
     data.point_arrays.push(DataArray::new("vtkGhostType", 1, vec![0.0, 2.0, 0.0, 0.0]));
     let lattice = lattice_from_points(data, None, Wanted::Tensors).unwrap();

@@ -477,7 +477,7 @@ fn masks_follow_their_axes() {
     assert_eq!(masked(ras(), from_top), (turned, false));
     assert!(masked(ras(), scalars(size, down, [10.0, 20.0, 30.0], "RAS")).1);
     // Nothing is known of how worlds of other names lie to each other.
-    assert_eq!(masked(ras(), scalars(size, down, [0.0; 3], "3D-left-handed")), (plain.clone(), false));
+    assert_eq!(masked(ras(), scalars(size, down, [0.0; 3], "3D-left-handed")), (plain.clone(), true));
     // The smaller confidence counts.
     let mut own = ras();
     own.mask = Some(vec![9.0, 0.5, 0.0, f64::NAN, 9.0, 9.0]);

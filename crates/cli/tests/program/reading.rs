@@ -57,7 +57,7 @@ fn vectors_give_their_gradient_and_numbers_their_hessian() {
     assert!(text.contains("Hessian, of the image smoothed by 1 cells"), "{text}");
     place.refuses(
         &["ltg", "flow.npy", "--derive", "hessian", "-o", "o.vti"],
-        &["flow.npy", "a plane is needed"],
+        &["flow.npy", "shape [10, 12, 2]", "expected (H, W)"],
     );
     place.write("six.nii", nifti_of_six());
     place.refuses(

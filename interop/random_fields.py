@@ -302,7 +302,9 @@ def shows_plane(folder, out, written, shown, chosen):
     try:
         run_program(folder, "convert", written.file, out, *written.options, *chosen)
     except AssertionError as refused:
-        vanishing = any(not np.any(shown.field[..., i, i]) for i in range(2))
+        # Affines in single precision leave their rounding.
+        largest = np.abs(shown.field).max()
+        vanishing = any(np.abs(shown.field[..., i, i]).max() <= 1e-5 * largest for i in range(2))
         if "and the plane shows" in str(refused) and vanishing:
             return False
         raise

@@ -156,6 +156,13 @@ fn the_tensor_is_taken_before_vectors_and_ids() {
     assert_eq!(found.array, "stress");
     let vectors = lattice_from_image(&image, None, Wanted::Vectors).unwrap();
     assert_eq!(vectors.array, "velocity");
+    // In the cells beside vectors of the points, too, and in arrays of their own.
+    let mut cells = image.clone();
+    let stress = cells.point_arrays.pop().unwrap();
+    cells.cell_arrays.push(DataArray::new("stress", 6, stress.values[..12].to_vec()));
+    assert_eq!(lattice_from_image(&cells, None, Wanted::Tensors).unwrap().array, "stress");
+    cells.cell_arrays = ["S_XX", "S_YY", "S_XY"].map(|n| DataArray::new(n, 1, vec![1.0; 2])).to_vec();
+    assert_eq!(lattice_from_image(&cells, None, Wanted::Tensors).unwrap().array, "S_XX, S_YY, S_XY");
     image.point_arrays.push(DataArray::new("strain", 6, vec![0.0; 36]));
     let several = lattice_from_image(&image, None, Wanted::Tensors).unwrap_err();
     assert!(matches!(&several, IoError::AmbiguousArray { candidates } if candidates.len() == 2), "{several}");
@@ -434,6 +441,10 @@ fn fsl_tensors_are_along_its_gradient_tables() {
 
 #[test]
 fn nifti_vectors_of_an_intent_are_along_the_world() {
+    for intent in [1006, 1007] {
+        let two = nifti_voxel(LAS, [5, 1, 1, 1, 1, 2, 1, 1], intent, &[1.0, 2.0], None);
+        assert_eq!(nifti::read(&two).unwrap().frame.0, Frame::World);
+    }
     for (intent, frame) in [(1007, Frame::World), (1006, Frame::World), (0, Frame::Voxel)] {
         let file = nifti_voxel(LAS, [5, 1, 1, 1, 1, 3, 1, 1], intent, &[1.0, 2.0, 3.0], None);
         assert_eq!(nifti::read(&file).unwrap().frame.0, frame, "intent {intent}");

@@ -153,20 +153,23 @@ fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
     if let Some((on, found)) = all(image).find(is_active) {
         return Ok((on, Cow::Borrowed(found)));
     }
-    for on in BOTH {
-        let (arrays, active) = of(image, on);
-        let best = arrays.iter().map(|a| wanted.suits(a, active)).max().unwrap_or(0);
-        // Three numbers are a tensor only where nothing else is.
-        let is_last_resort = best < 2 && wanted == Wanted::Tensors || best == 0;
-        if is_last_resort && let Some(found) = separate(arrays, wanted)? {
-            return Ok((on, Cow::Owned(found)));
-        }
-        let candidates: Vec<&DataArray> =
-            arrays.iter().filter(|a| best > 0 && wanted.suits(a, active) == best).collect();
-        match candidates[..] {
-            [] => {}
-            [found] => return Ok((on, Cow::Borrowed(found))),
-            _ => return Err(IoError::AmbiguousArray { candidates: described(candidates) }),
+    // Three numbers are a tensor only where nothing else is, at points and cells alike.
+    let certain = if wanted == Wanted::Tensors { 2 } else { 1 };
+    for least in [certain, 1] {
+        for on in BOTH {
+            let (arrays, active) = of(image, on);
+            let best = arrays.iter().map(|a| wanted.suits(a, active)).max().unwrap_or(0);
+            if best >= least {
+                let fits = |a: &&DataArray| wanted.suits(a, active) == best;
+                let candidates: Vec<&DataArray> = arrays.iter().filter(fits).collect();
+                return match candidates[..] {
+                    [found] => Ok((on, Cow::Borrowed(found))),
+                    _ => Err(IoError::AmbiguousArray { candidates: described(candidates) }),
+                };
+            }
+            if let Some(found) = separate(arrays, wanted)? {
+                return Ok((on, Cow::Owned(found)));
+            }
         }
     }
     let principal = |a: &DataArray| {

@@ -107,6 +107,10 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
     })
 }
 
+/// Names of arrays that say where cells lie, which archives of NumPy have no rule for.
+const POSITIONS: [&str; 12] =
+    ["x", "y", "z", "xs", "ys", "lon", "lat", "points", "coords", "extent", "spacing", "origin"];
+
 /// Takes an array out of the arrays of an archive, by name and bytes: the named one, the only one that fits, or the one whose components
 /// are arrays of their own.
 ///
@@ -132,11 +136,8 @@ pub fn lattice_of_members(
     }
     let choice = components.map_or(ArrayChoice::Usual, ArrayChoice::Components);
     let (_, array) = choose_array(&image, choice, wanted)?;
-    let aside: Vec<&str> = read
-        .iter()
-        .map(|(name, _)| name.as_str())
-        .filter(|n| matches!(*n, "x" | "y" | "z" | "X" | "Y" | "Z"))
-        .collect();
+    let is_position = |name: &str| POSITIONS.iter().any(|p| name.eq_ignore_ascii_case(p));
+    let aside: Vec<&str> = members.iter().map(|(name, _)| name.as_str()).filter(|n| is_position(n)).collect();
     let warnings = if aside.is_empty() {
         Vec::new()
     } else {

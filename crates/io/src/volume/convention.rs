@@ -138,7 +138,7 @@ const PLANE_FRAME: (Frame, Known) = (Frame::World, Known::Convention);
 const AXES_FRAME: (Frame, Known) = (Frame::Voxel, Known::Assumed);
 
 /// Every convention, in the order of the documentation.
-pub const CONVENTIONS: [Convention; 28] = {
+pub const CONVENTIONS: [Convention; 29] = {
     use Content as C;
     use Known::{Assumed, Convention as Usual, Stated};
     use TensorOrder as O;
@@ -208,6 +208,14 @@ pub const CONVENTIONS: [Convention; 28] = {
             C::NiftiVector,
             "NIfTI, intents 1006 and 1007",
             3,
+            None,
+            (Frame::World, Usual),
+            "ANTs (warps, 1006), 4D flow; images of vectors of ITK (1007) are `lps`",
+        ),
+        row(
+            C::NiftiVector,
+            "NIfTI, intents 1006 and 1007",
+            2,
             None,
             (Frame::World, Usual),
             "ANTs (warps, 1006), 4D flow; images of vectors of ITK (1007) are `lps`",

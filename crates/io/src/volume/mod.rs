@@ -240,7 +240,7 @@ impl Lattice {
             self.values = tuples.iter().flat_map(|t| t[1..].iter().copied()).collect();
             self.components = 6;
             self.order = Some((TensorOrder::UPPER, Known::Assumed));
-            self.notes.push("seven numbers taken as a mask and xx,xy,xz,yy,yz,zz".to_owned());
+            self.warnings.push("seven numbers taken as a mask and xx,xy,xz,yy,yz,zz".to_owned());
         }
         self
     }

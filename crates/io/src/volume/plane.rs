@@ -341,6 +341,8 @@ impl Lattice {
         if self.components != 1 {
             return Err(self.tuple_size("one number a voxel"));
         }
+        // Distances along the axes are those of the world at right angles only.
+        self.orthogonal_directions()?;
         let cut = self.cut(choice)?;
         Ok(Slice { field: cut.field(|voxel| self.values[voxel]), cut })
     }

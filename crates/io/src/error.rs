@@ -10,7 +10,7 @@ use tigereye_core::CoreError;
 pub enum IoError {
     // ---- text matrices
     /// A text without any number.
-    #[error("line 1: expected rows of numbers, found an empty file")]
+    #[error("line 1: expected rows of numbers, found none (an empty file, or words alone)")]
     EmptyText,
     /// A word that is not a number.
     #[error("line {line}, column {column}: expected a number, found `{found}`")]
@@ -186,6 +186,16 @@ pub enum IoError {
         line: usize,
         /// What stands there.
         found: String,
+    },
+    /// Positions in an archive that are no lattice.
+    #[error(
+        "the positions `{names}` form no lattice with equal steps (position {position}, from 0): expected them in equal steps, or an archive without them"
+    )]
+    NpzPositions {
+        /// Names of the arrays.
+        names: String,
+        /// The first position that is off.
+        position: usize,
     },
     /// An array whose first axis, or first two, are the components.
     #[error(
@@ -404,6 +414,14 @@ pub enum IoError {
     },
 
     // ---- tensor volumes
+    /// Diffusion-weighted images where tensors were expected.
+    #[error(
+        "line {line}: these are diffusion-weighted images: expected tensors, as `tend estim` of teem or `DWIToDTIEstimation` of 3D Slicer fit them"
+    )]
+    NrrdWeighted {
+        /// The line that says so.
+        line: usize,
+    },
     /// A field of an NRRD header that is missing or makes no sense.
     #[error("line {line}: NRRD field `{field}`: found `{found}`, expected {expected}")]
     NrrdField {

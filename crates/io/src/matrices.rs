@@ -155,8 +155,8 @@ mod tests {
 
     #[test]
     fn messages_name_line_and_column() {
-        refused("", "line 1: expected rows of numbers, found an empty file");
-        refused(" \n\n", "line 1: expected rows of numbers, found an empty file");
+        refused("", "line 1: expected rows of numbers, found none (an empty file, or words alone)");
+        refused(" \n\n", "line 1: expected rows of numbers, found none (an empty file, or words alone)");
         refused("1 2\n3  x4\n", "line 2, column 4: expected a number, found `x4`");
         refused("1 nan\n3 4\n", "line 1, column 3: expected a finite number, found `nan`");
         refused("1 2\n-inf 4\n", "line 2, column 1: expected a finite number, found `-inf`");

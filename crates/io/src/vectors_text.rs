@@ -4,7 +4,8 @@
 //! x  y  u  v  [flags  mask]
 //! ```
 //!
-//! Columns are separated by blanks or tabs, by commas, or by semicolons. Lines that do not begin with a number come first,
+//! Columns are separated by blanks or tabs, by commas, or by semicolons; where semicolons or tabs separate them, a comma is
+//! a decimal point. Lines that do not begin with a number come first,
 //! if at all; where one of them names columns x, y, u and v (OpenPIV, PIVlab, `VARIABLES=` of Tecplot files as JPIV, DaVis
 //! and Insight write them), the names count, with vx and vy for u and v, otherwise the places. Positions form a
 //! lattice, in any order; nodes without vector are masked. What may stand beside the vectors:
@@ -197,14 +198,24 @@ impl<'a> Text<'a> {
         Err(IoError::EmptyText)
     }
 
+    /// Whether numbers are written with commas.
+    fn has_decimal_commas(&self) -> bool {
+        let separates = matches!(self.separator, Separator::Mark(b','));
+        !separates && self.lines.iter().any(|line| line.contains(&b','))
+    }
+
     /// Numbers in the first line.
     fn columns(&self) -> usize {
         self.separator.words(self.lines[0]).count()
     }
 }
 
+/// A number. Its decimal point may be a comma, which then separates nothing ([`Separator::of`]).
 fn parsed(word: &[u8]) -> Option<f64> {
-    std::str::from_utf8(word).ok()?.parse().ok()
+    let word = std::str::from_utf8(word).ok()?;
+    word.parse()
+        .or_else(|e| if word.matches(',').count() == 1 { word.replace(',', ".").parse() } else { Err(e) })
+        .ok()
 }
 
 /// Whether a text is a table of vectors rather than 2x2 blocks: a line names x, y, u and v; or numbers stand in four
@@ -317,6 +328,9 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     let y_up = "y taken to run upwards and v with it (right-handed, as OpenPIV's transform_coordinates makes them); where a \
                 file has y downwards the picture is upside down";
     notes.push(y_up.to_owned());
+    if text.has_decimal_commas() {
+        notes.push("commas taken as decimal points".to_owned());
+    }
     let mut lattice = lattice(&rows, text.first, notes)?;
     if columns.named.is_none() {
         lattice.warnings.push(words_of(&columns));
@@ -482,6 +496,13 @@ mod tests {
         is_read(&table(davis, |x, y| format!("{x}\t{y}\t{x}\t{}", ten(y))), 0);
         let jpiv = "TITLE=\"a\"\nVARIABLES= \"y\" \"x\" \"u\" \"v\" \"SN\"\nZONE I=4, J=3\n";
         is_read(&table(jpiv, |x, y| format!("{y} {x} {x} {} 7.5", ten(y))), 0);
+        // Programs of countries with decimal commas.
+        let comma = |text: String| text.replace('.', ",");
+        for mark in [';', '\t'] {
+            let line = |x: f64, y: f64| comma(format!("{x:.2}{mark}{y:.2}{mark}{x:.3}{mark}{:.1}", ten(y)));
+            let lattice = is_read(&table("", line), 0);
+            assert!(lattice.notes.iter().any(|n| n.contains("decimal points")), "{:?}", lattice.notes);
+        }
         is_read(
             &table("x;y;Velocity u [m/s];Velocity v [m/s]\n", |x, y| format!("{x};{y};{x};{};", ten(y))),
             0,
@@ -522,8 +543,8 @@ mod tests {
         fn refused(text: &str, message: &str) {
             assert_eq!(read(text.as_bytes()).map_err(|e| e.to_string()), Err(message.to_owned()), "{text:?}");
         }
-        refused("", "line 1: expected rows of numbers, found an empty file");
-        refused("x y u v\n", "line 1: expected rows of numbers, found an empty file");
+        refused("", "line 1: expected rows of numbers, found none (an empty file, or words alone)");
+        refused("x y u v\n", "line 1: expected rows of numbers, found none (an empty file, or words alone)");
         refused("x,y,u,v\n1,2,3,4\n1, a,3,4\n", "line 3, column 4: expected a number, found `a`");
         refused("1 2 3 4\nnan 2 3 4\n", "line 2, column 1: expected a finite number, found `nan`");
         refused(
@@ -548,7 +569,10 @@ mod tests {
             "4 vectors on a lattice of 4 x 4 positions: expected a vector at most of them",
         );
         // Decimal commas between tabs are not taken for two numbers.
-        refused("1,5\t2\t3\t4\n", "line 1: expected rows of numbers, found an empty file");
+        refused(
+            "1,5,0\t2\t3\t4\n",
+            "line 1: expected rows of numbers, found none (an empty file, or words alone)",
+        );
     }
 
     #[test]

@@ -219,13 +219,119 @@ fn archives_give_the_tensor_or_its_components() {
         member("syy", &[2, 3], vec![-1.0; 6]),
         member("sxy", &[2, 3], vec![2.0; 6]),
     ];
-    let found = npy::lattice_of_members(&members, None, Wanted::Tensors).unwrap();
+    let found = npy::lattice_of_members(&members, ArrayChoice::Usual, Wanted::Tensors).unwrap();
     assert_eq!(plane(found, Reading::default()), Ok(EXPECTED));
     let tensor = member("stress", &[2, 3, 2, 2], [5.0, 2.0, 2.0, -1.0].repeat(6));
     let members: Vec<_> = members.into_iter().chain([tensor]).collect();
-    let found = npy::lattice_of_members(&members, None, Wanted::Tensors).unwrap();
+    let found = npy::lattice_of_members(&members, ArrayChoice::Usual, Wanted::Tensors).unwrap();
     assert_eq!(found.array, "stress");
     assert_eq!(plane(found, Reading::default()), Ok(EXPECTED));
+}
+
+/// Positions beside the data place it, whichever way they run; a picture whose y runs downwards in the file is turned.
+#[test]
+fn positions_of_archives_place_their_cells() {
+    let member = |name: &str, shape: &[usize], values: Vec<f64>| {
+        (name.to_owned(), npy::write_array(shape, &values).unwrap())
+    };
+    let (xs, ys) = ([10.0, 10.5, 11.0], [5.0, 7.0]);
+    // The tensor at (x, y) has xx = x, yy = y, so that each says where it belongs.
+    let stress =
+        |places: &[(f64, f64)]| places.iter().flat_map(|(x, y)| [*x, 0.25, *y]).collect::<Vec<f64>>();
+    let rows: Vec<(f64, f64)> = ys.iter().flat_map(|&y| xs.map(|x| (x, y))).collect();
+    let columns: Vec<(f64, f64)> = xs.iter().flat_map(|&x| ys.map(|y| (x, y))).collect();
+    let falling: Vec<(f64, f64)> = ys.iter().rev().flat_map(|&y| xs.map(|x| (x, y))).collect();
+    let (of_x, of_y) = (
+        |p: &[(f64, f64)]| p.iter().map(|p| p.0).collect(),
+        |p: &[(f64, f64)]| p.iter().map(|p| p.1).collect(),
+    );
+    let archives = [
+        [
+            member("x", &[3], xs.to_vec()),
+            member("y", &[2], ys.to_vec()),
+            member("s", &[2, 3, 3], stress(&rows)),
+        ],
+        [
+            member("X", &[2, 3], of_x(&rows)),
+            member("Y", &[2, 3], of_y(&rows)),
+            member("s", &[2, 3, 3], stress(&rows)),
+        ],
+        [
+            member("lon", &[2, 3], of_x(&falling)),
+            member("lat", &[2, 3], of_y(&falling)),
+            member("s", &[2, 3, 3], stress(&falling)),
+        ],
+        [
+            member("x", &[3], xs.to_vec()),
+            member("y", &[2], ys.to_vec()),
+            member("s", &[3, 2, 3], stress(&columns)),
+        ],
+        [
+            member("x", &[3, 2], of_x(&columns)),
+            member("y", &[3, 2], of_y(&columns)),
+            member("s", &[3, 2, 3], stress(&columns)),
+        ],
+    ];
+    for (which, members) in archives.iter().enumerate() {
+        let lattice = npy::lattice_of_members(members, ArrayChoice::Usual, Wanted::Tensors).unwrap();
+        let slice = lattice.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap();
+        let tensors: Vec<[f64; 4]> = slice.field.values().iter().map(Tensor2::components).collect();
+        let expected: Vec<[f64; 4]> = falling.iter().map(|&(x, y)| [x, 0.25, 0.25, y]).collect();
+        assert_eq!(tensors, expected, "archive {which}: row 0 is the one of the largest y");
+        let geometry = slice.cut.geometry;
+        assert_eq!(
+            (geometry.corner(), geometry.spacing()),
+            ([10.0, 5.0, 0.0], [0.5, 2.0]),
+            "archive {which}"
+        );
+    }
+    let mut uneven = archives[0].clone();
+    uneven[0] = member("x", &[3], vec![10.0, 10.5, 12.0]);
+    let fault = npy::lattice_of_members(&uneven, ArrayChoice::Usual, Wanted::Tensors);
+    assert!(matches!(fault, Err(IoError::NpzPositions { .. })), "{fault:?}");
+    // Positions of another size place nothing, and that is said.
+    let mut other = archives[0].clone();
+    other[0] = member("x", &[4], vec![0.0; 4]);
+    let lattice = npy::lattice_of_members(&other, ArrayChoice::Usual, Wanted::Tensors).unwrap();
+    assert!(
+        lattice.warnings.iter().any(|w| w.contains("positions x, y left aside")),
+        "{:?}",
+        lattice.warnings
+    );
+}
+
+/// One array at points and one in cells are as ambiguous as two at points.
+#[test]
+fn points_and_cells_are_not_chosen_between() {
+    let mut both = ImageData::empty([4, 3, 1]);
+    both.point_arrays.push(DataArray::new("s", 4, [5.0, 2.0, 2.0, -1.0].repeat(12)));
+    both.cell_arrays.push(DataArray::new("s", 4, [9.0, 0.0, 0.0, 9.0].repeat(6)));
+    for choice in [None, Some("s")] {
+        let fault = lattice_from_image(&both, choice, Wanted::Tensors).unwrap_err().to_string();
+        assert!(fault.contains("`points:s`") && fault.contains("`cells:s`"), "{fault}");
+    }
+    let read = |name| lattice_from_image(&both, Some(name), Wanted::Tensors).map(|l| (l.size, l.values[0]));
+    assert_eq!(read("points:s"), Ok(([4, 3, 1], 5.0)));
+    assert_eq!(read("cells:s"), Ok(([3, 2, 1], 9.0)));
+    assert!(read("cells:t").is_err());
+    // The one that the file marks as its tensors is meant.
+    both.cell_active.tensors = Some("s".to_owned());
+    assert_eq!(lattice_from_image(&both, None, Wanted::Tensors).unwrap().size, [3, 2, 1]);
+    both.point_active.tensors = Some("s".to_owned());
+    assert!(lattice_from_image(&both, None, Wanted::Tensors).is_err());
+}
+
+/// Arrays whose first axis could be the components are said, and refused where the last is a mask and six numbers.
+#[test]
+fn arrays_that_could_have_their_components_first_are_said() {
+    let read = |shape: &[usize]| {
+        let array = npy::write_array(shape, &vec![1.0; shape.iter().product()]).unwrap();
+        npy::read_lattice(&array, Wanted::Tensors).map(|l| l.warnings.len())
+    };
+    assert_eq!(read(&[3, 40, 4]), Ok(1));
+    assert_eq!(read(&[20, 40, 4]), Ok(0));
+    assert!(matches!(read(&[3, 6, 7]), Err(IoError::NpyComponentsFirst { .. })));
+    assert_eq!(read(&[20, 6, 7]), Ok(0));
 }
 
 /// What VTK hides is no data, what it duplicates is.
@@ -254,7 +360,7 @@ fn hidden_points_and_cells_are_masked() {
 
 #[test]
 fn engineering_shears_are_halved_once() {
-    let order = |order| Reading { order: Some(order), shear: Shear::Engineering, ..Reading::default() };
+    let order = |order| Reading { order: Some(order), shear: Some(Shear::Engineering), ..Reading::default() };
     let six =
         lattice_from_image(&image("strain", &[5.0, -1.0, 3.0, 4.0, 0.6, 0.8], &[]), None, Wanted::Tensors)
             .unwrap();
@@ -265,9 +371,13 @@ fn engineering_shears_are_halved_once() {
         None,
         Wanted::Tensors,
     );
-    let volume = plain.unwrap().tensors(Reading { shear: Shear::Engineering, ..Reading::default() }).unwrap();
+    let volume =
+        plain.unwrap().tensors(Reading { shear: Some(Shear::Engineering), ..Reading::default() }).unwrap();
     assert_eq!(volume.stored(0)[..2], [5.0, 2.0]);
-    assert!(volume.suggests_strain());
+    assert!(!volume.suggests_engineering_shears(), "said");
+    let strain = image("strain", &[5.0, -1.0, 3.0, 4.0, 0.6, 0.8], &[]);
+    let open = lattice_from_image(&strain, None, Wanted::Tensors).unwrap();
+    assert!(open.tensors(Reading::default()).unwrap().suggests_engineering_shears());
     let nine = lattice_from_image(&image("strain", &[1.0; 9], &[]), None, Wanted::Tensors).unwrap();
     assert!(matches!(nine.tensors(order("vtk")), Err(IoError::NoSharedShear { .. })));
 }
@@ -356,6 +466,16 @@ fn nrrd_axes_that_are_none_are_refused() {
     let twice =
         nrrd_text("kinds: 3D-symmetric-matrix space space space\nencoding: raw").unwrap_err().to_string();
     assert!(twice.contains("every field once") && twice.contains("encoding"), "{twice}");
+}
+
+/// Seven gradients are not a mask and six components.
+#[test]
+fn nrrd_of_diffusion_weighted_images_is_refused() {
+    for key in ["modality:=DWMRI", "DWMRI_gradient_0000:=1 0 0"] {
+        let fault = nrrd_text(&format!("kinds: list domain domain domain\n{key}")).unwrap_err();
+        assert!(matches!(fault, IoError::NrrdWeighted { .. }), "{fault}");
+        assert!(nrrd_text(&format!("kinds: 3D-symmetric-matrix domain domain domain\n{key}")).is_ok());
+    }
 }
 
 #[test]

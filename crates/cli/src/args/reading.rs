@@ -10,7 +10,7 @@ use tigereye_io::volume::{Axis, ComponentArrays, Crop, Frame, Plane, PlaneChoice
 /// What files do not state, the plane of a volume, and what becomes of its values.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct ReadingArgs {
-    /// Array of a .vti, .vtp, .vtk or .npz to take the tensors from.
+    /// Array of a .vti, .vtp, .vtk or .npz to take the tensors from; points:NAME or cells:NAME where both have one of that name.
     #[arg(long, value_name = "NAME")]
     array: Option<String>,
     /// A tensor from arrays of their own: XX=S_XX,YY=S_YY,XY=S_XY for single numbers, X=T_x,Y=T_y,Z=T_z for rows; with --derive gradient

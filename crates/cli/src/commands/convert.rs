@@ -108,10 +108,10 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 Format::Matrices => matrices::write(&input.field),
                 _ => {
                     let geometry = &input.geometry;
-                    if geometry.is_placed() && geometry.is_oblique() {
+                    if geometry.is_placed() && !geometry.upright().is_placed() {
                         eprintln!(
-                            "{}: the plane is oblique: written in a frame of its own, x right, y up (lines, light and \
-                             gradients lie in the world)",
+                            "{}: the plane does not lie along the world's x and y: written in a frame of its own, x right, y up \
+                             (lines, light and gradients lie in the world)",
                             input.name
                         );
                     }

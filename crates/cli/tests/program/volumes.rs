@@ -38,7 +38,9 @@ fn slices_become_fields_with_up_on_top() {
     // Voxel (2, 1, 1) is the last of all and lies at the top right.
     assert_eq!(*xy.at(Cell::new(2, 0)), Tensor2::symmetric(12.0, 0.0, 20.0));
     assert_eq!(*xy.at(Cell::new(0, 1)), Tensor2::symmetric(7.0, 0.0, 20.0));
-    place.succeeds(&["convert", "v.nrrd", "xz.vti", "--plane", "xz", "--slice", "y=0", "--frame", "voxel"]);
+    let across = ["convert", "v.nrrd", "xz.vti", "--plane", "xz", "--slice", "y=0", "--frame", "voxel"];
+    let run = place.tigereye(&across);
+    assert!(run.code == 0 && run.stderr.contains("written in a frame of its own"), "{}", run.stderr);
     let xz = lattice_from_image(&place.image("xz.vti"), None, Wanted::Tensors).unwrap();
     let xz = xz.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap();
     assert_eq!(xz.field.values()[0], Tensor2::symmetric(7.0, 0.5, 30.0));

@@ -6,8 +6,8 @@ use tigereye_io::volume::{
     Frame, Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
 };
 use tigereye_io::{
-    ArrayChoice, IoError, Limits, ScalarType, Wanted, legacy, matrices, nifti, npy, nrrd, picture,
-    vectors_text, vti, vtp,
+    ArrayChoice, Limits, ScalarType, Wanted, legacy, matrices, nifti, npy, nrrd, picture, vectors_text, vti,
+    vtp,
 };
 
 /// What a data file holds.
@@ -123,7 +123,7 @@ pub fn open(
         let words = tigereye_io::volume::Reading {
             order: reading.order.as_deref(),
             frame: reading.frame,
-            shear: reading.shear.unwrap_or_default(),
+            shear: reading.shear,
         };
         Content::Tensors(lattice.tensors(words)?)
     };
@@ -171,7 +171,7 @@ fn lattice_of(
         }
         "txt" => (TEXT_MATRICES, matrices::read(&bytes).map(|field| Lattice::from_field(&field))),
         "npy" => ("NumPy array", npy::read_lattice(&bytes, wanted)),
-        "npz" => ("NumPy archive", from_archive(&bytes, array, wanted)),
+        "npz" => ("NumPy archive", npy::read_archive(&bytes, array, wanted)),
         "vti" => (
             "VTK image data",
             vti::read_with_limits(&bytes, limits).and_then(|i| lattice_from_image(&i, array, wanted)),
@@ -206,19 +206,6 @@ fn is_table(bytes: &[u8], wanted: Wanted) -> bool {
 /// Whether a file of this name may hold several arrays with names.
 fn has_names(name: &str) -> bool {
     ["npz", "vti", "vtp", "vtk"].contains(&format_of(name).as_str())
-}
-
-fn from_archive(bytes: &[u8], array: ArrayChoice, wanted: Wanted) -> Result<Lattice, IoError> {
-    match array {
-        ArrayChoice::Named(name) => {
-            let member = npy::array_of_archive(bytes, Some(name))?;
-            npy::lattice_of_members(&[member], None, wanted)
-        }
-        ArrayChoice::Components(components) => {
-            npy::lattice_of_members(&npy::arrays_of_archive(bytes)?, Some(components), wanted)
-        }
-        ArrayChoice::Usual => npy::lattice_of_members(&npy::arrays_of_archive(bytes)?, None, wanted),
-    }
 }
 
 /// A file in the folder of another one.
@@ -385,7 +372,13 @@ fn assumptions_of_tensors(volume: &TensorVolume) -> Vec<String> {
                 .to_owned(),
         );
     }
-    if volume.suggests_strain() && !volume.lattice().notes.iter().any(|n| n.contains("engineering")) {
+    if let Some(cosine) = volume.lattice().skew().filter(|_| matches!(frame, Frame::Voxel | Frame::Fsl)) {
+        let degrees = 90.0 - cosine.abs().min(1.0).acos().to_degrees();
+        all.push(format!(
+            "WARNING: the voxel axes are {degrees:.1} degrees off right angles: tensors along them are drawn as if they were square"
+        ));
+    }
+    if volume.suggests_engineering_shears() {
         all.push(
             "the names suggest strains: shears taken as components of the tensor (--shear engineering for gamma = 2 epsilon)"
                 .to_owned(),

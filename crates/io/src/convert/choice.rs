@@ -24,6 +24,16 @@ pub enum Association {
     Cells,
 }
 
+impl Association {
+    /// What stands before the name of an array where both associations have one of that name.
+    const fn prefix(self) -> &'static str {
+        match self {
+            Self::Points => "points:",
+            Self::Cells => "cells:",
+        }
+    }
+}
+
 /// What the tuples of an array are to be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wanted {
@@ -131,8 +141,33 @@ fn all(image: &ImageData) -> impl Iterator<Item = (Association, &DataArray)> {
     BOTH.into_iter().flat_map(|on| of(image, on).0.iter().map(move |a| (on, a)))
 }
 
+/// An array by its name, which `points:` or `cells:` may stand before.
 fn named<'a>(image: &'a ImageData, name: &str) -> Result<(Association, &'a DataArray), IoError> {
-    all(image).find(|(_, a)| a.name == name).ok_or_else(|| missing(image, &format!("array `{name}`")))
+    let called =
+        |name: &str| all(image).filter(|(_, a)| a.name == name).collect::<Vec<(Association, &DataArray)>>();
+    let at_one = || {
+        let (on, rest) = BOTH.into_iter().find_map(|on| Some((on, name.strip_prefix(on.prefix())?)))?;
+        called(rest).into_iter().find(|f| f.0 == on)
+    };
+    match called(name)[..] {
+        [found] => Ok(found),
+        [] => at_one().ok_or_else(|| missing(image, &format!("array `{name}`"))),
+        [..] => Err(ambiguous(called(name))),
+    }
+}
+
+/// The arrays that fit, with their association where they differ in it.
+fn ambiguous<'a>(found: impl IntoIterator<Item = (Association, &'a DataArray)>) -> IoError {
+    let found: Vec<(Association, &DataArray)> = found.into_iter().collect();
+    let differ = found.iter().any(|f| f.0 != found[0].0);
+    let words = |(on, array): &(Association, &DataArray)| {
+        let prefix = if differ { on.prefix() } else { "" };
+        described([&DataArray {
+            name: format!("{prefix}{}", array.name),
+            ..DataArray::new("", array.components, Vec::new())
+        }])
+    };
+    IoError::AmbiguousArray { candidates: found.iter().flat_map(words).collect() }
 }
 
 fn by_components<'a>(image: &'a ImageData, components: &ComponentArrays) -> Result<Found<'a>, IoError> {
@@ -150,26 +185,27 @@ fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
         let active = of(image, *on).1;
         wanted.active(active) == Some(&a.name) && wanted.suits(a, active) > 0
     };
-    if let Some((on, found)) = all(image).find(is_active) {
-        return Ok((on, Cow::Borrowed(found)));
+    let borrowed = |(on, a)| (on, Cow::Borrowed(a));
+    let active: Vec<Found> = all(image).filter(is_active).map(borrowed).collect();
+    if let Some(found) = only(active)? {
+        return Ok(found);
     }
     // Three numbers are a tensor only where nothing else is, at points and cells alike.
     let certain = if wanted == Wanted::Tensors { 2 } else { 1 };
     for least in [certain, 1] {
+        let mut fitting: Vec<Found> = Vec::new();
         for on in BOTH {
             let (arrays, active) = of(image, on);
             let best = arrays.iter().map(|a| wanted.suits(a, active)).max().unwrap_or(0);
             if best >= least {
                 let fits = |a: &&DataArray| wanted.suits(a, active) == best;
-                let candidates: Vec<&DataArray> = arrays.iter().filter(fits).collect();
-                return match candidates[..] {
-                    [found] => Ok((on, Cow::Borrowed(found))),
-                    _ => Err(IoError::AmbiguousArray { candidates: described(candidates) }),
-                };
+                fitting.extend(arrays.iter().filter(fits).map(|a| borrowed((on, a))));
+            } else if let Some(found) = separate(arrays, wanted)? {
+                fitting.push((on, Cow::Owned(found)));
             }
-            if let Some(found) = separate(arrays, wanted)? {
-                return Ok((on, Cow::Owned(found)));
-            }
+        }
+        if let Some(found) = only(fitting)? {
+            return Ok(found);
         }
     }
     let principal = |a: &DataArray| {
@@ -180,6 +216,14 @@ fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
             Err(IoError::Principal { array: a.name.clone(), names: a.component_names.join(", ") })
         }
         None => Err(missing(image, wanted.words())),
+    }
+}
+
+/// The only one of those that fit, where there is any.
+fn only(mut found: Vec<Found>) -> Result<Option<Found>, IoError> {
+    match found.len() {
+        0 | 1 => Ok(found.pop()),
+        _ => Err(ambiguous(found.iter().map(|(on, array)| (*on, array.as_ref())))),
     }
 }
 

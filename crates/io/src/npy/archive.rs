@@ -1,7 +1,10 @@
-//! One array of a `.npz` archive.
+//! The arrays of a `.npz` archive.
 
+use super::lattice_of_members;
+use super::positions::is_position;
 use crate::error::shortened;
-use crate::{IoError, Limits};
+use crate::volume::Lattice;
+use crate::{ArrayChoice, IoError, Limits, Wanted};
 use std::io::{Cursor, Read as _};
 use zip::ZipArchive;
 
@@ -33,14 +36,38 @@ pub fn array_of_archive(bytes: &[u8], name: Option<&str>) -> Result<(String, Vec
     archive.bytes_of(&chosen)
 }
 
+/// A tensor, a vector or a number a cell out of an archive: the array that is chosen, placed by arrays of positions.
+///
+/// # Errors
+/// As [`arrays_of_archive`] and [`super::lattice_of_members`].
+pub fn read_archive(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice, IoError> {
+    let ArrayChoice::Named(name) = choice else {
+        return lattice_of_members(&arrays_of_archive(bytes)?, choice, wanted);
+    };
+    // Of a large archive only what is asked for is unpacked.
+    let member = array_of_archive(bytes, Some(name))?;
+    let named = member.0.clone();
+    let mut members = files_of_archive(bytes, |file| is_position(plain(file)) && plain(file) != named)?;
+    members.push(member);
+    lattice_of_members(&members, ArrayChoice::Named(&named), wanted)
+}
+
 /// Names and bytes of all `.npy` files of an archive.
 ///
 /// # Errors
 /// [`IoError::Archive`], and [`IoError::TooManyValues`] for more bytes together than the default limit of one array.
 pub fn arrays_of_archive(bytes: &[u8]) -> Result<Vec<(String, Vec<u8>)>, IoError> {
+    let all = files_of_archive(bytes, |_| true)?;
+    if all.is_empty() { Err(fault(Archive::open(bytes)?.listed(), "at least one")) } else { Ok(all) }
+}
+
+fn files_of_archive(
+    bytes: &[u8],
+    is_wanted: impl Fn(&str) -> bool,
+) -> Result<Vec<(String, Vec<u8>)>, IoError> {
     let mut archive = Archive::open(bytes)?;
     let (mut all, mut total) = (Vec::new(), 0_u64);
-    for file in archive.files.clone() {
+    for file in archive.files.clone().into_iter().filter(|file| is_wanted(file)) {
         let (name, data) = archive.bytes_of(&file)?;
         total += data.len() as u64;
         let limit = Limits::default().values;
@@ -49,7 +76,7 @@ pub fn arrays_of_archive(bytes: &[u8]) -> Result<Vec<(String, Vec<u8>)>, IoError
         }
         all.push((name, data));
     }
-    if all.is_empty() { Err(fault(archive.listed(), "at least one")) } else { Ok(all) }
+    Ok(all)
 }
 
 /// An archive that is open, and the names of its `.npy` files.

@@ -1,7 +1,8 @@
 //! Arrays of many shapes as lattices.
 
+use super::positions::{self, Positions};
 use super::{NpyArray, read_array};
-use crate::volume::{ComponentArrays, Content, Lattice, World};
+use crate::volume::{Content, Lattice, World};
 use crate::{ArrayChoice, DataArray, ImageData, IoError, Wanted, choose_array};
 
 /// How the axes of an array lie: rows and columns of a picture, or three axes of a volume; and the numbers of a tuple.
@@ -62,6 +63,19 @@ fn has_components_first(shape: &[usize], wanted: Wanted) -> bool {
     Layout::of(&moved, wanted).is_some()
 }
 
+/// Whether an array that is read with its components last would as well be one with a tuple's numbers first: as few rows as a
+/// tuple has numbers.
+fn could_have_components_first(shape: &[usize], wanted: Wanted) -> bool {
+    let is_tuple = match (wanted, shape) {
+        (Wanted::Tensors, [first, _, _]) => matches!(first, 3 | 4 | 6 | 9),
+        (Wanted::Tensors, [first, _, _, _]) => matches!(first, 6 | 9),
+        (Wanted::Vectors, [first, _, _]) => matches!(first, 2 | 3),
+        (Wanted::Vectors, [first, _, _, _]) => *first == 3,
+        _ => false,
+    };
+    is_tuple && has_components_first(shape, wanted)
+}
+
 /// Reads an array of a shape that the module lists. Pictures have row 0 on top and components in the frame x right, y up;
 /// volumes have components along their own axes.
 ///
@@ -77,6 +91,15 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
             IoError::NpyShape { shape, expected: expected(wanted) }
         });
     };
+    // A mask before six numbers is rarer than an array of seven columns.
+    let components_first = has_components_first(&shape, wanted);
+    if components_first && shape.last() == Some(&7) {
+        return Err(IoError::NpyComponentsFirst { shape });
+    }
+    let warnings = could_have_components_first(&shape, wanted).then(|| {
+        let (first, last) = (shape[0], shape[shape.len() - 1]);
+        format!("the first axis (size {first}) could be the components as well as the last ({last}), which was taken")
+    });
     let (size, tuple, down, values, content, note) = match layout {
         Layout::Picture { height, width, tuple, content } => {
             let note = "indexed [row][column], row 0 on top, in the frame x right, y up";
@@ -103,27 +126,64 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
         array: format!("array of shape {shape:?}"),
         component_names: Vec::new(),
         notes: vec![note.to_owned()],
-        warnings: Vec::new(),
+        warnings: warnings.into_iter().collect(),
     })
 }
 
-/// Names of arrays that say where cells lie, which archives of NumPy have no rule for.
-const POSITIONS: [&str; 12] =
-    ["x", "y", "z", "xs", "ys", "lon", "lat", "points", "coords", "extent", "spacing", "origin"];
-
-/// Takes an array out of the arrays of an archive, by name and bytes: the named one, the only one that fits, or the one whose components
-/// are arrays of their own.
+/// Takes an array out of the arrays of an archive, by name and bytes: the named one, the only one that fits, or the one whose
+/// components are arrays of their own. Arrays of positions ([`Positions`]) place it; the others are said to be left aside.
 ///
 /// # Errors
-/// As [`read_lattice`] for the named or only array, and as [`crate::volume::lattice_from_image`] for one out of several.
+/// As [`read_lattice`] for the named or only array, as [`crate::volume::lattice_from_image`] for one out of several, and
+/// [`IoError::NpzPositions`].
 pub fn lattice_of_members(
     members: &[(String, Vec<u8>)],
-    components: Option<&ComponentArrays>,
+    choice: ArrayChoice,
     wanted: Wanted,
 ) -> Result<Lattice, IoError> {
-    if let ([(name, bytes)], None) = (members, components) {
-        return read_lattice(bytes, wanted).map(|lattice| Lattice { array: name.clone(), ..lattice });
+    let named = |name: &str| members.iter().find(|(n, _)| n == name);
+    let (used, lattice) = match (members, choice) {
+        (_, ArrayChoice::Named(name)) => {
+            let missing = || IoError::NoArray {
+                wanted: format!("array `{name}`"),
+                available: members.iter().map(|(n, _)| format!("`{n}`")).collect(),
+            };
+            let (name, bytes) = named(name).ok_or_else(missing)?;
+            (vec![name.clone()], Lattice { array: name.clone(), ..read_lattice(bytes, wanted)? })
+        }
+        ([(name, bytes)], ArrayChoice::Usual) => {
+            (vec![name.clone()], Lattice { array: name.clone(), ..read_lattice(bytes, wanted)? })
+        }
+        (_, ArrayChoice::Usual | ArrayChoice::Components(_)) => out_of_several(members, choice, wanted)?,
+    };
+    let positions = Positions::among(members, &used, &lattice);
+    let mut lattice = match &positions {
+        Some(positions) => positions.place(lattice)?,
+        None => lattice,
+    };
+    let placing = positions.map(|p| p.names).unwrap_or_default();
+    let aside: Vec<&str> = members
+        .iter()
+        .map(|(name, _)| name.as_str())
+        .filter(|n| !used.iter().chain(&placing).any(|u| u == n))
+        .collect();
+    if !aside.is_empty() {
+        lattice.notes.push(format!("other arrays left aside: {}", aside.join(", ")));
     }
+    let unplaced: Vec<&str> = aside.into_iter().filter(|n| positions::is_position(n)).collect();
+    if !unplaced.is_empty() {
+        let names = unplaced.join(", ");
+        lattice.warnings.push(format!("positions {names} left aside: cells of size 1, row 0 on top"));
+    }
+    Ok(lattice)
+}
+
+/// The array that suits, or that its components make up, and the names of what it was made of.
+fn out_of_several(
+    members: &[(String, Vec<u8>)],
+    choice: ArrayChoice,
+    wanted: Wanted,
+) -> Result<(Vec<String>, Lattice), IoError> {
     let any = |bytes: &[u8]| {
         [wanted, Wanted::Scalars, Wanted::Vectors].into_iter().find_map(|w| read_lattice(bytes, w).ok())
     };
@@ -131,25 +191,22 @@ pub fn lattice_of_members(
         members.iter().filter_map(|(name, bytes)| Some((name, any(bytes)?))).collect();
     let mut image = ImageData::empty([1; 3]);
     for (name, lattice) in &read {
+        // Positions are not the data; their components would be taken for vectors.
+        if positions::is_position(name) && matches!(choice, ArrayChoice::Usual) {
+            continue;
+        }
         let array = DataArray::new(name, lattice.components, lattice.values.clone());
         image.point_arrays.push(DataArray { scalar: lattice.scalar, ..array });
     }
-    let choice = components.map_or(ArrayChoice::Usual, ArrayChoice::Components);
     let (_, array) = choose_array(&image, choice, wanted)?;
-    let is_position = |name: &str| POSITIONS.iter().any(|p| name.eq_ignore_ascii_case(p));
-    let aside: Vec<&str> = members.iter().map(|(name, _)| name.as_str()).filter(|n| is_position(n)).collect();
-    let warnings = if aside.is_empty() {
-        Vec::new()
-    } else {
-        vec![format!("positions {} left aside: cells of size 1, row 0 on top", aside.join(", "))]
-    };
     if let Some((name, lattice)) = read.iter().find(|(name, _)| **name == array.name) {
-        return Ok(Lattice { array: (*name).clone(), warnings, ..lattice.clone() });
+        return Ok((vec![array.name.clone()], Lattice { array: (*name).clone(), ..lattice.clone() }));
     }
-    let first = array.name.split(", ").next().unwrap_or_default();
-    let place = read.iter().find(|(name, _)| *name == first).map(|(_, lattice)| lattice.clone());
+    let used: Vec<String> = array.name.split(", ").map(str::to_owned).collect();
+    let first = read.iter().find(|(name, _)| used.first() == Some(name));
     let missing = || IoError::NoArray { wanted: "array".to_owned(), available: Vec::new() };
-    Ok(Lattice { warnings, ..place.ok_or_else(missing)?.with_array(array.into_owned()) })
+    let (_, first) = first.ok_or_else(missing)?;
+    Ok((used, first.clone().with_array(array.into_owned())))
 }
 
 /// From `[x][y][z][component]` to tuples with x fastest.

@@ -10,14 +10,18 @@
 //! | (X, Y, Z, 3, 3), (X, Y, Z, 9), (X, Y, Z, 6), (X, Y, Z, 7) | a volume, indexed `[x][y][z]` as nibabel and dipy have it |
 //! | (H, W), (X, Y, Z) | single numbers, where they are wanted |
 //! | (H, W, 2), (H, W, 3), (X, Y, Z, 3) | vectors, where they are wanted |
+//!
+//! Archives may hold positions beside the data: x and y (and z), one number a cell or one a column and row, as
+//! `numpy.meshgrid` takes and makes them. They place the cells, so that what has the largest y is on top.
 
 mod archive;
 mod header;
 mod lattice;
+mod positions;
 mod read;
 mod write;
 
-pub use archive::{array_of_archive, arrays_of_archive};
+pub use archive::{array_of_archive, arrays_of_archive, read_archive};
 pub use lattice::{lattice_of_members, read_lattice};
 pub use read::{NpyArray, read_array, read_tensors};
 pub use write::{write_array, write_light, write_ltg, write_tensors};

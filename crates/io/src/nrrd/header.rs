@@ -55,6 +55,8 @@ pub(super) struct Header {
     centerings: Vec<String>,
     origin: Option<[f64; 3]>,
     limits: Limits,
+    /// The line that says that the numbers are diffusion-weighted images.
+    weighted: Option<usize>,
     /// Lines of the header.
     lines: usize,
 }
@@ -69,9 +71,14 @@ struct Entry<'a> {
 /// All lines, and where the data begin.
 struct Fields<'a> {
     entries: Vec<Entry<'a>>,
+    /// The line that says that the numbers are diffusion-weighted images, not tensors.
+    weighted: Option<usize>,
     lines: usize,
     end: usize,
 }
+
+/// How keys and values begin that say so (NA-MIC, "Nrrd format for diffusion-weighted images").
+const WEIGHTED: [&str; 2] = ["modality:=dwmri", "dwmri_"];
 
 impl<'a> Fields<'a> {
     fn parse(bytes: &'a [u8]) -> Result<Self, IoError> {
@@ -87,6 +94,7 @@ impl<'a> Fields<'a> {
         }
         let (mut at, mut line) = (0, 0);
         let mut entries: Vec<Entry> = Vec::new();
+        let mut weighted = None;
         loop {
             let rest = &bytes[at..];
             line += 1;
@@ -99,15 +107,19 @@ impl<'a> Fields<'a> {
                 if !rest.is_empty() {
                     entries.extend(Self::entry(rest, line)?);
                 }
-                return Ok(Self { entries, lines: line, end: bytes.len() });
+                return Ok(Self { entries, weighted, lines: line, end: bytes.len() });
             };
             let text = rest[..length].strip_suffix(b"\r").unwrap_or(&rest[..length]);
             at += length + 1;
             if text.is_empty() {
-                return Ok(Self { entries, lines: line, end: at });
+                return Ok(Self { entries, weighted, lines: line, end: at });
             }
             if line > 1 {
                 entries.extend(Self::entry(text, line)?);
+                let begins = |key: &&str| {
+                    text.get(..key.len()).is_some_and(|t| t.eq_ignore_ascii_case(key.as_bytes()))
+                };
+                weighted = weighted.or_else(|| WEIGHTED.iter().any(|key| begins(&key)).then_some(line));
             }
         }
     }
@@ -246,6 +258,7 @@ impl Header {
                 .map_or_else(Vec::new, |e| e.value.split_whitespace().map(str::to_owned).collect()),
             origin: fields.get(&["spaceorigin"]).map(origin).transpose()?.flatten(),
             limits,
+            weighted: fields.weighted,
             lines: fields.lines,
         })
     }
@@ -283,6 +296,9 @@ impl Header {
                 }
             },
             (Wanted::Tensors, [(axis, kind)]) => (*axis, Some(*kind)),
+            (Wanted::Tensors, []) if let Some(line) = self.weighted => {
+                return Err(IoError::NrrdWeighted { line });
+            }
             (Wanted::Tensors, []) => {
                 let axis = self.axis_of_numbers();
                 (axis.ok_or_else(|| fault(&self.kinds.join(" "), KIND_NAMES))?, None)

@@ -207,8 +207,8 @@ pub struct Reading<'a> {
     pub order: Option<&'a str>,
     /// The frame of the components.
     pub frame: Option<Frame>,
-    /// What shear components are.
-    pub shear: Shear,
+    /// What shear components are; those of the tensor where nobody says so.
+    pub shear: Option<Shear>,
 }
 
 /// Tensors on a lattice, with what was read and what was assumed.
@@ -217,6 +217,7 @@ pub struct TensorVolume {
     lattice: Lattice,
     order: (TensorOrder, Known),
     frame: (Frame, Known),
+    shear: (Shear, Known),
 }
 
 impl Lattice {
@@ -265,10 +266,11 @@ impl Lattice {
         if frame.0 == Frame::Measurement && self.measurement.is_none() {
             return Err(IoError::NoMeasurementFrame);
         }
-        if reading.shear == Shear::Engineering {
+        if reading.shear == Some(Shear::Engineering) {
             self.halve_shears(order.0)?;
         }
-        Ok(TensorVolume { lattice: self, order, frame })
+        let shear = reading.shear.map_or((Shear::Tensor, Known::Assumed), |shear| (shear, Known::Given));
+        Ok(TensorVolume { lattice: self, order, frame, shear })
     }
 
     /// The same lattice with the numbers of an array that names its components.
@@ -486,10 +488,17 @@ impl Lattice {
     }
 
     fn orthogonal_directions(&self) -> Result<[f64; 9], IoError> {
+        self.skew().map_or_else(|| Ok(self.directions()), |off| Err(IoError::SkewedAxes { off }))
+    }
+
+    /// The largest cosine between two voxel axes, where they are not at right angles.
+    #[must_use]
+    pub fn skew(&self) -> Option<f64> {
         let d = self.directions();
         let cosine = |a: usize, b: usize| (d[a] * d[b] + d[a + 3] * d[b + 3] + d[a + 6] * d[b + 6]).abs();
         let off = cosine(0, 1).max(cosine(0, 2)).max(cosine(1, 2));
-        if off <= ORTHOGONAL { Ok(d) } else { Err(IoError::SkewedAxes { off }) }
+        // What is no number is no right angle.
+        (off.is_nan() || off > ORTHOGONAL).then_some(off)
     }
 }
 
@@ -567,11 +576,13 @@ impl TensorVolume {
         (self.order.1 == Known::Given && stated != self.order.0).then_some(stated)
     }
 
-    /// Whether a name suggests strains, whose shears may be engineering ones, while a shear is one number.
+    /// Whether a name suggests strains, whose shears may be engineering ones, while a shear is one number and nobody says
+    /// what it is.
     #[must_use]
-    pub fn suggests_strain(&self) -> bool {
+    pub fn suggests_engineering_shears(&self) -> bool {
         let names = self.lattice.component_names.iter().chain([&self.lattice.array]);
-        self.order.0.has_shared_shears() && names.into_iter().any(|n| names::names_strain(n))
+        let is_open = self.shear.1 != Known::Given && self.order.0.has_shared_shears();
+        is_open && names.into_iter().any(|n| names::names_strain(n))
     }
 
     /// Voxels whose mask is zero.

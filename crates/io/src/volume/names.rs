@@ -44,13 +44,34 @@ impl Pair {
 
 /// Lower-case runs of letters and digits.
 fn words_of(name: &str) -> Vec<String> {
-    let name = name.to_lowercase();
+    let name = name.to_lowercase().replace('∂', "d");
     name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_owned).collect()
+}
+
+/// The pair of a derivative, `dudx`, `du_dy`, `dvx/dx`, `∂v/∂y`: component before direction, as rows and columns of a gradient.
+fn derivative_of(words: &[String]) -> Option<(Pair, String)> {
+    let letters: Vec<char> = words.concat().chars().collect();
+    let is_d = |c: &char| *c == 'd';
+    let [first, component @ .., second, direction] = &letters[..] else { return None };
+    if !(is_d(first) && is_d(second)) {
+        return None;
+    }
+    let component = match component {
+        ['u' | 'x'] => 'x',
+        ['v' | 'y'] => 'y',
+        ['w' | 'z'] => 'z',
+        ['u' | 'v', axis] => *axis,
+        _ => return None,
+    };
+    Some((Pair::of(component, *direction)?, "gradient".to_owned()))
 }
 
 /// The index pair at the end of a name, or alone at its beginning, and what stands before it (or after it).
 fn pair_of(name: &str) -> Option<(Pair, String)> {
     let words = words_of(name);
+    if let Some(derivative) = derivative_of(&words) {
+        return Some(derivative);
+    }
     let rest = |kept: &[String]| kept.join("_");
     let (last, before) = words.split_last()?;
     let letters: Vec<char> = last.chars().collect();
@@ -253,6 +274,15 @@ mod tests {
         ] {
             assert_eq!(Ok(named(names)), voigt, "{names}");
         }
+        let gradient = TensorOrder::parse("xx,xy,yx,yy", 4).map(Naming::Tensor);
+        for names in [
+            "dudx dudy dvdx dvdy",
+            "du/dx du/dy dv/dx dv/dy",
+            "dUx_dx dUx_dy dUy_dx dUy_dy",
+            "∂u/∂x ∂u/∂y ∂v/∂x ∂v/∂y",
+        ] {
+            assert_eq!(Ok(named(names)), gradient, "{names}");
+        }
         let plane = TensorOrder::parse("xx,yy,xy", 3).map(Naming::Tensor);
         for names in ["11 22 12", "00 11 01", "max_xx max_yy max_xy"] {
             assert_eq!(Ok(named(names)), plane, "{names}");
@@ -288,6 +318,8 @@ mod tests {
         assert_eq!(shear.len(), 1);
         let rows = row_groups(&["T_y", "grad", "T_x", "T_z"], 3);
         assert_eq!(rows, [[2, 0, 3]]);
+        let gradient = groups(&["u", "dvdy", "dvdx", "dudy", "dudx"]);
+        assert_eq!((gradient.len(), gradient[0].order.to_string()), (1, "yy,yx,xy,xx".to_owned()));
         assert!(row_groups(&["u_x", "u_y"], 3).is_empty());
         for others in [["V1", "V2", "V3"], ["vel_0", "vel_1", "vel_2"], ["d_dx", "d_dy", "d_dz"]] {
             assert!(row_groups(&others, 3).is_empty(), "{others:?}");

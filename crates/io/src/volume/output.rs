@@ -1,7 +1,7 @@
 //! What writers of volumes share.
 
 use super::{
-    Frame, IDENTITY, Known, Lattice, PlaneGeometry, TensorOrder, TensorVolume, World, product, turned,
+    Frame, IDENTITY, Known, Lattice, PlaneGeometry, Shear, TensorOrder, TensorVolume, World, product, turned,
 };
 use crate::{IoError, ScalarType};
 use tigereye_core::{Field, Tensor2};
@@ -52,8 +52,8 @@ impl TensorVolume {
             world: World::Viewer,
             ..Lattice::from_field(field)
         };
-        let (order, frame) = (TensorOrder::ROWS2, lattice.frame);
-        Self { lattice, order: (order, Known::Stated), frame }
+        let (order, frame) = ((TensorOrder::ROWS2, Known::Stated), lattice.frame);
+        Self { lattice, order, frame, shear: (Shear::Tensor, Known::Stated) }
     }
 
     /// The same tensors in a world of another name.

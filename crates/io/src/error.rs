@@ -503,7 +503,9 @@ pub enum IoError {
         expected: &'static str,
     },
     /// Tuples that make no tensor without being told how.
-    #[error("`{array}` has {components} components: expected a tensor of 9, 6, 4 or 3 (or 7 with a mask)")]
+    #[error(
+        "`{array}` has {components} components and nothing says that they are a tensor's: expected 9, 6, 4 or 3 (or 7 with a mask), 3 or 4 with their order"
+    )]
     NoTensor {
         /// Name of the array or kind.
         array: String,
@@ -519,7 +521,7 @@ pub enum IoError {
         names: String,
     },
     /// Arrays that are no components of one tensor.
-    #[error("the components `{first}` and others do not fit together: expected arrays of one number (or rows of equal length) on the same points, found {}", found.join(", "))]
+    #[error("the components `{first}` and others do not fit together: expected arrays of one number, or as many rows as each has numbers, on the same points, found {}", found.join(", "))]
     UnequalComponents {
         /// Name of the first array.
         first: String,

@@ -29,7 +29,7 @@ mod points;
 mod polydata;
 pub mod pvd;
 mod scalar;
-pub mod vectors_text;
+pub mod table;
 pub mod volume;
 pub mod vti;
 pub mod vtp;

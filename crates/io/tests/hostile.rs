@@ -12,7 +12,7 @@ use tigereye_io::volume::{
     points_from_image,
 };
 use tigereye_io::{
-    DataArray, ImageData, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, vectors_text, vti, vtp,
+    DataArray, ImageData, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, table, vti, vtp,
 };
 
 #[test]
@@ -234,12 +234,12 @@ fn small_table() -> Vec<u8> {
 #[test]
 fn tables_of_vectors_take_no_more_than_their_lines() {
     let far: String = (0..1000).map(|i| format!("{i} {i} 1 2\n")).collect();
-    let message = vectors_text::read(far.as_bytes()).unwrap_err().to_string();
+    let message = table::read_vectors(far.as_bytes()).unwrap_err().to_string();
     assert!(message.contains("1000 vectors on a lattice of 1000 x 1000 positions"), "{message}");
-    assert!(!vectors_text::is_table(far.as_bytes()));
+    assert_ne!(table::kind(far.as_bytes()), table::Kind::Positions);
     for text in ["0 0 1 2\n1e308 -1e308 1 2\n-1e308 1e308 1 2\n", "x y u v\n1 2\n"] {
-        let _ = vectors_text::is_table(text.as_bytes());
-        assert!(vectors_text::read(text.as_bytes()).is_err(), "{text}");
+        let _ = table::kind(text.as_bytes());
+        assert!(table::read_vectors(text.as_bytes()).is_err(), "{text}");
     }
 }
 
@@ -361,11 +361,14 @@ fn read_as_everything(bytes: &[u8]) {
         vtp::read_with_limits(bytes, limits)
             .and_then(|data| lattice_from_points(data, None, Wanted::Tensors)),
     ];
-    let _ = vectors_text::is_table(bytes);
-    if let Ok(lattice) = vectors_text::read(bytes) {
+    let _ = table::kind(bytes);
+    if let Ok(lattice) = table::read_vectors(bytes) {
         assert_eq!(lattice.values.len(), 2 * lattice.voxels());
         let _ = (lattice.vectors(PlaneChoice::default(), None), lattice.story());
     }
+    let _ = matrices::read_lattice(bytes, Wanted::Scalars);
+    let columns = table::read_columns(bytes, None.into(), Wanted::Tensors);
+    let volumes = volumes.into_iter().chain([columns]);
     for lattice in volumes.into_iter().flatten() {
         if let Ok(volume) = lattice.tensors(Reading::default()) {
             let choice = PlaneChoice { plane: None, slice: Some((Axis::Z, 0)) };

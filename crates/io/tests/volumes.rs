@@ -351,6 +351,7 @@ fn volume() -> TensorVolume {
         array: "t".to_owned(),
         component_names: Vec::new(),
         notes: Vec::new(),
+        remarks: Vec::new(),
         warnings: Vec::new(),
     };
     lattice.tensors(Reading::default()).unwrap()
@@ -438,6 +439,7 @@ fn scalars(size: [usize; 3], axes: [[f64; 3]; 3], origin: [f64; 3], world: &str)
         array: "m".to_owned(),
         component_names: Vec::new(),
         notes: Vec::new(),
+        remarks: Vec::new(),
         warnings: Vec::new(),
     }
 }

@@ -7,7 +7,7 @@ use crate::input::{Input, Source, insert_reading};
 use crate::{files, interrupt};
 use serde_json::json;
 use tigereye_core::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
-use tigereye_experiments::input::{Content, Reading, TensorFile, finite_volume, format_of};
+use tigereye_experiments::input::{Content, Reading, TensorFile, finite_volume, format_of, not_finite_words};
 use tigereye_experiments::provenance::provenance;
 use tigereye_io::volume::{Frame, Known, PlaneChoice, TensorVolume, image_from_volume, points_from_image};
 use tigereye_io::{DataArray, ImageData, IoError, ScalarType, legacy, matrices, nifti, npy, nrrd, vti, vtp};
@@ -87,8 +87,16 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             if !format.is_flat() && is_whole(&volume, &reading) =>
         {
             remarks.iter().for_each(|line| eprintln!("{name}: {line}"));
+            if reading.zero_not_finite
+                && let Some((_, count)) = volume.not_finite()
+            {
+                eprintln!("{name}: {}", not_finite_words(count));
+            }
             let volume = finite_volume(volume, &reading).map_err(|e| CliError::input(&name, e))?;
             let frame = if reading.frame == Some(Frame::Voxel) { Frame::Voxel } else { Frame::World };
+            if let Some(words) = unplaced(format, &volume, frame) {
+                eprintln!("{name}: {words}");
+            }
             // What the file states about its components stands; the option says how they are written.
             encoded(format, &volume.as_stated(), frame, args, &blake3)
         }
@@ -103,6 +111,13 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             }
             let input = Input::of(source, &args.reading)?;
             input.tell();
+            if format.is_flat() && input.geometry.is_placed() && input.geometry.is_oblique() {
+                eprintln!(
+                    "{}: the plane is oblique, and the format has no place for its axes: components along those of the picture, x \
+                     right, y up",
+                    input.name
+                );
+            }
             match format {
                 Format::Numpy => Ok(npy::write_tensors(&input.field)),
                 Format::Matrices => matrices::write(&input.field),
@@ -130,6 +145,16 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
     interrupt::check()?;
     files::write(&args.output, &bytes)?;
     Ok(0)
+}
+
+/// What is said where a volume is written along its own axes, without its place in the world.
+fn unplaced(format: Format, volume: &TensorVolume, frame: Frame) -> Option<&'static str> {
+    let lattice = volume.lattice();
+    let is_placed = lattice.origin != [0.0; 3] || lattice.has_turned_axes();
+    (format.has_arrays() && frame == Frame::Voxel && is_placed).then_some(
+        "components along the voxel axes, which are x, y and z of what is written: origin and directions are left out (--frame \
+         world keeps them)",
+    )
 }
 
 /// A volume in one of the formats that hold volumes.

@@ -95,6 +95,18 @@ impl Place {
         run
     }
 
+    /// Runs a command that must succeed and say some words on standard error.
+    #[track_caller]
+    pub(crate) fn says(&self, args: &[&str], words: &str) -> Run {
+        let run = self.tigereye(args);
+        assert!(
+            run.code == 0 && run.stderr.contains(words),
+            "{args:?} says\n{}\nbut not {words:?}",
+            run.stderr
+        );
+        run
+    }
+
     /// Runs a command that must be refused: exit code 2, one message on standard error that holds all of `words`,
     /// nothing on standard output, and every file as it was.
     #[track_caller]

@@ -6,8 +6,8 @@ use tigereye_io::volume::{
     Frame, Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
 };
 use tigereye_io::{
-    ArrayChoice, Limits, ScalarType, Wanted, legacy, matrices, nifti, npy, nrrd, picture, vectors_text, vti,
-    vtp,
+    ArrayChoice, IoError, Limits, ScalarType, Wanted, legacy, matrices, nifti, npy, nrrd, picture, table,
+    vti, vtp,
 };
 
 /// What a data file holds.
@@ -41,8 +41,11 @@ pub enum Content {
 /// Text matrices: their tensors are normalised cell by cell where nobody says otherwise.
 pub const TEXT_MATRICES: &str = "text matrices";
 
-/// Endings of text that can only be a table of vectors.
-const VECTOR_TABLES: [&str; 4] = ["csv", "dat", "vec", "jvc"];
+/// A table, one point a line.
+const TABLE: &str = "table";
+
+/// Endings of text that can only be a table.
+const TABLES: [&str; 4] = ["csv", "dat", "vec", "jvc"];
 
 /// The ending that tells the format, in lower case: `nii.gz` or what stands behind the last dot; empty without a dot.
 #[must_use]
@@ -59,7 +62,7 @@ pub fn format_of(name: &str) -> String {
 pub fn is_readable(name: &str) -> bool {
     let formats = ["txt", "npy", "npz", "vti", "vtp", "vtk", "nrrd", "nhdr", "nii", "nii.gz", "png"];
     let format = format_of(name);
-    formats.contains(&format.as_str()) || VECTOR_TABLES.contains(&format.as_str())
+    formats.contains(&format.as_str()) || TABLES.contains(&format.as_str())
 }
 
 /// Reads a file of any format by its ending. `bytes_of` gives the bytes of a file by its name: this one, the data file of
@@ -158,18 +161,18 @@ fn lattice_of(
         ArrayChoice::Named(_) => Some("--array"),
         ArrayChoice::Components(_) => Some("--components"),
     };
+    let nameless = |option| InputError::Needless { option, why: "the format has no names for arrays" };
     if let Some(option) = option.filter(|_| !has_names(name)) {
-        return Err(InputError::Needless { option, why: "the format has no names for arrays" });
+        return Err(nameless(option));
     }
     let bytes = read(name)?;
     let (kind, lattice) = match format_of(name).as_str() {
-        format if VECTOR_TABLES.contains(&format) || (format == "txt" && is_table(&bytes, wanted)) => {
-            if wanted != Wanted::Vectors {
-                return Err(InputError::VectorTable);
-            }
-            ("table of vectors", vectors_text::read(&bytes))
+        format if TABLES.contains(&format) => (TABLE, of_table(&bytes, array, wanted)?),
+        "txt" if wanted == Wanted::Vectors || table::kind(&bytes) != table::Kind::Other => {
+            (TABLE, of_table(&bytes, array, wanted)?)
         }
-        "txt" => (TEXT_MATRICES, matrices::read(&bytes).map(|field| Lattice::from_field(&field))),
+        "txt" if let Some(option) = option => return Err(nameless(option)),
+        "txt" => (TEXT_MATRICES, matrices::read_lattice(&bytes, wanted)),
         "npy" => ("NumPy array", npy::read_lattice(&bytes, wanted)),
         "npz" => ("NumPy archive", npy::read_archive(&bytes, array, wanted)),
         "vti" => (
@@ -198,14 +201,29 @@ fn lattice_of(
     Ok((kind, lattice?, bytes))
 }
 
-/// Whether a text holds vectors at positions; where vectors are wanted, nothing else would do.
-fn is_table(bytes: &[u8], wanted: Wanted) -> bool {
-    wanted == Wanted::Vectors || vectors_text::is_table(bytes)
+/// What a table holds: vectors by names or places, anything else by the names of its columns.
+fn of_table(
+    bytes: &[u8],
+    array: ArrayChoice,
+    wanted: Wanted,
+) -> Result<Result<Lattice, IoError>, InputError> {
+    if wanted == Wanted::Vectors && matches!(array, ArrayChoice::Usual) {
+        return Ok(table::read_vectors(bytes));
+    }
+    match table::read_columns(bytes, array, wanted) {
+        // Vectors are read without names, too; of tensors nobody knows which columns they are.
+        Err(IoError::TableHeader { .. }) if table::kind(bytes) != table::Kind::Named => {
+            Err(InputError::UnnamedTable)
+        }
+        Err(IoError::NoArray { .. }) if table::read_vectors(bytes).is_ok() => Err(InputError::VectorTable),
+        other => Ok(other),
+    }
 }
 
 /// Whether a file of this name may hold several arrays with names.
 fn has_names(name: &str) -> bool {
-    ["npz", "vti", "vtp", "vtk"].contains(&format_of(name).as_str())
+    let format = format_of(name);
+    ["npz", "vti", "vtp", "vtk", "txt"].contains(&format.as_str()) || TABLES.contains(&format.as_str())
 }
 
 /// A file in the folder of another one.
@@ -315,7 +333,13 @@ impl TensorFile {
     pub fn remarks(&self) -> Vec<String> {
         let warnings = self.lattice().warnings.iter().cloned().chain(self.warning());
         let warnings = warnings.map(|w| format!("WARNING: {w}"));
-        self.assumptions().into_iter().chain(warnings).chain(self.mask_elsewhere.clone()).collect()
+        let said = self.lattice().remarks.iter().cloned();
+        self.assumptions()
+            .into_iter()
+            .chain(said)
+            .chain(warnings)
+            .chain(self.mask_elsewhere.clone())
+            .collect()
     }
 }
 
@@ -331,6 +355,25 @@ fn asymmetric_share(volume: &TensorVolume) -> f64 {
         (t[1] - t[3]).abs() > ASYMMETRIC * largest
     };
     volume.tensors().filter(differs).count() as f64 / volume.lattice().voxels().max(1) as f64
+}
+
+/// Numbers that stand for missing data, as geodata, NetCDF's defaults and finite-element exports have them.
+const FILLS: [f64; 7] = [-9999.0, -999.0, -99999.0, 9999.0, 1e20, -32768.0, 9.969_209_968_386_869e36];
+/// Relative difference of a number from a fill that counts as rounding to single precision.
+const FILL_ROUNDING: f64 = 1e-6;
+
+/// The fill that tensors have for every component, and how many have it.
+fn filled(volume: &TensorVolume) -> Option<(f64, usize)> {
+    let lattice = volume.lattice();
+    let tuples = lattice.values.chunks_exact(lattice.components.max(1)).enumerate();
+    let is = |fill: f64, v: f64| (v - fill).abs() <= FILL_ROUNDING * fill.abs();
+    let count = |fill: f64| {
+        tuples
+            .clone()
+            .filter(|(voxel, t)| !volume.is_masked(*voxel) && t.iter().all(|&v| is(fill, v)))
+            .count()
+    };
+    FILLS.into_iter().map(|fill| (fill, count(fill))).find(|(_, n)| *n > 0)
 }
 
 /// What was assumed about tensors, with the option that says it.
@@ -376,6 +419,11 @@ fn assumptions_of_tensors(volume: &TensorVolume) -> Vec<String> {
         let degrees = 90.0 - cosine.abs().min(1.0).acos().to_degrees();
         all.push(format!(
             "WARNING: the voxel axes are {degrees:.1} degrees off right angles: tensors along them are drawn as if they were square"
+        ));
+    }
+    if let Some((value, count)) = filled(volume) {
+        all.push(format!(
+            "WARNING: {count} tensors have {value} for every component, as missing data have: a --mask leaves them out"
         ));
     }
     if volume.suggests_engineering_shears() {

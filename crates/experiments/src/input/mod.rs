@@ -14,7 +14,7 @@ mod reading;
 mod threshold;
 
 pub use file::{Content, TEXT_MATRICES, TensorFile, finite_volume, format_of, is_readable, open};
-pub use plane::PlaneField;
+pub use plane::{PlaneField, not_finite_words};
 pub use reading::{Derivation, Derived, Reading};
 pub use threshold::suggested_local_above;
 
@@ -33,7 +33,7 @@ pub enum InputError {
     },
     /// An ending that tells no format.
     #[error(
-        "unknown file extension: expected .txt, .npy, .npz, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz, .png, or .csv, .dat, .vec or .jvc for tables of vectors"
+        "unknown file extension: expected .txt, .npy, .npz, .vti, .vtp, .vtk, .nrrd, .nhdr, .nii, .nii.gz, .png, or .csv, .dat, .vec or .jvc for tables"
     )]
     Ending,
     /// A format that another program converts.
@@ -65,6 +65,12 @@ pub enum InputError {
         "is a table of vectors at positions (x, y, u, v), no 2x2 blocks: expected --derive gradient or strain-rate"
     )]
     VectorTable,
+    /// Text with points, one a line, whose columns have no names.
+    #[error(
+        "is a table without names of its columns, one point a line, no 2x2 blocks: expected a line above the numbers with names \
+         such as x,y,S11,S22,S12 (or --derive gradient for x, y, u, v)"
+    )]
+    UnnamedTable,
     /// A picture, which holds brightness.
     #[error("is a picture: expected --derive structure, orientation or hessian")]
     Picture,
@@ -183,6 +189,7 @@ const fn hint(source: &IoError) -> &'static str {
         IoError::PlaneNeeded { .. } => " (option --slice AXIS=INDEX)",
         IoError::SliceNeeded { .. } => " (option --slice)",
         IoError::AmbiguousArray { .. } => " (option --array)",
+        IoError::NoTensor { .. } => " (option --order)",
         IoError::TooManyCells { .. } | IoError::TooManyValues { .. } => " (option --limit)",
         IoError::NpyShape { .. } => " (option --derive for vectors and numbers)",
         _ => "",

@@ -44,7 +44,8 @@ impl TensorFile {
 fn projected(volume: &TensorVolume, reading: &Reading) -> Result<PlaneField, InputError> {
     let slice = volume.slice(reading.choice)?;
     let mut story = volume.story();
-    story.push(slice.cut.story(", the third row and column dropped"));
+    let axis = ["first", "second", "third"][slice.cut.plane.normal() as usize];
+    story.push(slice.cut.story(&format!(", the {axis} row and column dropped")));
     Ok(placed(slice.field, story, &slice.cut))
 }
 
@@ -166,6 +167,13 @@ fn placed(field: Field<Tensor2>, story: Vec<String>, cut: &Cut) -> PlaneField {
     PlaneField { field, story, geometry: cut.geometry, remarks: Vec::new() }
 }
 
+/// What became of tensors that are not finite, in words.
+#[must_use]
+pub fn not_finite_words(count: usize) -> String {
+    let (tensors, zero) = if count == 1 { ("tensor", "a zero tensor") } else { ("tensors", "zero tensors") };
+    format!("{count} {tensors} with a component that is infinite or not a number, taken as {zero}")
+}
+
 impl PlaneField {
     /// A field that lies nowhere.
     #[must_use]
@@ -217,7 +225,9 @@ impl PlaneField {
             return Err(InputError::NotFinite { x: first.x, y: first.y, count });
         }
         self.field = self.field.map(|t| if t.is_finite() { *t } else { Tensor2::ZERO });
-        self.story.push(format!("{count} tensors that are not finite, taken as zero tensors"));
+        let words = not_finite_words(count);
+        self.story.push(words.clone());
+        self.remarks.push(words);
         Ok(self)
     }
 

@@ -3,7 +3,8 @@
 use super::described;
 use crate::image::ActiveArrays;
 use crate::volume::{
-    ComponentArrays, Group, Naming, groups, joined, joined_rows, names_principal_values, naming, row_groups,
+    ComponentArrays, Group, Naming, groups, joined, joined_rows, names_eigenvectors, names_principal_values,
+    naming, row_groups,
 };
 use crate::{DataArray, ImageData, IoError};
 use std::borrow::Cow;
@@ -75,7 +76,9 @@ impl Wanted {
 
     const fn words(self) -> &'static str {
         match self {
-            Self::Tensors => "array with 9, 7, 6, 4 or 3 components",
+            Self::Tensors => {
+                "array of tensors: 9, 7, 6, 4 or 3 components (--array takes a vector or eigenvectors as well)"
+            }
             Self::Vectors => "array with 3 or 2 components",
             Self::Scalars => "array with one component",
         }
@@ -99,6 +102,7 @@ impl Wanted {
         match (self, naming(&array.component_names, array.components)) {
             (Self::Tensors, Naming::Tensor(_)) => 2,
             (Self::Tensors, Naming::Principal) => 0,
+            (Self::Tensors, _) if names_eigenvectors(&array.name) => 0,
             // Three numbers without names of a tensor's components are a vector rather than a tensor.
             (Self::Tensors, Naming::Other) if array.components == 3 => 0,
             (Self::Tensors, _)

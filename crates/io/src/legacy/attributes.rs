@@ -98,7 +98,12 @@ fn attribute(cursor: &mut Cursor, byte: usize, word: &[u8], target: &mut Target)
             let name = cursor.name()?;
             let scalar = cursor.element()?;
             target.active.vectors.get_or_insert(name.clone());
-            target.push(cursor, name, scalar, 3)
+            target.push(cursor, name.clone(), scalar, 3)?;
+            // Every one of them is a vector, not only the first.
+            if let Some(array) = target.arrays.last_mut().filter(|a| a.name == name) {
+                array.component_names = ["X", "Y", "Z"].map(str::to_owned).to_vec();
+            }
+            Ok(())
         }
         b"TEXTURE_COORDINATES" => {
             let name = cursor.name()?;

@@ -77,6 +77,7 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<Lattice, IoError
         array: header.kind.to_owned(),
         component_names: Vec::new(),
         notes,
+        remarks: Vec::new(),
         warnings: header.disagreement.map(apart).into_iter().collect(),
     })
 }

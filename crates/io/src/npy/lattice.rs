@@ -55,7 +55,8 @@ const fn expected(wanted: Wanted) -> &'static str {
 fn has_components_first(shape: &[usize], wanted: Wanted) -> bool {
     let leading = match *shape {
         [a @ (2 | 3), b, _, ..] if a == b && wanted == Wanted::Tensors => 2,
-        [2 | 3 | 4 | 6 | 7 | 9, _, ..] => 1,
+        // Two numbers last are a vector.
+        [2 | 3 | 4 | 6 | 7 | 9, _, .., last] if last != 2 || wanted == Wanted::Vectors => 1,
         _ => return false,
     };
     let mut moved = shape.to_vec();
@@ -126,6 +127,7 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
         array: format!("array of shape {shape:?}"),
         component_names: Vec::new(),
         notes: vec![note.to_owned()],
+        remarks: Vec::new(),
         warnings: warnings.into_iter().collect(),
     })
 }
@@ -168,7 +170,11 @@ pub fn lattice_of_members(
         .filter(|n| !used.iter().chain(&placing).any(|u| u == n))
         .collect();
     if !aside.is_empty() {
-        lattice.notes.push(format!("other arrays left aside: {}", aside.join(", ")));
+        lattice.remarks.push(format!(
+            "took `{}`; other arrays left aside: {}",
+            used.join(", "),
+            aside.join(", ")
+        ));
     }
     let unplaced: Vec<&str> = aside.into_iter().filter(|n| positions::is_position(n)).collect();
     if !unplaced.is_empty() {

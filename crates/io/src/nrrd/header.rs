@@ -336,7 +336,8 @@ impl Header {
         let axes = || (0..self.sizes.len()).filter(|&a| !is_domain(a));
         axes()
             .find(|&a| named(a))
-            .or_else(|| axes().find(|&a| is_tuple(a) && fits(a)))
+            // Three or four numbers are a tensor only to whoever says their order.
+            .or_else(|| axes().find(|&a| is_tuple(a) && (fits(a) || matches!(size(a), 3 | 4))))
             .or_else(|| Some(0).filter(|&a| !is_domain(a) && fits(a)))
     }
 

@@ -106,6 +106,7 @@ pub fn lattice_from_image<'a>(
         array: array.name,
         component_names: array.component_names,
         notes,
+        remarks: Vec::new(),
         warnings: Vec::new(),
     })
 }

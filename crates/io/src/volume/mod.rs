@@ -23,7 +23,9 @@ pub use convention::{ALIASES, Alias, CONVENTIONS, Content, Convention, documenta
 pub use geometry::PlaneGeometry;
 pub(crate) use image::points_of_image;
 pub use image::{image_from_volume, lattice_from_image, lattice_from_points, points_from_image};
-pub(crate) use names::{Group, Naming, groups, names_principal_values, naming, order_of, row_groups};
+pub(crate) use names::{
+    Group, Naming, groups, names_eigenvectors, names_principal_values, naming, order_of, row_groups,
+};
 pub use order::TensorOrder;
 pub(crate) use output::{symmetric, written_scalar};
 pub use plane::{Axis, Crop, Cut, Plane, PlaneChoice, Slice, parse_slice};
@@ -196,6 +198,8 @@ pub struct Lattice {
     pub component_names: Vec<String>,
     /// What else was read or assumed, a sentence each.
     pub notes: Vec<String>,
+    /// What was assumed or left out that changes the result and that no option says, a sentence each.
+    pub remarks: Vec<String>,
     /// What looks wrong in the file, a sentence each.
     pub warnings: Vec<String>,
 }
@@ -438,7 +442,7 @@ impl Lattice {
             let masked = mask.iter().filter(|&&m| m == 0.0).count();
             story.push(format!("{masked} voxels masked out, taken as zero tensors"));
         }
-        story.extend(self.notes.iter().cloned());
+        story.extend(self.notes.iter().chain(&self.remarks).cloned());
         story
     }
 

@@ -142,20 +142,29 @@ pub(crate) fn order_of<S: AsRef<str>>(names: &[S]) -> Option<TensorOrder> {
 pub(crate) fn entries<S: AsRef<str>>(names: &[S]) -> Option<Vec<usize>> {
     let pair = |name: &S| pair_of(name.as_ref()).map(|(pair, _)| pair);
     let has_pairs = names.iter().any(|n| pair(n).is_some());
-    let single = |name: &S| normal_of(name.as_ref()).filter(|_| has_pairs);
+    let single = |name: &S| normal_of(name.as_ref()).filter(|_| has_pairs).map(|(pair, _)| pair);
     let pairs: Option<Vec<Pair>> = names.iter().map(|n| pair(n).or_else(|| single(n))).collect();
     entries_of(&pairs?)
 }
 
-/// The pair of a name that ends with one letter, `SX`.
-fn normal_of(name: &str) -> Option<Pair> {
-    let last = words_of(name).last()?.chars().last()?;
-    Pair::of(last, last).filter(|_| last.is_alphabetic())
+/// The pair of a name that ends with one letter, `SX`, and what stands before it.
+fn normal_of(name: &str) -> Option<(Pair, String)> {
+    let mut words = words_of(name);
+    let letter = words.last_mut()?.pop().filter(|c| c.is_alphabetic())?;
+    words.retain(|w| !w.is_empty());
+    Some((Pair::of(letter, letter)?, words.join("_")))
 }
 
 /// Whether an array called so holds principal values: `S_Principal`, `eigenvalues`.
 pub(crate) fn names_principal_values(array: &str) -> bool {
     words_of(array).iter().any(|w| matches!(w.as_str(), "principal" | "eigenvalues" | "eigenvalue" | "evals"))
+}
+
+/// Whether an array called so holds eigenvectors, whose rows are no tensor: `evecs`, `eigenvectors`.
+pub(crate) fn names_eigenvectors(array: &str) -> bool {
+    const NAMES: [&str; 8] =
+        ["evec", "evecs", "eigvec", "eigvecs", "eigenvector", "eigenvectors", "directions", "axes"];
+    words_of(array).iter().any(|w| NAMES.contains(&w.as_str()))
 }
 
 /// Whether a name is that of a strain, whose shears may be engineering ones: `strain`, `TOSTRAIN`, `eps_xy`, `gamma_xy`, `E11`, `LE12`.
@@ -203,6 +212,15 @@ pub(crate) fn groups(names: &[&str]) -> Vec<Group> {
                 pairs.push(pair);
             }
             None => stems.push((stem, vec![at], vec![pair])),
+        }
+    }
+    // `SX` beside `SXY` is a normal component, as Ansys has it.
+    for (at, name) in names.iter().enumerate() {
+        let Some((pair, stem)) = normal_of(name).filter(|_| pair_of(name).is_none()) else { continue };
+        let of_shears = stems.iter_mut().find(|(s, _, pairs)| *s == stem && !pairs.contains(&pair));
+        if let Some((_, members, pairs)) = of_shears {
+            members.push(at);
+            pairs.push(pair);
         }
     }
     let group = |(_, members, pairs): (String, Vec<usize>, Vec<Pair>)| {
@@ -314,6 +332,8 @@ mod tests {
         let found = groups(&["S_XX", "pressure", "S_YY", "E_XX", "S_XY", "E_YY"]);
         assert_eq!(found.len(), 1, "E has no shear: {found:?}");
         assert_eq!(found[0].members, [0, 2, 4]);
+        let ansys = groups(&["SXY", "UX", "SX", "SY"]);
+        assert_eq!((ansys.len(), &ansys[0].members[..]), (1, &[0, 2, 3][..]));
         let shear = groups(&["sigma_xx", "sigma_yy", "tau_xy"]);
         assert_eq!(shear.len(), 1);
         let rows = row_groups(&["T_y", "grad", "T_x", "T_z"], 3);

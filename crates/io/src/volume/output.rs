@@ -32,6 +32,7 @@ impl Lattice {
             array: "2x2 blocks".to_owned(),
             component_names: Vec::new(),
             notes: vec!["first row on top, in the frame x right, y up".to_owned()],
+            remarks: Vec::new(),
             warnings: Vec::new(),
         }
     }

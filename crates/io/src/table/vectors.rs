@@ -1,41 +1,13 @@
-//! Vectors at positions in text: what PIV programs write, one vector a line.
-//!
-//! ```text
-//! x  y  u  v  [flags  mask]
-//! ```
-//!
-//! Columns are separated by blanks or tabs, by commas, or by semicolons; where semicolons or tabs separate them, a comma is
-//! a decimal point. Lines that do not begin with a number come first,
-//! if at all; where one of them names columns x, y, u and v (OpenPIV, PIVlab, `VARIABLES=` of Tecplot files as JPIV, DaVis
-//! and Insight write them), the names count, with vx and vy for u and v, otherwise the places. Positions form a
-//! lattice, in any order; nodes without vector are masked. What may stand beside the vectors:
-//!
-//! | name | masked where | program |
-//! | --- | --- | --- |
-//! | `mask` (sixth without names) | not 0 | OpenPIV |
-//! | `chc` | below 1 | Insight |
-//! | `vector type` | 0 | PIVlab |
-//! | `isvalid` | 0 | DaVis |
-//! | `flags` (fifth without names) | never: such vectors were mostly replaced; counted | OpenPIV |
-//!
-//! y is taken to run upwards, and v with it, as OpenPIV's `transform_coordinates` makes them.
-//!
-//! Tensors in text ([`crate::matrices`]) are rows of numbers, too. [`is_table`] tells them apart.
+//! Tables of vectors.
 
+use super::steps::Steps;
+use super::text::{Text, names_of, parsed};
 use crate::error::shortened;
 use crate::volume::{Frame, Known, Lattice, World};
 use crate::{IoError, ScalarType};
 
-/// Largest distance of a position from its lattice, relative to the step: text has few digits.
-const TOLERANCE: f64 = 0.02;
-/// Gaps between positions below this part of the largest are rounding.
-const GAP: f64 = 0.25;
 /// Nodes of the lattice for each vector at most: others lie on no lattice, or on too thin a part of one.
 const SPARSE: usize = 2;
-/// Columns and rows of a lattice that is recognised without names, and those of one with missing nodes.
-const RECOGNISED: usize = 3;
-const RECOGNISED_WITH_GAPS: usize = 5;
-
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
@@ -88,194 +60,18 @@ impl Columns {
         Self { roles: all[..known].iter().copied().map(Some).collect(), named: None }
     }
 
-    /// The columns that a line names.
-    fn of_header(line: &str, number: usize) -> Option<Self> {
-        let names = line.trim().trim_start_matches(['#', '%', '/']).trim();
-        let lower = names.to_ascii_lowercase();
-        let names = match lower.find("variables") {
-            Some(at) => {
-                // Insight has its whole header in one line.
-                let behind =
-                    ["zone", "datasetauxdata"].iter().filter_map(|w| Some(at + lower[at..].find(w)?));
-                names[at..behind.min().unwrap_or(names.len())].split_once('=')?.1
-            }
-            None => names,
+    /// The columns that the lines above the numbers name; the last line that does so.
+    fn named_above(text: &Text) -> Option<Self> {
+        let named = |(i, line): (usize, &String)| {
+            let roles: Vec<Option<Role>> = names_of(line).iter().map(|name| Role::of(name)).collect();
+            let once = |role: &Role| roles.iter().filter(|r| **r == Some(*role)).count() == 1;
+            Role::NEEDED.iter().all(once).then_some(Self { roles, named: Some(i + 1) })
         };
-        let words: Vec<&str> = if names.contains('"') {
-            names.split('"').skip(1).step_by(2).collect()
-        } else if let Some(separator) = ['\t', ',', ';'].into_iter().find(|s| names.contains(*s)) {
-            names.split(separator).collect()
-        } else {
-            // Units stand apart.
-            names.split_whitespace().filter(|w| !w.starts_with(['[', '('])).collect()
-        };
-        let roles: Vec<Option<Role>> = words.into_iter().map(Role::of).collect();
-        let once = |role: &Role| roles.iter().filter(|r| **r == Some(*role)).count() == 1;
-        Role::NEEDED.iter().all(once).then_some(Self { roles, named: Some(number) })
+        text.above.iter().enumerate().rev().find_map(named)
     }
 
     fn of(&self, role: Role) -> Option<usize> {
         self.roles.iter().position(|r| *r == Some(role))
-    }
-}
-
-/// What separates the numbers of a line.
-#[derive(Clone, Copy)]
-enum Separator {
-    Blank,
-    Mark(u8),
-}
-
-impl Separator {
-    fn of(line: &[u8]) -> Self {
-        let mark = [b';', b'\t', b','].into_iter().find(|mark| line.contains(mark));
-        mark.filter(|mark| *mark != b'\t').map_or(Self::Blank, Self::Mark)
-    }
-
-    /// The words of a line with their columns, from 1.
-    fn words(self, line: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
-        let is_mark = move |b: &u8| match self {
-            Self::Blank => b.is_ascii_whitespace(),
-            Self::Mark(mark) => *b == mark,
-        };
-        let blank = matches!(self, Self::Blank);
-        let line = line.trim_ascii_end();
-        // A mark behind the last number separates nothing.
-        let line = if blank { line } else { line.strip_suffix(&[self.mark()]).unwrap_or(line) };
-        line.split(is_mark)
-            .scan(1, |column, word| {
-                let at = *column;
-                *column += word.len() + 1;
-                Some((at + word.len() - word.trim_ascii_start().len(), word.trim_ascii()))
-            })
-            .filter(move |(_, word)| !(blank && word.is_empty()))
-    }
-
-    const fn mark(self) -> u8 {
-        match self {
-            Self::Blank => b' ',
-            Self::Mark(mark) => mark,
-        }
-    }
-}
-
-/// The lines of a text, the first of its numbers, and what names the columns.
-struct Text<'a> {
-    /// Lines from the first that begins with a number, blank ones at the end left out.
-    lines: Vec<&'a [u8]>,
-    /// Number of the first, from 1.
-    first: usize,
-    header: Option<Columns>,
-    /// The line above the numbers, where it has a word for every column but was not understood, and its number.
-    unknown: Option<(usize, String)>,
-    separator: Separator,
-}
-
-impl<'a> Text<'a> {
-    fn of(bytes: &'a [u8]) -> Result<Self, IoError> {
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_end();
-        let mut header = None;
-        let mut above: Option<(usize, &[u8])> = None;
-        let mut lines = bytes.split(|&b| b == b'\n');
-        for (i, line) in lines.by_ref().enumerate() {
-            let separator = Separator::of(line);
-            let begins = separator.words(line).next().and_then(|(_, word)| parsed(word));
-            if begins.is_some() {
-                let columns = separator.words(line).count();
-                let names_all = |line: &[u8]| {
-                    let text = String::from_utf8_lossy(line);
-                    let names = text.trim().trim_start_matches(['#', '%', '/']).trim().to_owned();
-                    (separator.words(names.as_bytes()).count() == columns).then_some(names)
-                };
-                let unknown = above.filter(|_| header.is_none()).and_then(|(i, l)| Some((i, names_all(l)?)));
-                let lines = std::iter::once(line).chain(lines).collect();
-                return Ok(Self { lines, first: i + 1, header, unknown, separator });
-            }
-            above = Some((i + 1, line));
-            let named = Columns::of_header(&String::from_utf8_lossy(line), i + 1);
-            header = named.or(header);
-        }
-        Err(IoError::EmptyText)
-    }
-
-    /// Whether numbers are written with commas.
-    fn has_decimal_commas(&self) -> bool {
-        let separates = matches!(self.separator, Separator::Mark(b','));
-        !separates && self.lines.iter().any(|line| line.contains(&b','))
-    }
-
-    /// Numbers in the first line.
-    fn columns(&self) -> usize {
-        self.separator.words(self.lines[0]).count()
-    }
-}
-
-/// A number. Its decimal point may be a comma, which then separates nothing ([`Separator::of`]).
-fn parsed(word: &[u8]) -> Option<f64> {
-    let word = std::str::from_utf8(word).ok()?;
-    word.parse()
-        .or_else(|e| if word.matches(',').count() == 1 { word.replace(',', ".").parse() } else { Err(e) })
-        .ok()
-}
-
-/// Whether a text is a table of vectors rather than 2x2 blocks: a line names x, y, u and v; or numbers stand in four
-/// columns or more, of which the first two are different positions of a complete lattice of 3 x 3 nodes or more (or of most
-/// of 5 x 5 or more).
-///
-/// Blocks are mistaken only where every first pair of a row is another node of such a lattice.
-#[must_use]
-pub fn is_table(bytes: &[u8]) -> bool {
-    let Ok(text) = Text::of(bytes) else { return false };
-    if text.header.is_some() {
-        return true;
-    }
-    if text.columns() < 4 {
-        return false;
-    }
-    let position = |line: &&[u8]| {
-        let mut words = text.separator.words(line).map(|(_, word)| parsed(word).filter(|v| v.is_finite()));
-        Some([words.next()??, words.next()??])
-    };
-    let Some(positions) = text.lines.iter().map(position).collect::<Option<Vec<_>>>() else { return false };
-    let axes = [0, 1].map(|a| Steps::of(positions.iter().map(|p| p[a]).collect()));
-    let least = axes[0].count.min(axes[1].count);
-    let Some(nodes) = axes[0].count.checked_mul(axes[1].count) else { return false };
-    let enough = if nodes == positions.len() {
-        least >= RECOGNISED
-    } else {
-        least >= RECOGNISED_WITH_GAPS && nodes <= positions.len() / 3 * 4
-    };
-    let mut seen = vec![false; if enough { nodes } else { 0 }];
-    enough
-        && positions.iter().all(|p| match (axes[0].index(p[0]), axes[1].index(p[1])) {
-            (Some(x), Some(y)) => !std::mem::replace(&mut seen[y * axes[0].count + x], true),
-            _ => false,
-        })
-}
-
-/// Equal steps along an axis.
-#[derive(Clone, Copy, Debug)]
-struct Steps {
-    first: f64,
-    step: f64,
-    count: usize,
-}
-
-impl Steps {
-    /// The steps between finite positions in any order, if they are equal; otherwise [`Self::index`] refuses some.
-    fn of(mut positions: Vec<f64>) -> Self {
-        positions.sort_by(f64::total_cmp);
-        let (first, last) = (positions[0], positions[positions.len() - 1]);
-        let largest = positions.windows(2).map(|p| p[1] - p[0]).fold(0.0, f64::max);
-        let gaps = positions.windows(2).filter(|p| largest > 0.0 && p[1] - p[0] > GAP * largest).count();
-        let step = if gaps == 0 { 1.0 } else { last / gaps as f64 - first / gaps as f64 };
-        Self { first, step, count: gaps + 1 }
-    }
-
-    fn index(&self, position: f64) -> Option<usize> {
-        let place = (position - self.first) / self.step;
-        let near = (place - place.round()).abs() <= TOLERANCE;
-        (near && place.round() < self.count as f64).then(|| place.round() as usize)
     }
 }
 
@@ -291,11 +87,14 @@ struct Row {
 /// # Errors
 /// Names line and column of the first word that does not fit; positions off the lattice, and two vectors at one.
 pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
-    let mut text = Text::of(bytes)?;
-    if let Some((line, names)) = &text.unknown {
-        return Err(IoError::TableHeader { line: *line, found: shortened(names.as_bytes()) });
-    }
-    let columns = text.header.take().unwrap_or_else(|| Columns::by_place(text.columns()));
+    let text = Text::of(bytes)?;
+    let columns = match (Columns::named_above(&text), text.names()) {
+        (Some(columns), _) => columns,
+        (None, Some((line, names))) => {
+            return Err(IoError::TableHeader { line, found: shortened(names.join(", ").as_bytes()) });
+        }
+        (None, None) => Columns::by_place(text.columns()),
+    };
     let mut rows = Vec::new();
     let (mut flagged, mut others) = (0, 0);
     for (i, line) in text.lines.iter().enumerate() {
@@ -313,10 +112,10 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
         });
     }
     let mut notes = vec![words_of(&columns)];
-    if columns.named.is_none() && columns.roles.len() == 6 && is_flat(&rows) {
+    if columns.named.is_none() && columns.roles.len() >= 5 && is_flat(&rows) {
         return Err(IoError::TableHeader {
             line: text.first,
-            found: "six columns, the third of one value".to_owned(),
+            found: format!("{} columns, the third of one value", text.columns()),
         });
     }
     if columns.named.is_none() && others > 0 {
@@ -327,15 +126,20 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     }
     let y_up = "y taken to run upwards and v with it (right-handed, as OpenPIV's transform_coordinates makes them); where a \
                 file has y downwards the picture is upside down";
-    notes.push(y_up.to_owned());
     if text.has_decimal_commas() {
         notes.push("commas taken as decimal points".to_owned());
     }
     let mut lattice = lattice(&rows, text.first, notes)?;
+    lattice.remarks.push(y_up.to_owned());
     if columns.named.is_none() {
         lattice.warnings.push(words_of(&columns));
     }
     Ok(lattice)
+}
+
+/// Whether a line above the numbers names x, y, u and v.
+pub(super) fn names_vectors(text: &Text) -> bool {
+    Columns::named_above(text).is_some()
 }
 
 /// Whether what is taken for u has one value, as z of a plane would.
@@ -445,12 +249,14 @@ fn lattice(rows: &[Row], first: usize, mut notes: Vec<String>) -> Result<Lattice
         array: "table of vectors".to_owned(),
         component_names: Vec::new(),
         notes,
+        remarks: Vec::new(),
         warnings: Vec::new(),
     })
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Kind, kind};
     use super::*;
 
     /// 4 x 3 positions at steps 2 and 0.5, u = x, v = 10 y.
@@ -461,7 +267,7 @@ mod tests {
 
     #[track_caller]
     fn is_read(bytes: &[u8], masked: usize) -> Lattice {
-        assert!(is_table(bytes), "{}", String::from_utf8_lossy(bytes));
+        assert_ne!(kind(bytes), Kind::Other, "{}", String::from_utf8_lossy(bytes));
         let lattice = read(bytes).unwrap();
         assert_eq!((lattice.size, lattice.origin), ([4, 3, 1], [1.0, 2.0, 0.0]));
         assert_eq!((lattice.axes[0][0], lattice.axes[1][1]), (2.0, 0.5));
@@ -533,7 +339,7 @@ mod tests {
             "1 2 3 x\n1 2 3 4\n",
             "",
         ] {
-            assert!(!is_table(text.as_bytes()), "{text}");
+            assert_eq!(kind(text.as_bytes()), Kind::Other, "{text}");
         }
     }
 

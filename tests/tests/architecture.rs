@@ -17,6 +17,9 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("tigereye-scenes", &["tigereye-core"]),
     ("tigereye-render", &["tigereye-core"]),
     ("tigereye-io", &["tigereye-core"]),
+    ("tigereye-report", &[]),
+    ("tigereye-input", &["tigereye-core", "tigereye-fields", "tigereye-lines", "tigereye-io"]),
+    ("tigereye-views", &["tigereye-core", "tigereye-lines", "tigereye-render", "tigereye-io"]),
     (
         "tigereye-experiments",
         &[
@@ -28,6 +31,9 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "tigereye-scenes",
             "tigereye-render",
             "tigereye-io",
+            "tigereye-report",
+            "tigereye-input",
+            "tigereye-views",
         ],
     ),
     (
@@ -41,6 +47,9 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "tigereye-scenes",
             "tigereye-render",
             "tigereye-io",
+            "tigereye-report",
+            "tigereye-input",
+            "tigereye-views",
             "tigereye-experiments",
         ],
     ),
@@ -56,6 +65,9 @@ const FORBIDDEN: &[(&str, &[&str])] = &[
     ("tigereye-scenes", &["serde", "rayon", "clap", "plotters", "tiny-skia", "ron"]),
     ("tigereye-render", &["serde", "rayon", "clap", "ron"]),
     ("tigereye-io", &["rayon", "clap", "plotters", "tiny-skia", "ron"]),
+    ("tigereye-report", &["rayon", "clap", "plotters", "tiny-skia", "ron"]),
+    ("tigereye-input", &["rayon", "clap", "plotters", "tiny-skia", "ron"]),
+    ("tigereye-views", &["clap", "ron"]),
     ("tigereye-experiments", &["clap", "indicatif"]),
 ];
 

@@ -1,7 +1,7 @@
 //! What the program tells people when something is wrong.
 
 use thiserror::Error;
-use tigereye_experiments::shortened;
+use tigereye_report::shortened;
 
 /// A fault that ends the program. One clear message each, with the place and what was expected.
 #[derive(Debug, Error)]
@@ -33,8 +33,8 @@ pub(crate) enum CliError {
     },
 }
 
-impl From<tigereye_experiments::review::ReviewError> for CliError {
-    fn from(error: tigereye_experiments::review::ReviewError) -> Self {
+impl From<tigereye_report::review::ReviewError> for CliError {
+    fn from(error: tigereye_report::review::ReviewError) -> Self {
         Self::Input(error.to_string())
     }
 }

@@ -7,13 +7,13 @@ use crate::{files, interrupt};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use tigereye_core::{Field, Normalization, Tensor2};
-use tigereye_experiments::input::{
-    Derived, InputError, PlaneField, Reading, TEXT_MATRICES, TensorFile, is_readable, open,
-};
-use tigereye_experiments::provenance::hash_of_field;
 use tigereye_experiments::scene::is_scene_file;
 use tigereye_experiments::settings::{defined_plane, is_field_file, make_plane};
 use tigereye_experiments::spec::load_field;
+use tigereye_input::provenance::hash_of_field;
+use tigereye_input::{
+    Derived, InputError, PlaneField, Reading, TEXT_MATRICES, TensorFile, is_readable, open,
+};
 use tigereye_io::volume::{PlaneGeometry, Shear};
 
 /// What INPUT is, before a plane is chosen.

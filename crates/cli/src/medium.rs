@@ -7,9 +7,9 @@ use crate::host::FileHost;
 use crate::input::Input;
 use std::path::{Path, PathBuf};
 use tigereye_core::{Directions, Field, Grid, Normalization, Surface, TransmissionField};
-use tigereye_experiments::input::Reading;
 use tigereye_experiments::scene::{PreparedScene, is_scene_file, light_fault, prepare};
 use tigereye_experiments::{Medium, normalization_name};
+use tigereye_input::Reading;
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_transport::Light;
 

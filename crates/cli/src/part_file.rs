@@ -5,7 +5,7 @@ use crate::{files, geometry};
 use serde_json::{Value, json};
 use std::path::Path;
 use tigereye_core::{Directions, Grid, SweepWork};
-use tigereye_experiments::provenance::VERSION;
+use tigereye_input::provenance::VERSION;
 use tigereye_io::part;
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_ltg::{Finished, LtgError, NUMERICS, PartialVolume, Shard};

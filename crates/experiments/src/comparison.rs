@@ -1,10 +1,10 @@
 //! FTLE beside gradients: their maps, ridges, and numbers.
 
-use crate::classical::agreement::{COMPARED, Distances, append, chance, correlation};
 use crate::runs::Results;
 use crate::settings::sample_of;
 use crate::spec::{DistanceNumber, MapSource, RidgeSource};
 use tigereye_core::{Cell, Field, Grid, LtgVolume};
+use tigereye_lines::agreement::{COMPARED, Distances, append, chance, correlation};
 use tigereye_lines::{Ftle, Polylines, RidgeOptions, ridge_lines};
 
 /// A scalar at the cells; of a gradient where it is a result.

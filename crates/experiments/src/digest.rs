@@ -1,7 +1,6 @@
 //! The numbers of an experiment that snapshot tests remember.
 
 use crate::measure::{inner_cells, mean_anisotropy};
-use crate::outcome::ExperimentOutcome;
 use crate::pulses::PulseRecord;
 use crate::runs::{LightResult, Results};
 use crate::settings::Settings;
@@ -11,6 +10,7 @@ use std::collections::BTreeMap;
 use tigereye_core::Surface;
 use tigereye_lines::Ftle;
 use tigereye_ltg::LtgOutcome;
+use tigereye_report::ExperimentOutcome;
 
 /// Shapes, extrema, quantiles, counters and checks of an experiment. Numbers are rounded to nine digits; what is smaller
 /// than 1e-9 is rounding noise of the computation and kept as `~0`.

@@ -1,13 +1,7 @@
 //! Figures from results.
 
-use crate::classical::fine::{self, TextureRequest};
-use crate::classical::lines::{LinesRequest, Seeds, lines};
-use crate::classical::ridges::line_overlay;
-use crate::classical::topology::topology;
-use crate::classical::{Following, point_overlays};
 use crate::comparison;
 use crate::measure::{self, at_step, inner_cells, lobe_ratio, net_flux_ratio, ridge_columns};
-use crate::outcome::{DataFile, Figure};
 use crate::runs::{LightResult, Results, RunError};
 use crate::scene::missing_label;
 use crate::settings::{PulsesSettings, RunSettings, Settings, axes_of, family_of, sample_of};
@@ -18,6 +12,7 @@ use tigereye_core::{
     Cell, CellShape, Field, Grid, LightDistribution, PolarProfile, Tensor2, transmission_ellipse,
 };
 use tigereye_fields::Expression;
+use tigereye_lines::Following;
 use tigereye_lines::{ConvolutionOptions, Family, LineOptions};
 use tigereye_render::{
     Chart, ChartAxis, GlyphColour, GlyphOptions, GlyphScale, HeatOptions, HeatScale, IntensityScale,
@@ -25,7 +20,14 @@ use tigereye_render::{
     Rgba, SERIES_PALETTE, Scene, Series, TransmissionScale, glyphs, heat_map, line_chart, orientation_map,
     plain_map, polar_overlay, polar_plot, small_multiples,
 };
+use tigereye_report::{DataFile, Figure};
 use tigereye_transport::{Scheme, SharedWeights, emitter};
+use tigereye_views::ftle;
+use tigereye_views::lic::{self, TextureRequest};
+use tigereye_views::lines::{LinesRequest, Seeds, lines};
+use tigereye_views::point_overlays;
+use tigereye_views::ridges::line_overlay;
+use tigereye_views::topology::topology;
 
 /// Points at which a formula is drawn.
 const FORMULA_POINTS: usize = 121;
@@ -261,8 +263,8 @@ impl Draw<'_> {
         let samples = (wanted / pixels).max(1);
         let options = ConvolutionOptions { samples, ..ConvolutionOptions::default() };
         let request = TextureRequest { following, family: family_of(family), hyper, options };
-        let found = fine::texture(field, &request).ok()?;
-        fine::texture_picture(&found, field, &request, hyper, title, Some(samples * pixels)).ok()
+        let found = lic::texture(field, &request).ok()?;
+        lic::picture(&found, field, &request, hyper, title, Some(samples * pixels)).ok()
     }
 
     fn map(&self, source: &spec::MapSource, ridges: bool, title: String) -> Option<Scene> {
@@ -278,7 +280,7 @@ impl Draw<'_> {
             let (axes, cell) = (settings.following.axes, settings.following.cell);
             let cell_px = self.cell_px_of(self.settings.fields.get(&settings.field)?.grid(), cell);
             let found = self.results.ftle.get(run)?;
-            return Some(fine::exponents_picture(found, axes, &title, overlays, cell_px));
+            return Some(ftle::picture(found, axes, &title, overlays, cell_px));
         }
         let field = comparison::map(source, self.results)?;
         let quantity = match source {

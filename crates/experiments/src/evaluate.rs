@@ -1,13 +1,10 @@
 //! One experiment from settings to outcome.
 
 use crate::Medium;
-use crate::classical::{Placement, axes_name, family_name, fine, major_name};
 use crate::digest::{Digest, digest};
 use crate::draw::{Drawn, draw_figure};
 use crate::host::Host;
 use crate::measure;
-use crate::outcome::{DataFile, ExperimentOutcome};
-use crate::provenance::{provenance, with_rows};
 use crate::pulses::comma_separated;
 use crate::runs::{Results, RunError, run_all};
 use crate::settings::{RunSettings, Settings};
@@ -17,9 +14,12 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 use thiserror::Error;
 use tigereye_core::Normalization;
+use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{IoError, Rows};
+use tigereye_report::{DataFile, ExperimentOutcome};
 use tigereye_transport::StoppingRule;
+use tigereye_views::Placement;
 
 /// An experiment that could not be evaluated.
 #[derive(Debug, Error)]
@@ -161,7 +161,7 @@ fn data_files(
             let placement =
                 Placement::new(PlaneGeometry::UNPLACED.with_spacing(f.cell.sides()), field.grid());
             let arrays = [("FTLE", &f.larger), ("FTLE_smaller", &f.smaller)];
-            fine::image(&arrays, [f.samples; 2], &placement, &story)
+            tigereye_views::image(&arrays, [f.samples; 2], &placement, &story)
         } else {
             continue;
         };
@@ -186,9 +186,9 @@ fn story_of(settings: &Settings, command: &str, run: &RunSettings) -> String {
         RunSettings::Ftle(f) => {
             let parameters = json!({
                 "field": f.field,
-                "axes": axes_name(f.following.axes.axes()),
-                "major": major_name(f.following.axes.major()),
-                "family": family_name(f.family),
+                "axes": f.following.axes.axes().name(),
+                "major": f.following.axes.major().name(),
+                "family": f.family.name(),
                 "length": f.length,
                 "samples": f.samples,
             });

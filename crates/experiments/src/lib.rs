@@ -5,25 +5,18 @@
 //! up, nothing optional left), run, and reported. This crate opens no files and reads no clocks: the program hands it
 //! both through [`Host`].
 
-pub mod classical;
 mod comparison;
 mod digest;
 mod draw;
 mod evaluate;
 pub mod field_file;
 mod host;
-pub mod input;
 pub mod library;
-pub mod lint;
 mod measure;
 mod medium;
-mod outcome;
 mod places;
-pub mod provenance;
 mod pulses;
 mod reel;
-pub mod report;
-pub mod review;
 mod runs;
 pub mod scene;
 pub mod settings;
@@ -37,20 +30,5 @@ pub use digest::Digest;
 pub use evaluate::{Evaluation, ExperimentError, evaluate, normalization_name};
 pub use host::Host;
 pub use medium::Medium;
-pub use outcome::{CheckOutcome, Column, DataFile, Expected, ExperimentOutcome, Figure, Table};
 pub use reel::Reel;
 pub use runs::RunError;
-
-/// A message with its middle left out where somebody's input makes it longer than people read.
-#[must_use]
-pub fn shortened(message: &str) -> String {
-    const HEAD: usize = 500;
-    const TAIL: usize = 300;
-    let count = message.chars().count();
-    if count <= HEAD + TAIL {
-        return message.to_owned();
-    }
-    let head: String = message.chars().take(HEAD).collect();
-    let tail: String = message.chars().skip(count - TAIL).collect();
-    format!("{head} [... {} characters ...] {tail}", count - HEAD - TAIL)
-}

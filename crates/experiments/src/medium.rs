@@ -1,8 +1,8 @@
 //! What light runs through: tensors or a scene.
 
-use crate::provenance::hash_of_field;
 use crate::scene::PreparedScene;
 use tigereye_core::{Directions, Field, Grid, Normalization, Tensor2, TransmissionField};
+use tigereye_input::provenance::hash_of_field;
 use tigereye_scenes::{Fault, SceneError};
 
 /// A field or a scene of an experiment.

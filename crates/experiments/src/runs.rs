@@ -1,6 +1,5 @@
 //! Runs settings and keeps what figures and checks ask for.
 
-use crate::classical::fine::exponents;
 use crate::host::Host;
 use crate::pulses::{PulseRecord, run_pulses};
 use crate::scene::where_result;
@@ -18,6 +17,7 @@ use tigereye_scenes::SceneError;
 use tigereye_transport::{
     EightLobe, Engine, Problem, SampleSpace, Scattering, Scheme, StepView, TransportError,
 };
+use tigereye_views::ftle::exponents;
 
 /// A run that could not be made, although its settings were in order.
 #[derive(Clone, Debug, Error, PartialEq)]

@@ -1,10 +1,7 @@
 //! Scene files to scenes: pictures and fields read, everything checked. All problems are reported at once.
 
 use crate::host::Host;
-use crate::input::format_of;
-use crate::provenance::{hash_of_bytes, hash_of_field};
 use crate::settings::{LightFault, beside, cell_of, lights_of, make_field, normalization_of};
-use crate::shortened;
 use crate::spec::{
     self, FieldSource, LightSource, MaterialSource, Point, ProfileShape, SceneFile, ScenePart, ShapeSource,
     SourceText, SpecError,
@@ -12,7 +9,10 @@ use crate::spec::{
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use tigereye_core::{Cell, Directions, Field, Grid, Surface, TransmissionField};
+use tigereye_input::format_of;
+use tigereye_input::provenance::{hash_of_bytes, hash_of_field};
 use tigereye_io::picture;
+use tigereye_report::shortened;
 use tigereye_scenes::{Fault, Layout, Mask, Material, Part, Scene, SceneError, Shape, leaks};
 use tigereye_transport::Light;
 

@@ -1,6 +1,5 @@
 //! One page about a tensor field: ellipses, lines, anisotropy, determinant, one light, a gradient.
 
-use crate::classical::{line_overlay, point_overlays};
 use crate::scene::where_result;
 use thiserror::Error;
 use tigereye_core::{
@@ -18,6 +17,7 @@ use tigereye_transport::{
     EightLobe, Engine, Level, Light, Problem, Scattering, Scheme, SharedWeights, Stopping, StoppingRule,
     TransportError,
 };
+use tigereye_views::{line_overlay, point_overlays};
 
 /// What a sheet shows.
 #[derive(Clone, Debug, PartialEq)]

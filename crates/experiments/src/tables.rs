@@ -2,7 +2,6 @@
 
 use crate::comparison::{chance_of, distances, map_correlation};
 use crate::measure::{gradient_difference, summary};
-use crate::outcome::{Column, Table};
 use crate::pulses::PulseRecord;
 use crate::runs::Results;
 use crate::spec::{
@@ -10,6 +9,7 @@ use crate::spec::{
     TableRows,
 };
 use tigereye_ltg::LtgOutcome;
+use tigereye_report::{Column, Table};
 
 /// What stands where there is nothing to say.
 const NOTHING: &str = "\u{2013}";

@@ -33,6 +33,17 @@ pub enum Family {
     Minor,
 }
 
+impl Family {
+    /// `major` or `minor`, as options and files spell it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Major => "major",
+            Self::Minor => "minor",
+        }
+    }
+}
+
 /// The axes that lines follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Axes {
@@ -48,6 +59,18 @@ pub enum Axes {
     DualEigenvectors,
 }
 
+impl Axes {
+    /// `half`, `eigen` or `dual`, as options and files spell it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::HalfAxes => "half",
+            Self::Eigenvectors => "eigen",
+            Self::DualEigenvectors => "dual",
+        }
+    }
+}
+
 /// By what the major axis is the larger one; see the beginning of `axes.rs` for the rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Major {
@@ -55,6 +78,17 @@ pub enum Major {
     Value,
     /// By the size of the value: the longer axis is major.
     Magnitude,
+}
+
+impl Major {
+    /// `value` or `magnitude`, as options and files spell it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Value => "value",
+            Self::Magnitude => "magnitude",
+        }
+    }
 }
 
 /// Axes with the order of the two.
@@ -68,6 +102,20 @@ impl From<Axes> for OrderedAxes {
     /// In their usual order.
     fn from(axes: Axes) -> Self {
         axes.by(axes.usual_major())
+    }
+}
+
+impl OrderedAxes {
+    /// What they are, in words.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match (self.axes, self.major) {
+            (Axes::HalfAxes, Major::Magnitude) => "semi-axes, major by magnitude (the longer one)",
+            (Axes::HalfAxes, Major::Value) => "semi-axes, major by value (tension positive)",
+            (Axes::Eigenvectors, Major::Magnitude) => "eigenvectors, major by magnitude (the larger size)",
+            (Axes::Eigenvectors, Major::Value) => "eigenvectors, major by value (tension positive)",
+            (Axes::DualEigenvectors, _) => "dual eigenvectors, the longer one major",
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 //! Scalars are interpolated by quintic splines for ridges and linearly for contours. A volume has a third axis, the
 //! direction of a light transport gradient, that may be periodic ([`Volume`]).
 
+pub mod agreement;
 mod axes;
 mod chains;
 mod contours;
@@ -15,6 +16,7 @@ mod convolution;
 mod degenerate;
 mod extraction_error;
 mod flow_map;
+mod followed;
 mod ftle;
 mod hyperstreamline;
 mod interpolated;
@@ -35,6 +37,7 @@ pub use convolution::{ConvolutionOptions, convolved, hyper_convolved};
 pub use degenerate::{DegenerateKind, DegeneratePoint, degenerate_points};
 pub use extraction_error::ExtractionError;
 pub use flow_map::{advected, exponents};
+pub use followed::{Followed, Following, is_complex, usual_axes};
 pub use ftle::{Ftle, FtleOptions, SamplingError, fine_grid, ftle};
 pub use hyperstreamline::half_widths;
 pub use interpolated::{Interpolated, ellipse_tensors, signed_ellipse_tensors};

@@ -6,8 +6,8 @@ use crate::input::Input;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use tigereye_core::CellShape;
-use tigereye_experiments::classical::{Following, usual_axes};
 use tigereye_lines::{Axes, Family, Major};
+use tigereye_lines::{Following, usual_axes};
 
 /// The axes that lines follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

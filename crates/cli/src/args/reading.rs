@@ -3,7 +3,7 @@
 use super::values::{parse_count, parse_sigma, parse_size, parse_threshold};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use tigereye_experiments::input::{Derivation, Derived, Reading};
+use tigereye_input::{Derivation, Derived, Reading};
 use tigereye_io::nifti::WrittenAs;
 use tigereye_io::volume::{Axis, ComponentArrays, Crop, Frame, Plane, PlaneChoice, Shear, parse_slice};
 

@@ -8,7 +8,7 @@ use crate::input::{Input, Source};
 use crate::interrupt;
 use std::path::Path;
 use tigereye_core::{Field, Tensor2};
-use tigereye_experiments::input::{Content, Reading, TensorFile};
+use tigereye_input::{Content, Reading, TensorFile};
 use tigereye_io::volume::lattice_from_image;
 use tigereye_io::{IoError, Rows, Wanted, npy, vti};
 

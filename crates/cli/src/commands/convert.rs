@@ -7,8 +7,8 @@ use crate::input::{Input, Source, insert_reading};
 use crate::{files, interrupt};
 use serde_json::json;
 use tigereye_core::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
-use tigereye_experiments::input::{Content, Reading, TensorFile, finite_volume, format_of, not_finite_words};
-use tigereye_experiments::provenance::provenance;
+use tigereye_input::provenance::provenance;
+use tigereye_input::{Content, Reading, TensorFile, finite_volume, format_of, not_finite_words};
 use tigereye_io::volume::{Frame, Known, PlaneChoice, TensorVolume, image_from_volume, points_from_image};
 use tigereye_io::{DataArray, ImageData, IoError, ScalarType, legacy, matrices, nifti, npy, nrrd, vti, vtp};
 

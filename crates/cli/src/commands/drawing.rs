@@ -9,11 +9,12 @@ use crate::{files, interrupt};
 use serde_json::Value;
 use std::path::PathBuf;
 use tigereye_core::CellShape;
-use tigereye_experiments::classical::{Following, Placement};
-use tigereye_experiments::provenance::provenance;
+use tigereye_input::provenance::provenance;
 use tigereye_io::IoError;
+use tigereye_lines::Following;
 use tigereye_lines::LineOptions;
 use tigereye_render::{RenderError, Scene};
+use tigereye_views::Placement;
 
 /// Refuses endings that are none of `endings`, and places where nothing can be written, before anything is computed.
 pub(super) fn check_outputs(outputs: &[PathBuf], endings: &[&str]) -> Result<(), CliError> {

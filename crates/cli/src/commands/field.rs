@@ -12,9 +12,9 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use tigereye_core::{Cell, CellShape};
 use tigereye_experiments::field_file;
-use tigereye_experiments::lint::{self, Oddity};
 use tigereye_experiments::sheet::{SheetOptions, sheet};
 use tigereye_fields::{Generator, Parameter, ParameterKind, generators};
+use tigereye_input::lint::{self, Oddity};
 use tigereye_ltg::SweepObserver;
 
 pub(crate) fn list(args: &FieldListArgs) -> Result<u8, CliError> {

@@ -4,11 +4,10 @@ use crate::args::classical::FtleArgs;
 use crate::commands::{drawing, print_json, print_text};
 use crate::error::CliError;
 use serde_json::json;
-use tigereye_experiments::classical::fine::{exponents, exponents_picture, image};
-use tigereye_experiments::classical::{axes_name, axes_words, family_name, major_name};
-use tigereye_experiments::provenance::with_rows;
+use tigereye_input::provenance::with_rows;
 use tigereye_io::{Rows, vti};
 use tigereye_lines::{Family, FtleOptions};
+use tigereye_views::{ftle, image};
 
 pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vti", "png", "svg"])?;
@@ -18,12 +17,12 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     let family = Family::from(args.family);
     let (length, step, samples) = (args.length, args.step, args.samples);
     let options = FtleOptions { length, step, samples, ..FtleOptions::default() };
-    let found = exponents(&input.field, following, family, &options)
+    let found = ftle::exponents(&input.field, following, family, &options)
         .map_err(|e| CliError::input(&args.of.input, e))?;
     let parameters = json!({
-        "axes": axes_name(axes.axes()),
-        "major": major_name(axes.major()),
-        "family": family_name(family),
+        "axes": axes.axes().name(),
+        "major": axes.major().name(),
+        "family": family.name(),
         "length": length,
         "step": step,
         "samples": samples,
@@ -32,7 +31,7 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     let story = drawing::story(&input, parameters, &args.of.reading);
     drawing::write(
         &args.outputs,
-        &|| Ok(exponents_picture(&found, axes, &args.of.input, Vec::new(), None)),
+        &|| Ok(ftle::picture(&found, axes, &args.of.input, Vec::new(), None)),
         &|| {
             let arrays = [("FTLE", &found.larger), ("FTLE_smaller", &found.smaller)];
             vti::write(&image(&arrays, [samples; 2], &drawing::placement(&input), &story))
@@ -48,8 +47,8 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
             "width": width,
             "height": height,
             "samples": samples,
-            "axes": axes_name(axes.axes()),
-            "major": major_name(axes.major()),
+            "axes": axes.axes().name(),
+            "major": axes.major().name(),
             "lines": 2 * count,
             "left": found.left,
             "max": if count > 0 { json!(largest) } else { json!(null) },
@@ -70,7 +69,7 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
             "{width} x {height} samples, at most {largest:.6} per {}, {mean:.6} on average; \
              {left:.1} % of the lines leave before their length; {}\n",
             drawing::one_unit(&following),
-            axes_words(axes)
+            axes.words()
         ))?;
     }
     Ok(0)

@@ -7,9 +7,9 @@ use crate::files;
 use clap::ValueEnum;
 use serde_json::json;
 use tigereye_core::{CellShape, Symmetry};
-use tigereye_experiments::classical::glyphs::{check, poly_data};
 use tigereye_io::vtp;
 use tigereye_render::{GlyphColour, GlyphKind, GlyphOptions, GlyphScale, glyphs};
+use tigereye_views::glyphs::{check, poly_data};
 
 pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;

@@ -10,10 +10,10 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
 use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Symmetry, Tensor2, is_totally_anisotropic};
-use tigereye_experiments::classical::is_complex;
-use tigereye_experiments::input::{Content, Reading, TensorFile, suggested_local_above};
+use tigereye_input::{Content, Reading, TensorFile, suggested_local_above};
 use tigereye_io::volume::lattice_from_image;
 use tigereye_io::{DataArray, IoError, PROVENANCE, Rows, Wanted, vti};
+use tigereye_lines::is_complex;
 
 /// Relative difference of the semi-axes below which a tensor counts as degenerate: files hold single precision.
 const DEGENERATE_BELOW: f64 = 1e-6;

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use tigereye_core::{Eigenvalues, Symmetry, fractional_anisotropy3, symmetric_eigenvalues3};
-use tigereye_experiments::input::TensorFile;
+use tigereye_input::TensorFile;
 use tigereye_io::volume::{Lattice, TensorVolume};
 
 /// An eigenvalue below this times the largest component counts as negative: files hold single precision.

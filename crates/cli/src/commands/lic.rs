@@ -4,13 +4,11 @@ use crate::args::classical::LicArgs;
 use crate::commands::{drawing, print_json, print_text};
 use crate::error::CliError;
 use serde_json::json;
-use tigereye_experiments::classical::fine::{
-    TextureRequest, image, texture, texture_parameters, texture_picture,
-};
-use tigereye_experiments::classical::{axes_name, axes_words, major_name};
-use tigereye_experiments::provenance::with_rows;
+use tigereye_input::provenance::with_rows;
 use tigereye_io::{Rows, vti};
 use tigereye_lines::ConvolutionOptions;
+use tigereye_views::image;
+use tigereye_views::lic::{self, TextureRequest};
 
 pub(crate) fn run(args: &LicArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["png", "svg", "vti"])?;
@@ -23,10 +21,9 @@ pub(crate) fn run(args: &LicArgs) -> Result<u8, CliError> {
         hyper: args.hyper,
         options: ConvolutionOptions { samples, half_length, seed },
     };
-    let found = texture(&input.field, &request).map_err(|e| CliError::input(&args.of.input, e))?;
-    let story =
-        drawing::story(&input, with_rows(texture_parameters(&request), Rows::Upwards), &args.of.reading);
-    let picture = || texture_picture(&found, &input.field, &request, args.tint, &args.of.input, None);
+    let found = lic::texture(&input.field, &request).map_err(|e| CliError::input(&args.of.input, e))?;
+    let story = drawing::story(&input, with_rows(lic::parameters(&request), Rows::Upwards), &args.of.reading);
+    let picture = || lic::picture(&found, &input.field, &request, args.tint, &args.of.input, None);
     drawing::write(&args.outputs, &picture, &|| {
         vti::write(&image(&[("LIC", &found)], request.samples_a_cell(), &drawing::placement(&input), &story))
     })?;
@@ -37,11 +34,11 @@ pub(crate) fn run(args: &LicArgs) -> Result<u8, CliError> {
             "width": width,
             "height": height,
             "samples": samples,
-            "axes": axes_name(axes.axes()),
-            "major": major_name(axes.major()),
+            "axes": axes.axes().name(),
+            "major": axes.major().name(),
         }))?;
     } else {
-        print_text(&format!("{width} x {height} samples; {}\n", axes_words(following.axes)))?;
+        print_text(&format!("{width} x {height} samples; {}\n", following.axes.words()))?;
     }
     Ok(0)
 }

@@ -6,10 +6,9 @@ use crate::error::CliError;
 use crate::input::Input;
 use serde_json::json;
 use tigereye_core::Tensor2;
-use tigereye_experiments::classical::lines::{LinesRequest, Seeds, lines, parameters};
-use tigereye_experiments::classical::{axes_name, axes_words, major_name};
 use tigereye_io::vtp;
 use tigereye_lines::{Inertia, LineOptions, Method};
+use tigereye_views::lines::{LinesRequest, Seeds, lines, parameters};
 
 /// Distance of lines in parts of the longer side.
 const LINES_A_SIDE: f64 = 40.0;
@@ -39,8 +38,8 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
         print_json(&json!({
             "width": input.field.grid().width(),
             "height": input.field.grid().height(),
-            "axes": axes_name(axes.axes()),
-            "major": major_name(axes.major()),
+            "axes": axes.axes().name(),
+            "major": axes.major().name(),
             "lines": found.lines.len(),
             "points": found.lines.iter().map(|l| l.line.points.len()).sum::<usize>(),
             "length": length,
@@ -52,12 +51,12 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
             true => {
                 "no line is long enough: lines leave the field at once, or end where axes do\n".to_owned()
             }
-            false => format!("no tensor has {}\n", axes_words(axes)),
+            false => format!("no tensor has {}\n", axes.words()),
         })?;
     } else {
         let count = counted(found.lines.len(), "line");
         let unit = drawing::unit(&request.following);
-        print_text(&format!("{count} along {}; {length:.1} {unit} long together\n", axes_words(axes)))?;
+        print_text(&format!("{count} along {}; {length:.1} {unit} long together\n", axes.words()))?;
     }
     Ok(0)
 }

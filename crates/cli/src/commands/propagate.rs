@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tigereye_core::{Cell, CellShape, Field, LightDistribution, PolarProfile, StopReason, Surface};
 use tigereye_experiments::Reel;
-use tigereye_experiments::provenance::{provenance, with_rows};
 use tigereye_experiments::settings::profile_of_expression;
+use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{Rows, npy, pvd, vti};
 use tigereye_render::{

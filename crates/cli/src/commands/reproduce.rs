@@ -8,12 +8,11 @@ use crate::host::{FileHost, REFERENCE};
 use crate::{files, interrupt, system};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use tigereye_experiments::report::{self, About};
 use tigereye_experiments::scene::is_scene_file;
 use tigereye_experiments::settings::{Settings, resolve, slug_of};
-use tigereye_experiments::{
-    ExperimentError, ExperimentOutcome, Host, RunError, evaluate, library, provenance, spec,
-};
+use tigereye_experiments::{ExperimentError, Host, RunError, evaluate, library, spec};
+use tigereye_input::provenance;
+use tigereye_report::{About, ExperimentOutcome};
 
 /// Largest number of experiment files in a folder.
 const MAX_FILES: usize = 10_000;
@@ -213,8 +212,8 @@ fn run_sources(
         threads: resources.threads.unwrap_or_else(rayon::current_num_threads),
         left_out,
     };
-    files::write(&out.join("summary.json"), report::summary_json(&outcomes, seconds).as_bytes())?;
-    files::write(&out.join("index.html"), report::html(&outcomes, &about).as_bytes())?;
+    files::write(&out.join("summary.json"), tigereye_report::summary_json(&outcomes, seconds).as_bytes())?;
+    files::write(&out.join("index.html"), tigereye_report::html(&outcomes, &about).as_bytes())?;
     conclude(&outcomes, out, seconds)
 }
 

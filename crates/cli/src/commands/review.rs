@@ -10,7 +10,7 @@ use crate::error::CliError;
 use crate::{files, interrupt};
 use revision::Workshop;
 use std::path::{Path, PathBuf};
-use tigereye_experiments::review::{self, MAX_FILE, Pending, Results, Review, Side};
+use tigereye_report::review::{self, MAX_FILE, Pending, Results, Review, Side};
 
 /// What `reproduce` writes for programs.
 const SUMMARY: &str = "summary.json";

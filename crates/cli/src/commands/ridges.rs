@@ -6,11 +6,11 @@ use crate::error::CliError;
 use crate::files;
 use serde_json::json;
 use std::path::Path;
-use tigereye_experiments::classical::ridges::{Feature, Found, ScalarImage, find};
-use tigereye_experiments::provenance::{hash_of_bytes, provenance};
+use tigereye_input::provenance::{hash_of_bytes, provenance};
 use tigereye_io::{vti, vtp};
 use tigereye_lines::{RidgeOptions, Threshold};
 use tigereye_render::Scene;
+use tigereye_views::ridges::{Feature, Found, ScalarImage, find};
 
 pub(crate) fn run(args: &RidgesArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;

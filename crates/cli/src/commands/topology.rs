@@ -4,9 +4,9 @@ use crate::args::classical::TopologyArgs;
 use crate::commands::{counted, drawing, print_json, print_text};
 use crate::error::CliError;
 use serde_json::json;
-use tigereye_experiments::classical::{axes_name, axes_words, family_name, major_name, topology};
 use tigereye_io::vtp;
 use tigereye_lines::LineOptions;
+use tigereye_views::topology;
 
 pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
@@ -18,10 +18,10 @@ pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
     drawing::check_steps(length, args.step)?;
     let families = args.family.families();
     let found = topology::topology(&input.field, following, families, &options);
-    let names: Vec<&str> = families.iter().map(|f| family_name(*f)).collect();
+    let names: Vec<&str> = families.iter().map(|f| f.name()).collect();
     let parameters = json!({
-        "axes": axes_name(axes.axes()),
-        "major": major_name(axes.major()),
+        "axes": axes.axes().name(),
+        "major": axes.major().name(),
         "family": names,
         "step": args.step,
         "length": length,
@@ -44,7 +44,7 @@ pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
                 1 => "1 separatrix".to_owned(),
                 n => format!("{n} separatrices"),
             },
-            axes_words(axes)
+            axes.words()
         ))?;
     }
     Ok(0)

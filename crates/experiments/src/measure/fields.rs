@@ -1,10 +1,10 @@
 //! Numbers of tensor fields.
 
 use super::worst;
-use crate::classical::is_complex;
 use crate::runs::RunError;
 use tigereye_core::{Anisotropy, Cell, Field, Svd, Tensor2, is_totally_anisotropic, math};
 use tigereye_fields::{Expression, ExpressionField, variables};
+use tigereye_lines::is_complex;
 use tigereye_lines::{Family, OrderedAxes};
 
 /// Half-axes that differ by less count as equal: their direction is arbitrary.

@@ -102,7 +102,7 @@ pub(super) fn correlation(a: &LtgVolume, b: &LtgVolume) -> Option<f64> {
             (*coarse_mean.at(c), bilinear(&fine_mean, x, y))
         })
         .collect();
-    pearson(&pairs)
+    tigereye_core::pearson(&pairs)
 }
 
 /// L2 difference of two gradients over the L2 norm of `a`, at the same cells and slices.
@@ -122,15 +122,6 @@ fn bilinear(field: &Field<f64>, x: f64, y: f64) -> f64 {
     let (u, v) = (x - x0 as f64, y - y0 as f64);
     let at = |x, y| *field.at(Cell::new(x, y));
     (1.0 - v) * ((1.0 - u) * at(x0, y0) + u * at(x1, y0)) + v * ((1.0 - u) * at(x0, y1) + u * at(x1, y1))
-}
-
-pub(crate) fn pearson(pairs: &[(f64, f64)]) -> Option<f64> {
-    let n = pairs.len() as f64;
-    let (ma, mb) = (pairs.iter().map(|p| p.0).sum::<f64>() / n, pairs.iter().map(|p| p.1).sum::<f64>() / n);
-    let sum = |f: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>();
-    let covariance = sum(&|p| (p.0 - ma) * (p.1 - mb));
-    let spread = (sum(&|p| (p.0 - ma) * (p.0 - ma)) * sum(&|p| (p.1 - mb) * (p.1 - mb))).sqrt();
-    (spread > 0.0).then_some(covariance / spread)
 }
 
 #[cfg(test)]

@@ -6,12 +6,11 @@ mod lights;
 mod pulses;
 
 pub(crate) use fields::mean_anisotropy;
-pub(crate) use gradients::{difference as gradient_difference, inner_cells, pearson, ridge_columns};
+pub(crate) use gradients::{difference as gradient_difference, inner_cells, ridge_columns};
 pub(crate) use lights::{at_step, lobe_ratio, net_flux_ratio};
 pub(crate) use pulses::summary;
 
 use crate::comparison;
-use crate::outcome::{CheckOutcome, Expected};
 use crate::runs::{LightResult, Results, RunError};
 use crate::settings::Settings;
 use crate::settings::{axes_of, sample_of};
@@ -19,6 +18,7 @@ use crate::spec::{Check, Expectation, Quantity, SchemeConstant};
 use crate::ways::{self, Ways};
 use tigereye_core::{Directions, Field, StopReason, Tensor2, math};
 use tigereye_ltg::LtgOutcome;
+use tigereye_report::{CheckOutcome, Expected};
 use tigereye_transport::{Scheme, SharedWeights, emitter, half_core_alpha_rad};
 
 /// Measures and judges a check. What cannot be measured is not a number and fails.

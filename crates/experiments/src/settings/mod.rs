@@ -10,18 +10,18 @@ pub(crate) use sources::beside;
 pub use sources::{defined_plane, is_field_file, make_field, make_plane};
 
 use crate::Medium;
-use crate::classical::{Following, usual_axes};
 use crate::evaluate::file_name;
 use crate::host::Host;
 use crate::places::{Known, Misplaced};
 use crate::scene::{self, PreparedScene, is_scene_file, light_fault};
-use crate::shortened;
 use crate::spec::{self, Experiment, Run, Scope, SourceText, SpecError};
 use crate::uses::{self, RunKind};
 use std::collections::BTreeMap;
 use tigereye_core::{Below, Cell, CellShape, Directions, Field, Grid, Normalization, Tensor2};
 use tigereye_lines::{Axes, Family, Major, OrderedAxes};
+use tigereye_lines::{Following, usual_axes};
 use tigereye_ltg::{omega_step_of_slices, omega_step_of_volumes};
+use tigereye_report::shortened;
 use tigereye_transport::{Light, SharedWeights, Stopping, StoppingRule, TransportError};
 
 /// An experiment, ready to run.

@@ -1,10 +1,10 @@
 //! Fields of every source: generators, formulas, data files, other fields.
 
 use crate::host::Host;
-use crate::input::{self, Derivation, Derived, PlaneField, Reading};
 use crate::spec::{self, DeriveRule, FieldSource, Named, Sigma};
 use tigereye_core::{Cell, Field, Grid, Tensor2};
 use tigereye_fields::{Arguments, ExpressionField, Form, with_noise};
+use tigereye_input::{Derivation, Derived, PlaneField, Reading};
 use tigereye_io::volume::{ComponentArrays, Crop, Frame, Plane, PlaneChoice, Shear, parse_slice};
 
 /// The field of a source.
@@ -55,7 +55,8 @@ pub fn make_plane(
                 let (plane, kind) = plane_in_file(path, host)?;
                 (defined_plane(plane, &reading).map_err(|e| fault(&e))?, kind)
             } else {
-                let file = input::open(path, &reading, &mut |name| host.read(name)).map_err(|e| fault(&e))?;
+                let file = tigereye_input::open(path, &reading, &mut |name| host.read(name))
+                    .map_err(|e| fault(&e))?;
                 let plane = file.plane(&reading).map_err(|e| fault(&e))?;
                 file.remarks()
                     .iter()
@@ -75,7 +76,7 @@ pub fn make_plane(
 /// Whether a file's name says that it holds a [`spec::FieldFile`].
 #[must_use]
 pub fn is_field_file(name: &str) -> bool {
-    input::format_of(name) == "ron"
+    tigereye_input::format_of(name) == "ron"
 }
 
 /// The field that a file of its own defines.
@@ -109,8 +110,8 @@ pub(crate) fn beside(path: &str, name: &str, host: &dyn Host) -> String {
 /// A field that needs no reading, cropped and resampled.
 ///
 /// # Errors
-/// [`input::InputError::Needless`] for what only data files have, and as [`PlaneField::cropped`] and [`PlaneField::resampled`].
-pub fn defined_plane(plane: PlaneField, reading: &Reading) -> Result<PlaneField, input::InputError> {
+/// [`tigereye_input::InputError::Needless`] for what only data files have, and as [`PlaneField::cropped`] and [`PlaneField::resampled`].
+pub fn defined_plane(plane: PlaneField, reading: &Reading) -> Result<PlaneField, tigereye_input::InputError> {
     let grid = plane.field.grid();
     let choice = reading.choice.resolve([grid.width(), grid.height(), 1])?;
     let of_files = [
@@ -128,7 +129,7 @@ pub fn defined_plane(plane: PlaneField, reading: &Reading) -> Result<PlaneField,
     ];
     if let Some((_, option)) = of_files.into_iter().find(|(is_given, _)| *is_given) {
         let why = "the field is made by a generator or a field file and lies in the plane xy";
-        return Err(input::InputError::Needless { option, why });
+        return Err(tigereye_input::InputError::Needless { option, why });
     }
     plane.cropped(reading)?.resampled(reading)
 }

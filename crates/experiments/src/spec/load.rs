@@ -2,10 +2,10 @@
 
 use super::source_text::SourceText;
 use super::{Experiment, FORMAT, FieldFile, SceneFile};
-use crate::shortened;
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
+use tigereye_report::shortened;
 
 /// A fault in an experiment file.
 #[derive(Clone, Debug, Error, PartialEq)]

@@ -3,10 +3,10 @@
 use maud::{Markup, html};
 
 use super::figures::figures;
-use super::links::{address, path};
-use super::numbers::{count, counted, duration, file_size, number};
 use super::tables::tables;
 use super::verdict::{Tally, excess, mark};
+use crate::links::{address, path};
+use crate::numbers::{count, counted, duration, file_size, number};
 use crate::{CheckOutcome, DataFile, Expected, ExperimentOutcome};
 
 /// Everything about one experiment.

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use maud::{Markup, html};
 
 use super::About;
-use super::links::place;
-use super::numbers::{count, counted, duration};
 use super::verdict::Tally;
 use crate::ExperimentOutcome;
+use crate::links::place;
+use crate::numbers::{count, counted, duration};
 
 /// Experiments by section, sections ascending, experiments of a section in the order given.
 pub(super) type Sections<'a> = BTreeMap<&'a str, Vec<&'a ExperimentOutcome>>;

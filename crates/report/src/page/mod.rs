@@ -1,22 +1,18 @@
-//! The report: one page and one summary of all outcomes.
+//! One page of all outcomes.
 
 mod contents;
+mod document;
 mod figures;
 mod gallery;
 mod glossary;
 mod introduction;
-mod links;
-pub(crate) mod numbers;
 mod overview;
-mod page;
-mod summary;
 mod tables;
 #[cfg(test)]
 mod tests;
 mod verdict;
 
-pub use page::html;
-pub use summary::summary_json;
+pub use document::html;
 
 /// What the page says about the run as a whole.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::links::place;
 use super::tables::{class_of, scrolled};
+use crate::links::place;
 use crate::{ExperimentOutcome, Table};
 
 /// Fewer experiments need no overview.

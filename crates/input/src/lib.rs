@@ -9,7 +9,9 @@
 //! The program's commands and the fields of experiment files go the same way. Whoever calls reads the bytes.
 
 mod file;
+pub mod lint;
 mod plane;
+pub mod provenance;
 mod reading;
 mod threshold;
 

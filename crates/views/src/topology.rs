@@ -1,13 +1,11 @@
 //! Degenerate points and separatrices.
 
-use super::{
-    Followed, Following, Placement, axes_name, axes_words, counts, family_name, line_overlay, major_name,
-    plain_options, point_overlays, push_line, push_story,
-};
+use super::{Placement, counts, line_overlay, plain_options, point_overlays, push_line, push_story};
 use serde_json::{Value, json};
 use tigereye_core::{Field, Tensor2};
 use tigereye_io::PolyData;
 use tigereye_lines::{DegeneratePoint, Family, LineEnd, LineOptions, TensorLine, Topology, evenly_spaced};
+use tigereye_lines::{Followed, Following};
 use tigereye_render::{Overlay, Rgba, Scene, plain_map};
 
 /// The skeleton of a field.
@@ -40,10 +38,10 @@ pub fn picture(
         let followed = Followed::new(field, following);
         let around =
             evenly_spaced(&followed.interpolated(), family, (longest / LINES_A_SIDE).max(0.5), &options);
-        let label = format!("{} lines: {}", family_name(family), axes_words(following.axes));
+        let label = format!("{} lines: {}", family.name(), following.axes.words());
         overlays.push(Overlay { colour: CONTEXT, width_px: 0.8, ..line_overlay(&around, family, &label) });
         if !lines.is_empty() {
-            let label = format!("separatrices of the {} axis", family_name(family));
+            let label = format!("separatrices of the {} axis", family.name());
             overlays.push(Overlay { width_px: 1.8, ..line_overlay(lines, family, &label) });
         }
     }
@@ -102,7 +100,7 @@ pub fn summary(topology: &Topology, following: Following) -> Value {
         .map(|s| {
             json!({
                 "point": s.point,
-                "family": family_name(s.family),
+                "family": s.family.name(),
                 "length": s.line.length(following.cell),
                 "end": end(s.line.ends[1]),
             })
@@ -110,8 +108,8 @@ pub fn summary(topology: &Topology, following: Following) -> Value {
         .collect();
     let sum = 0.5 * f64::from(topology.points.iter().map(DegeneratePoint::half_turns).sum::<i32>());
     json!({
-        "axes": axes_name(following.axes.axes()),
-        "major": major_name(following.axes.major()),
+        "axes": following.axes.axes().name(),
+        "major": following.axes.major().name(),
         "points": points,
         "separatrices": separatrices,
         "index_sum": sum,

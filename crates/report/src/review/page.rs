@@ -5,7 +5,7 @@ use super::{
     Entry, ExperimentReview, FigureReview, Kind, NOISE, NumberReview, Picture, Review, Side, State, Subject,
     Value,
 };
-use crate::report::numbers::{counted, digits_apart, duration, number, number_with};
+use crate::numbers::{counted, digits_apart, duration, number, number_with};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
@@ -67,7 +67,7 @@ fn head(moved: usize, subject: Subject) -> Markup {
             meta name="viewport" content="width=device-width, initial-scale=1";
             meta name="color-scheme" content="light dark";
             title { "tigereye review: " (headline(moved, subject)) }
-            style { (PreEscaped(include_str!("../report/style.css"))) (PreEscaped(include_str!("page.css"))) }
+            style { (PreEscaped(include_str!("../style.css"))) (PreEscaped(include_str!("page.css"))) }
         }
     }
 }
@@ -249,7 +249,7 @@ fn figure(review: &Review, e: &ExperimentReview, f: &FigureReview) -> Markup {
                     p {
                         b { "Figure " (f.name) ": " }
                         (counted(usize::try_from(d.differing).unwrap_or(usize::MAX), "pixel"))
-                        " of " (crate::report::numbers::count(d.pixels)) " differ"
+                        " of " (crate::numbers::count(d.pixels)) " differ"
                         @if d.differing == 1 { "s" }
                         " (" (number_with(share, 2)) " %), by " (d.largest) " of 255 at most"
                     }

@@ -102,6 +102,20 @@ pub(crate) fn count(n: u64) -> String {
     out
 }
 
+/// A message with its middle left out where somebody's input makes it longer than people read.
+#[must_use]
+pub fn shortened(message: &str) -> String {
+    const HEAD: usize = 500;
+    const TAIL: usize = 300;
+    let count = message.chars().count();
+    if count <= HEAD + TAIL {
+        return message.to_owned();
+    }
+    let head: String = message.chars().take(HEAD).collect();
+    let tail: String = message.chars().skip(count - TAIL).collect();
+    format!("{head} [... {} characters ...] {tail}", count - HEAD - TAIL)
+}
+
 /// A count with its noun, which takes an s unless there is one.
 pub(crate) fn counted(n: usize, noun: &str) -> String {
     format!("{} {noun}{}", count(n as u64), if n == 1 { "" } else { "s" })
@@ -124,7 +138,7 @@ pub(crate) fn duration(seconds: f64) -> String {
 }
 
 /// A file size.
-pub(super) fn file_size(bytes: usize) -> String {
+pub(crate) fn file_size(bytes: usize) -> String {
     match bytes {
         0..1_000 => counted(bytes, "byte"),
         1_000..1_000_000 => format!("{:.1} kB", bytes as f64 / 1e3),

@@ -1,7 +1,7 @@
 //! From the bytes of a file to tensors, or numbers, on a lattice.
 
-use super::{Derivation, InputError, Reading};
 use crate::provenance::hash_of_bytes;
+use crate::{Derivation, InputError, Reading};
 use tigereye_io::volume::{
     Frame, Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
 };

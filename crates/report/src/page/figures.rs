@@ -4,8 +4,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, html};
 
-use super::links::{address, path};
 use crate::Figure;
+use crate::links::{address, path};
 
 /// Up to this width in pixels three figures share a row.
 const SMALL_PX: f64 = 400.0;

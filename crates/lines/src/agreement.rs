@@ -1,7 +1,7 @@
 //! How far scalars and their ridges agree.
 
+use crate::{NearestSegment, Polyline, Polylines, RidgeOptions, Threshold};
 use tigereye_core::{Field, Grid};
-use tigereye_lines::{NearestSegment, Polyline, Polylines, RidgeOptions, Threshold};
 
 /// Cells along the border that no ridge is compared in: gradients are 0 in the outermost ones, and ridges need others around them.
 pub const MARGIN: f64 = 4.0;
@@ -123,7 +123,7 @@ pub fn correlation(a: &Field<f64>, b: &Field<f64>) -> Option<f64> {
     }
     let pairs: Vec<(f64, f64)> = a.values().iter().copied().zip(b.values().iter().copied()).collect();
     let pairs: Vec<(f64, f64)> = pairs.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
-    crate::measure::pearson(&pairs)
+    tigereye_core::pearson(&pairs)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A review as a screenful of text and as JSON.
 
 use super::{Entry, ExperimentReview, FigureReview, Kind, NumberReview, Review, State, Subject, Value};
-use crate::report::numbers::counted;
+use crate::numbers::counted;
 use serde::Serialize;
 
 /// Experiments that the text names.

@@ -1,13 +1,13 @@
 //! Relative paths of the files beside the page, and their addresses in links.
 
 /// Path of a file of an experiment, relative to the results folder.
-pub(super) fn path(slug: &str, file: &str) -> String {
+pub(crate) fn path(slug: &str, file: &str) -> String {
     format!("{slug}/{file}")
 }
 
 /// `path` as the address of a link: everything but plain characters in percent notation. A leading `./` keeps
 /// a colon in the name from being read as a scheme.
-pub(super) fn address(path: &str) -> String {
+pub(crate) fn address(path: &str) -> String {
     let mut out = String::from("./");
     for byte in path.bytes() {
         match byte {
@@ -21,7 +21,7 @@ pub(super) fn address(path: &str) -> String {
 }
 
 /// `id` as the address of a place on the page.
-pub(super) fn place(id: &str) -> String {
+pub(crate) fn place(id: &str) -> String {
     format!("#{}", &address(id)[2..])
 }
 

@@ -7,10 +7,10 @@ use super::contents::{Sections, by_section, contents, result, section_id};
 use super::gallery::article;
 use super::glossary::glossary;
 use super::introduction::{about_tensor_lines, introduction};
-use super::numbers::counted;
 use super::overview::overview;
 use super::verdict::Tally;
 use crate::ExperimentOutcome;
+use crate::numbers::counted;
 
 const CLOSING: &str = "\
     All pictures and numbers were computed in this run; summary.json beside this page holds the same \
@@ -55,7 +55,7 @@ fn head(outcomes: &[ExperimentOutcome]) -> Markup {
             meta name="viewport" content="width=device-width, initial-scale=1";
             meta name="color-scheme" content="light dark";
             title { "tigereye: " (counted(outcomes.len(), "experiment")) ", " (tally.sentence()) }
-            style { (PreEscaped(include_str!("style.css"))) }
+            style { (PreEscaped(include_str!("../style.css"))) }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a user says about a file.
 
-use super::InputError;
+use crate::InputError;
 use tigereye_io::volume::{ComponentArrays, Crop, Frame, PlaneChoice, Shear};
 use tigereye_io::{ArrayChoice, Limits, Wanted};
 

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::links::path;
+use crate::links::path;
 use crate::{CheckOutcome, Expected, ExperimentOutcome};
 
 /// All outcomes as JSON, indented, keys in a fixed order.

@@ -1,15 +1,13 @@
 //! Tensor lines and hyperstreamlines.
 
-use super::{
-    Followed, Following, Placement, axes_name, axes_words, counts, family_name, line_overlay, major_name,
-    plain_options, push_line, push_story,
-};
+use super::{Placement, counts, line_overlay, plain_options, push_line, push_story};
 use thiserror::Error;
 use tigereye_core::{Field, Tensor2};
 use tigereye_io::{DataArray, PolyData};
 use tigereye_lines::{
     Family, LineEnd, LineOptions, MAX_POINTS, TensorLine, evenly_spaced, half_widths, tensor_line,
 };
+use tigereye_lines::{Followed, Following};
 use tigereye_render::{Overlay, PlainOptions, Rgba, Ribbon, Scene, plain_map};
 
 /// Colours of major and minor bands.
@@ -116,7 +114,7 @@ impl FieldLines {
         let overlays = [Family::Major, Family::Minor].into_iter().filter_map(|family| {
             let lines: Vec<&TensorLine> =
                 self.lines.iter().filter(|l| l.family == family).map(|l| &l.line).collect();
-            let label = format!("{} lines: {}", family_name(family), axes_words(self.following().axes));
+            let label = format!("{} lines: {}", family.name(), self.following().axes.words());
             (!lines.is_empty()).then(|| line_overlay(lines, family, &label))
         });
         let overlays = overlays.chain(more).collect();
@@ -137,7 +135,7 @@ impl FieldLines {
     }
 
     const fn following(&self) -> Following {
-        self.followed.following
+        self.followed.following()
     }
 
     /// Length of all lines together, in the unit of the smaller side of a cell.
@@ -203,9 +201,9 @@ pub fn parameters(request: &LinesRequest) -> serde_json::Value {
         Method::DormandPrince { tolerance } => ("rk45", Some(tolerance)),
     };
     serde_json::json!({
-        "axes": axes_name(request.following.axes.axes()),
-        "major": major_name(request.following.axes.major()),
-        "family": request.families.iter().map(|f| family_name(*f)).collect::<Vec<_>>(),
+        "axes": request.following.axes.axes().name(),
+        "major": request.following.axes.major().name(),
+        "family": request.families.iter().map(|f| f.name()).collect::<Vec<_>>(),
         "seeds": seeds,
         "method": method,
         "tolerance": tolerance,

@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 
-use super::{About, html, summary_json};
-use crate::{CheckOutcome, Column, DataFile, Expected, ExperimentOutcome, Figure, Table};
+use super::{About, html};
+use crate::{CheckOutcome, Column, DataFile, Expected, ExperimentOutcome, Figure, Table, summary_json};
 
 fn about() -> About {
     let command = "tigereye reproduce --out results".into();

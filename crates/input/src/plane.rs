@@ -1,6 +1,6 @@
 //! From a file's content to a field in the plane.
 
-use super::{Content, Derivation, Derived, InputError, Reading, TensorFile};
+use crate::{Content, Derivation, Derived, InputError, Reading, TensorFile};
 use tigereye_core::{Field, Tensor2};
 use tigereye_fields::images::{
     MAX_RESAMPLED, MAX_RESAMPLED_CELLS, gradient_tensors, hessian_tensors, orientation_tensors, resampled,

@@ -168,11 +168,10 @@ fn lattice_of(
     let bytes = read(name)?;
     let (kind, lattice) = match format_of(name).as_str() {
         format if TABLES.contains(&format) => (TABLE, of_table(&bytes, array, wanted)?),
-        "txt" if wanted == Wanted::Vectors || table::kind(&bytes) != table::Kind::Other => {
-            (TABLE, of_table(&bytes, array, wanted)?)
-        }
+        "txt" if is_table(&bytes, wanted) => (TABLE, of_table(&bytes, array, wanted)?),
         "txt" if let Some(option) = option => return Err(nameless(option)),
-        "txt" => (TEXT_MATRICES, matrices::read_lattice(&bytes, wanted)),
+        "txt" if wanted == Wanted::Scalars => ("rows of numbers", table::read_numbers(&bytes)),
+        "txt" => (TEXT_MATRICES, matrices::read_lattice(&bytes)),
         "npy" => ("NumPy array", npy::read_lattice(&bytes, wanted)),
         "npz" => ("NumPy archive", npy::read_archive(&bytes, array, wanted)),
         "vti" => (
@@ -201,6 +200,15 @@ fn lattice_of(
     Ok((kind, lattice?, bytes))
 }
 
+/// Whether a text is a table. Images of single numbers may have columns that count.
+fn is_table(bytes: &[u8], wanted: Wanted) -> bool {
+    match (wanted, table::kind(bytes)) {
+        (Wanted::Vectors, _) | (_, table::Kind::Named | table::Kind::Positions) => true,
+        (Wanted::Scalars, _) | (_, table::Kind::Other) => false,
+        (Wanted::Tensors, table::Kind::Numbered) => true,
+    }
+}
+
 /// What a table holds: vectors by names or places, anything else by the names of its columns.
 fn of_table(
     bytes: &[u8],
@@ -209,6 +217,9 @@ fn of_table(
 ) -> Result<Result<Lattice, IoError>, InputError> {
     if wanted == Wanted::Vectors && matches!(array, ArrayChoice::Usual) {
         return Ok(table::read_vectors(bytes));
+    }
+    if wanted == Wanted::Scalars && !is_table(bytes, wanted) {
+        return Ok(table::read_numbers(bytes));
     }
     match table::read_columns(bytes, array, wanted) {
         // Vectors are read without names, too; of tensors nobody knows which columns they are.
@@ -300,7 +311,7 @@ impl TensorFile {
             100.0 * s.share,
             100.0 * s.better,
             s.tools,
-            s.order
+            s.orders.iter().map(ToString::to_string).collect::<Vec<_>>().join(" or ")
         ))
     }
 

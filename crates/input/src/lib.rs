@@ -186,10 +186,13 @@ impl InputError {
 }
 
 /// Which option helps.
-const fn hint(source: &IoError) -> &'static str {
+fn hint(source: &IoError) -> &'static str {
     match source {
         IoError::PlaneNeeded { .. } => " (option --slice AXIS=INDEX)",
         IoError::SliceNeeded { .. } => " (option --slice)",
+        IoError::AmbiguousArray { candidates } if candidates.iter().any(|c| c.contains(", ")) => {
+            " (option --array, or --components for those of several arrays)"
+        }
         IoError::AmbiguousArray { .. } => " (option --array)",
         IoError::NoTensor { .. } => " (option --order)",
         IoError::TooManyCells { .. } | IoError::TooManyValues { .. } => " (option --limit)",

@@ -199,7 +199,7 @@ pub enum IoError {
     },
     /// An array whose first axis, or first two, are the components.
     #[error(
-        "an array of shape {shape:?} has its components first: expected them last, as numpy.moveaxis(array, 0, -1) puts them"
+        "an array of shape {shape:?}, which could have its components first: expected them last, as numpy.moveaxis(array, 0, -1) puts them"
     )]
     NpyComponentsFirst {
         /// Shape as read.

@@ -9,14 +9,12 @@
 //! xx(0,1) xy(0,1)  ...
 //! ```
 //!
-//! Where single numbers are wanted, every number is a cell.
-//!
 //! Blanks at both ends of a row, blank lines at the end, CR LF and a UTF-8 byte order mark are accepted; `nan` and `inf`
 //! are not.
 
+use crate::IoError;
 use crate::error::shortened;
-use crate::volume::{Frame, Known, Lattice, World};
-use crate::{IoError, ScalarType, Wanted};
+use crate::volume::Lattice;
 use std::fmt::Write as _;
 use tigereye_core::{Cell, CoreError, Field, Grid, Tensor2};
 
@@ -37,14 +35,11 @@ pub fn read(bytes: &[u8]) -> Result<Field<Tensor2>, IoError> {
 const NARROW: usize = 4;
 const LONG: usize = 5;
 
-/// Reads a tensor field, or an image of single numbers where these are wanted, row 0 on top.
+/// Reads a tensor field as a lattice, with a warning where a table would look the same.
 ///
 /// # Errors
-/// As [`read`], with any number of rows and columns for an image.
-pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
-    if wanted == Wanted::Scalars {
-        return read_numbers(bytes);
-    }
+/// As [`read`].
+pub fn read_lattice(bytes: &[u8]) -> Result<Lattice, IoError> {
     let field = read(bytes)?;
     let mut lattice = Lattice::from_field(&field);
     let [width, height, _] = lattice.size;
@@ -55,37 +50,6 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
         ));
     }
     Ok(lattice)
-}
-
-/// Every number as a cell.
-fn read_numbers(bytes: &[u8]) -> Result<Lattice, IoError> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut rows = Rows { any_columns: true, ..Rows::default() };
-    for (i, line) in bytes.split(|&b| b == b'\n').enumerate() {
-        rows.add(i + 1, line.strip_suffix(b"\r").unwrap_or(line))?;
-    }
-    if rows.rows == 0 {
-        return Err(IoError::EmptyText);
-    }
-    let grid = Grid::new(rows.columns, rows.rows)?;
-    Ok(Lattice {
-        size: [grid.width(), grid.height(), 1],
-        components: 1,
-        values: rows.numbers,
-        order: None,
-        array: "numbers".to_owned(),
-        notes: vec!["one number a cell, first row on top".to_owned()],
-        axes: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]],
-        origin: [0.0, (grid.height() - 1) as f64, 0.0],
-        scalar: ScalarType::Float64,
-        world: World::Absent,
-        measurement: None,
-        mask: None,
-        frame: (Frame::World, Known::Stated),
-        component_names: Vec::new(),
-        remarks: Vec::new(),
-        warnings: Vec::new(),
-    })
 }
 
 /// Writes a tensor field; every number with the digits that bring it back exactly.
@@ -122,8 +86,6 @@ struct Rows {
     rows: usize,
     last_line: usize,
     first_blank: Option<usize>,
-    /// Whether rows need not be made of pairs.
-    any_columns: bool,
 }
 
 impl Rows {
@@ -148,7 +110,7 @@ impl Rows {
             self.first_blank.get_or_insert(line);
             return Ok(());
         }
-        if self.rows == 0 && !self.any_columns && !found.is_multiple_of(2) {
+        if self.rows == 0 && !found.is_multiple_of(2) {
             return Err(IoError::OddColumns { column: last_column, columns: found });
         }
         if self.rows > 0 && found < self.columns {
@@ -235,17 +197,9 @@ mod tests {
     }
 
     #[test]
-    fn single_numbers_are_cells() {
-        let lattice = read_lattice(b"1 2 3\n4 5 6\n7 8 9\n", Wanted::Scalars).unwrap();
-        assert_eq!((lattice.size, lattice.components), ([3, 3, 1], 1));
-        let slice = lattice.scalars(crate::volume::PlaneChoice::default()).unwrap();
-        assert_eq!(slice.field.values(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
-    }
-
-    #[test]
     fn narrow_fields_are_said_to_look_like_tables() {
         let rows = |n: usize| "1 0.5 0.5 2\n".repeat(2 * n);
-        let warnings = |n| read_lattice(rows(n).as_bytes(), Wanted::Tensors).unwrap().warnings.len();
+        let warnings = |n| read_lattice(rows(n).as_bytes()).unwrap().warnings.len();
         assert_eq!((warnings(4), warnings(21)), (0, 1));
     }
 

@@ -2,9 +2,9 @@
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
 use std::io::Write as _;
-use tigereye_core::{Svd, Tensor2};
+use tigereye_core::{Cell, Svd, Tensor2};
 use tigereye_io::volume::{
-    ALIASES, CONVENTIONS, ComponentArrays, Frame, Known, Lattice, Plane, PlaneChoice, Reading, Shear,
+    ALIASES, Axis, CONVENTIONS, ComponentArrays, Frame, Known, Lattice, Plane, PlaneChoice, Reading, Shear,
     TensorOrder, documentation, lattice_from_image, lattice_from_points,
 };
 use tigereye_io::{ArrayChoice, DataArray, ImageData, IoError, ScalarType, Wanted, legacy, nifti, npy, nrrd};
@@ -298,6 +298,44 @@ fn positions_of_archives_place_their_cells() {
         "{:?}",
         lattice.warnings
     );
+}
+
+/// Volumes with one array a component are told from volumes of tuples by the names, whatever the length of their last axis, and
+/// their components are along the axes of their positions.
+#[test]
+fn volumes_of_archives_have_one_array_a_component() {
+    let member = |name: &str, shape: &[usize], values: Vec<f64>| {
+        (name.to_owned(), npy::write_array(shape, &values).unwrap())
+    };
+    for layers in [2, 3, 4, 6, 7, 9] {
+        let shape = [3, 2, layers];
+        let of = |f: fn(f64, f64, f64) -> f64| -> Vec<f64> {
+            let at = |i: usize| (i / layers / 2, i / layers % 2, i % layers);
+            (0..6 * layers).map(at).map(|(x, y, z)| f(x as f64, 5.0 - y as f64, z as f64)).collect()
+        };
+        let members = [
+            member("x", &[3], vec![0.0, 1.0, 2.0]),
+            // Downwards: the voxel axis is not the axis of the components.
+            member("y", &[2], vec![5.0, 4.0]),
+            member("z", &[layers], (0..layers).map(|z| z as f64).collect()),
+            member("sxx", &shape, of(|x, _, z| x + 10.0 * z)),
+            member("syy", &shape, of(|_, y, _| y)),
+            member("szz", &shape, of(|_, _, z| z)),
+            member("sxy", &shape, of(|x, y, _| 0.1 * x * y)),
+            member("sxz", &shape, vec![0.0; 6 * layers]),
+            member("syz", &shape, vec![0.0; 6 * layers]),
+        ];
+        let arrays = ComponentArrays::parse("XX=sxx,YY=syy,ZZ=szz,XY=sxy,XZ=sxz,YZ=syz").unwrap();
+        for choice in [ArrayChoice::Usual, ArrayChoice::Components(&arrays)] {
+            let lattice = npy::lattice_of_members(&members, choice, Wanted::Tensors).unwrap();
+            assert_eq!((lattice.size, lattice.frame.0), (shape, Frame::World), "{layers} layers");
+            let choice = PlaneChoice { plane: Some(Plane::Xy), slice: Some((Axis::Z, 1)) };
+            let slice = lattice.tensors(Reading::default()).unwrap().slice(choice).unwrap();
+            // On top right: x = 2, y = 5.
+            let t = slice.field.at(Cell::new(2, 0));
+            assert_eq!(t.components(), [12.0, 1.0, 1.0, 5.0], "{layers} layers");
+        }
+    }
 }
 
 /// One array at points and one in cells are as ambiguous as two at points.

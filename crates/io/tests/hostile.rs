@@ -366,7 +366,7 @@ fn read_as_everything(bytes: &[u8]) {
         assert_eq!(lattice.values.len(), 2 * lattice.voxels());
         let _ = (lattice.vectors(PlaneChoice::default(), None), lattice.story());
     }
-    let _ = matrices::read_lattice(bytes, Wanted::Scalars);
+    let _ = (matrices::read_lattice(bytes), table::read_numbers(bytes));
     let columns = table::read_columns(bytes, None.into(), Wanted::Tensors);
     let volumes = volumes.into_iter().chain([columns]);
     for lattice in volumes.into_iter().flatten() {

@@ -97,6 +97,9 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             if let Some(words) = unplaced(format, &volume, frame) {
                 eprintln!("{name}: {words}");
             }
+            if volume.lattice().size[2] > 1 && !volume.order().0.has(2, 2) {
+                eprintln!("{name}: the file has no components along the third axis: written as zero");
+            }
             // What the file states about its components stands; the option says how they are written.
             encoded(format, &volume.as_stated(), frame, args, &blake3)
         }

@@ -2,7 +2,7 @@
 
 use super::positions::{self, Positions};
 use super::{NpyArray, read_array};
-use crate::volume::{Content, Lattice, World};
+use crate::volume::{Content, Lattice, World, groups, row_groups};
 use crate::{ArrayChoice, DataArray, ImageData, IoError, Wanted, choose_array};
 
 /// How the axes of an array lie: rows and columns of a picture, or three axes of a volume; and the numbers of a tuple.
@@ -101,6 +101,12 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
         let (first, last) = (shape[0], shape[shape.len() - 1]);
         format!("the first axis (size {first}) could be the components as well as the last ({last}), which was taken")
     });
+    let array = NpyArray { shape, values, scalar };
+    Ok(laid_out(array, layout, warnings.into_iter().collect()))
+}
+
+fn laid_out(array: NpyArray, layout: Layout, warnings: Vec<String>) -> Lattice {
+    let NpyArray { shape, values, scalar } = array;
     let (size, tuple, down, values, content, note) = match layout {
         Layout::Picture { height, width, tuple, content } => {
             let note = "indexed [row][column], row 0 on top, in the frame x right, y up";
@@ -111,7 +117,7 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
             (size, tuple, 1.0, x_fastest(&values, size, tuple), Content::NumpyVolume, note)
         }
     };
-    Ok(Lattice {
+    Lattice {
         size,
         components: tuple,
         values,
@@ -128,8 +134,8 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
         component_names: Vec::new(),
         notes: vec![note.to_owned()],
         remarks: Vec::new(),
-        warnings: warnings.into_iter().collect(),
-    })
+        warnings,
+    }
 }
 
 /// Takes an array out of the arrays of an archive, by name and bytes: the named one, the only one that fits, or the one whose
@@ -179,7 +185,8 @@ pub fn lattice_of_members(
     let unplaced: Vec<&str> = aside.into_iter().filter(|n| positions::is_position(n)).collect();
     if !unplaced.is_empty() {
         let names = unplaced.join(", ");
-        lattice.warnings.push(format!("positions {names} left aside: cells of size 1, row 0 on top"));
+        let placed = if placing.is_empty() { ": cells of size 1" } else { "" };
+        lattice.warnings.push(format!("positions {names} left aside{placed}"));
     }
     Ok(lattice)
 }
@@ -190,12 +197,22 @@ fn out_of_several(
     choice: ArrayChoice,
     wanted: Wanted,
 ) -> Result<(Vec<String>, Lattice), IoError> {
-    let any = |bytes: &[u8]| {
+    let components = components_among(members, choice, wanted);
+    let any = |name: &String, bytes: &[u8]| {
+        if components.contains(name) {
+            return read_numbers(bytes).ok();
+        }
         [wanted, Wanted::Scalars, Wanted::Vectors].into_iter().find_map(|w| read_lattice(bytes, w).ok())
     };
-    let read: Vec<(&String, Lattice)> =
-        members.iter().filter_map(|(name, bytes)| Some((name, any(bytes)?))).collect();
-    let mut image = ImageData::empty([1; 3]);
+    let (mut read, mut image) = (Vec::new(), ImageData::empty([1; 3]));
+    for (name, bytes) in members {
+        match any(name, bytes) {
+            Some(lattice) => read.push((name, lattice)),
+            None => image
+                .skipped
+                .extend(read_array(bytes).ok().map(|a| format!("`{name}` (shape {:?})", a.shape))),
+        }
+    }
     for (name, lattice) in &read {
         // Positions are not the data; their components would be taken for vectors.
         if positions::is_position(name) && matches!(choice, ArrayChoice::Usual) {
@@ -213,6 +230,45 @@ fn out_of_several(
     let missing = || IoError::NoArray { wanted: "array".to_owned(), available: Vec::new() };
     let (_, first) = first.ok_or_else(missing)?;
     Ok((used, first.clone().with_array(array.into_owned())))
+}
+
+/// Names of the arrays that are one component each, of two or three axes of cells: those that a user names, and those whose
+/// names make up a tensor or, where vectors are wanted, a vector.
+fn components_among(members: &[(String, Vec<u8>)], choice: ArrayChoice, wanted: Wanted) -> Vec<String> {
+    if let ArrayChoice::Components(components) = choice {
+        return if components.are_numbers(wanted) {
+            components.arrays().map(str::to_owned).collect()
+        } else {
+            Vec::new()
+        };
+    }
+    let shape =
+        |i: usize| read_array(&members[i].1).ok().map(|a| a.shape).filter(|s| matches!(s.len(), 2 | 3));
+    let alike =
+        |group: &[usize]| shape(group[0]).is_some() && group.iter().all(|&i| shape(i) == shape(group[0]));
+    let names: Vec<&str> = members.iter().map(|(name, _)| name.as_str()).collect();
+    let found = match wanted {
+        Wanted::Tensors => groups(&names).into_iter().map(|group| group.members).collect(),
+        Wanted::Vectors => [row_groups(&names, 3), row_groups(&names, 2)].concat(),
+        Wanted::Scalars => Vec::new(),
+    };
+    let all = found.into_iter().filter(|group| alike(group)).flatten();
+    all.map(|i| names[i].to_owned()).collect()
+}
+
+/// An array of single numbers, whatever the length of its last axis.
+fn read_numbers(bytes: &[u8]) -> Result<Lattice, IoError> {
+    let array = read_array(bytes)?;
+    let layout = match array.shape[..] {
+        [height, width] => Some(Layout::Picture { height, width, tuple: 1, content: Content::NumpyPlane }),
+        [x, y, z] => Some(Layout::Volume { size: [x, y, z], tuple: 1 }),
+        _ => None,
+    };
+    let layout = layout.filter(|_| !array.shape.contains(&0));
+    let expected = expected(Wanted::Scalars);
+    layout
+        .map(|l| laid_out(array.clone(), l, Vec::new()))
+        .ok_or(IoError::NpyShape { shape: array.shape, expected })
 }
 
 /// From `[x][y][z][component]` to tuples with x fastest.

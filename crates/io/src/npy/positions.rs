@@ -2,7 +2,7 @@
 
 use super::{NpyArray, read_array};
 use crate::points::PointLattice;
-use crate::volume::{Lattice, World};
+use crate::volume::{Frame, Known, Lattice, World};
 use crate::{ImageData, IoError};
 
 /// What the axes of positions are called, in any case; the third is that of volumes.
@@ -40,13 +40,15 @@ pub(super) struct Positions {
     points: Vec<[f64; 3]>,
     /// Words of warning where x could run along either axis.
     ambiguous: bool,
+    is_volume: bool,
 }
 
 impl Positions {
     /// The positions that fit a lattice, out of arrays that do not make up its data. `None` where there are none, or of
     /// other sizes.
     pub(super) fn among(members: &[(String, Vec<u8>)], used: &[String], lattice: &Lattice) -> Option<Self> {
-        let is_volume = lattice.size[2] > 1;
+        // Pictures have row 0 on top.
+        let is_volume = lattice.axes[1][1] > 0.0;
         let find = |name: &str| {
             let (name, bytes) =
                 members.iter().find(|(n, _)| n.eq_ignore_ascii_case(name) && !used.contains(n))?;
@@ -55,19 +57,26 @@ impl Positions {
         let needed = if is_volume { 3 } else { 2 };
         AXES.iter().find_map(|axes| {
             let found: Option<Vec<(String, NpyArray)>> = axes[..needed].iter().map(|n| find(n)).collect();
-            let (names, arrays): (Vec<String>, Vec<NpyArray>) = found?.into_iter().unzip();
-            Self::of(names, &arrays, lattice.size)
+            let (mut names, mut arrays): (Vec<String>, Vec<NpyArray>) = found?.into_iter().unzip();
+            // The height of a plane.
+            let height = find(axes[2])
+                .filter(|(_, z)| !is_volume && (z.values.len() == 1 || z.shape == arrays[0].shape));
+            if let Some((name, z)) = height {
+                names.push(name);
+                arrays.push(z);
+            }
+            Self::of(names, &arrays, lattice.size, is_volume)
         })
     }
 
-    fn of(names: Vec<String>, arrays: &[NpyArray], size: [usize; 3]) -> Option<Self> {
+    fn of(names: Vec<String>, arrays: &[NpyArray], size: [usize; 3], is_volume: bool) -> Option<Self> {
         let [nx, ny, nz] = size;
-        let is_volume = arrays.len() == 3;
         // The shape of one number a cell, and that of one number a row, column or layer.
         let shape = if is_volume { vec![nx, ny, nz] } else { vec![ny, nx] };
-        let lengths: Vec<usize> = arrays.iter().map(|a| a.values.len()).collect();
-        let is_flat = arrays.iter().all(|a| a.shape.len() == 1);
-        let indexing = if arrays.iter().all(|a| a.shape == shape) {
+        let axes = &arrays[..if is_volume { 3 } else { 2 }];
+        let lengths: Vec<usize> = axes.iter().map(|a| a.values.len()).collect();
+        let is_flat = axes.iter().all(|a| a.shape.len() == 1);
+        let indexing = if axes.iter().all(|a| a.shape == shape) {
             Indexing::Cells
         } else if is_flat && !is_volume && lengths == [nx, ny] {
             Indexing::Columns
@@ -84,10 +93,11 @@ impl Positions {
                 (Indexing::Columns, _) | (Indexing::FirstAxis, true) => [i, j, k],
                 (Indexing::FirstAxis, false) => [j, i, k],
             };
-            [0, 1, 2].map(|axis| arrays.get(axis).map_or(0.0, |a| a.values[at[axis]]))
+            let value = |axis: usize, a: &NpyArray| a.values.get(at[axis]).or(a.values.first()).copied();
+            [0, 1, 2].map(|axis| arrays.get(axis).and_then(|a| value(axis, a)).unwrap_or(0.0))
         });
         let ambiguous = indexing == Indexing::Columns && nx == ny;
-        Some(Self { names, points: points.collect(), ambiguous })
+        Some(Self { names, points: points.collect(), ambiguous, is_volume })
     }
 
     /// The lattice where the positions put it.
@@ -105,7 +115,11 @@ impl Positions {
         lattice.origin = image.origin;
         lattice.world = World::Viewer;
         lattice.notes.retain(|note| !note.starts_with("indexed"));
-        lattice.notes.push(format!("cells at the positions {names}, components along these axes"));
+        lattice.notes.push(format!("cells at the positions {names}"));
+        if self.is_volume {
+            // Whoever has positions has components along the same axes, rather than along those of the array.
+            lattice.frame = (Frame::World, Known::Assumed);
+        }
         if self.ambiguous {
             let warning = format!(
                 "{names} taken along columns and rows, as numpy.meshgrid has them (not indexing=\"ij\")"

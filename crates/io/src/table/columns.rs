@@ -6,11 +6,142 @@ use crate::volume::{Lattice, lattice_from_points};
 use crate::{ArrayChoice, DataArray, IoError, PolyData, Wanted};
 
 /// Names of the columns of positions along x, y and z, in lower case without marks: `X`, `Points:0`, `coor.X`, `X [m]`.
-const POSITIONS: [[&str; 8]; 3] = [
-    ["x", "points0", "xpos", "coorx", "coordx", "xcoord", "xcoordinate", "coord1"],
-    ["y", "points1", "ypos", "coory", "coordy", "ycoord", "ycoordinate", "coord2"],
-    ["z", "points2", "zpos", "coorz", "coordz", "zcoord", "zcoordinate", "coord3"],
+const POSITIONS: [[&str; 18]; 3] = [
+    [
+        "x",
+        "points0",
+        "xpos",
+        "posx",
+        "coorx",
+        "coordx",
+        "xcoord",
+        "xcoordinate",
+        "coord1",
+        "coor1",
+        "xc",
+        "centroidx",
+        "xcentroid",
+        "xlocation",
+        "cellcenters0",
+        "cellcentersx",
+        "lon",
+        "longitude",
+    ],
+    [
+        "y",
+        "points1",
+        "ypos",
+        "posy",
+        "coory",
+        "coordy",
+        "ycoord",
+        "ycoordinate",
+        "coord2",
+        "coor2",
+        "yc",
+        "centroidy",
+        "ycentroid",
+        "ylocation",
+        "cellcenters1",
+        "cellcentersy",
+        "lat",
+        "latitude",
+    ],
+    [
+        "z",
+        "points2",
+        "zpos",
+        "posz",
+        "coorz",
+        "coordz",
+        "zcoord",
+        "zcoordinate",
+        "coord3",
+        "coor3",
+        "zc",
+        "centroidz",
+        "zcentroid",
+        "zlocation",
+        "cellcenters2",
+        "cellcentersz",
+        "height",
+        "depth",
+    ],
 ];
+
+/// A column: its name and its unit, as they stand above the numbers.
+struct Column {
+    name: String,
+    unit: Option<String>,
+}
+
+impl Column {
+    /// `S11 [MPa]`, `solid.sx (N/m^2)`.
+    fn of(text: &str) -> Self {
+        let start = text.find(['[', '(']).filter(|at| *at > 0);
+        let unit = start.map(|at| text[at + 1..].trim_end_matches([']', ')', ' ']).to_owned());
+        Self { name: text[..start.unwrap_or(text.len())].trim().to_owned(), unit }
+    }
+}
+
+/// The columns by their names, the line of these, and which of them are positions along x, y and z.
+struct Header {
+    line: usize,
+    columns: Vec<Column>,
+    places: [Option<usize>; 3],
+    /// What is left aside because other columns are positions, too.
+    doubled: Vec<usize>,
+}
+
+impl Header {
+    /// The nearest line above the numbers that names positions; without names, three columns are x, y and a number where
+    /// single numbers are wanted.
+    fn of(text: &Text, wanted: Wanted) -> Result<Self, IoError> {
+        let candidates: Vec<Self> = text.names().map(|(line, names)| Self::named(line, &names)).collect();
+        let first = candidates.first().map(|h| (h.line, h.names()));
+        if let Some(found) = candidates.into_iter().find(|h| h.places[0].is_some() && h.places[1].is_some()) {
+            return Ok(found);
+        }
+        match first {
+            Some((line, names)) => Err(IoError::TableHeader { line, found: shortened(names.as_bytes()) }),
+            None if wanted == Wanted::Scalars && text.columns() == 3 => {
+                Ok(Self::named(0, &["x", "y", "value"].map(str::to_owned)))
+            }
+            None => {
+                let found = format!("{} columns without names", text.columns());
+                Err(IoError::TableHeader { line: text.first(), found })
+            }
+        }
+    }
+
+    fn named(line: usize, names: &[String]) -> Self {
+        let columns: Vec<Column> = names.iter().map(|name| Column::of(name)).collect();
+        let plain =
+            |c: &Column| c.name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
+        let called = |known: &[&str]| -> Vec<usize> {
+            (0..columns.len()).filter(|&c| known.contains(&plain(&columns[c]).as_str())).collect()
+        };
+        let all = POSITIONS.each_ref().map(|known| called(known));
+        let places = all.each_ref().map(|found| found.first().copied());
+        let doubled = all.iter().flat_map(|found| found.iter().skip(1).copied()).collect();
+        Self { line, columns, places, doubled }
+    }
+
+    fn names(&self) -> String {
+        self.columns.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ")
+    }
+
+    /// A warning where columns that belong together have different units.
+    fn unequal_units(&self, of: &[usize]) -> Option<String> {
+        let units: Vec<&String> = of.iter().filter_map(|&c| self.columns[c].unit.as_ref()).collect();
+        let differ = units.windows(2).any(|u| u[0] != u[1]);
+        let names: Vec<&str> = of.iter().map(|&c| self.columns[c].name.as_str()).collect();
+        let units = units.iter().map(|u| u.as_str()).collect::<Vec<_>>().join(", ");
+        differ.then(|| {
+            format!("the columns {} have different units ({units}), taken as they stand", names.join(", "))
+        })
+    }
+}
 
 /// The array of tensors (or what is wanted) that named columns hold, at the positions of the columns x, y and z (or x and y).
 ///
@@ -19,56 +150,54 @@ const POSITIONS: [[&str; 8]; 3] = [
 /// fit; and as [`lattice_from_points`].
 pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice, IoError> {
     let text = Text::of(bytes)?;
-    let Some((line, names)) = text.names() else {
-        let found = format!("{} columns without names", text.columns());
-        return Err(IoError::TableHeader { line: text.first, found });
-    };
-    let names: Vec<String> = names.iter().map(|name| without_unit(name)).collect();
-    let places = POSITIONS.each_ref().map(|known| position_of(&names, known));
-    let [Some(x), Some(y), z] = places else {
-        return Err(IoError::TableHeader { line, found: shortened(names.join(", ").as_bytes()) });
-    };
-    let rows = text.lines.iter().enumerate().map(|(i, line)| {
-        let needed = [Some(x), Some(y), z];
-        row(&text, text.first + i, line, &needed)
-    });
+    let header = Header::of(&text, wanted)?;
+    let places = header.places;
+    let rows = text.lines.iter().map(|(number, line)| row(&text, *number, line, &places));
     let rows = rows.collect::<Result<Vec<Vec<f64>>, IoError>>()?;
-    let at = |row: &[f64], column: Option<usize>| column.map_or(0.0, |c| row[c]);
-    let points = rows.iter().map(|row| [at(row, Some(x)), at(row, Some(y)), at(row, z)]).collect();
+    let points = rows.iter().map(|row| places.map(|place| place.map_or(0.0, |c| row[c]))).collect();
     let mut data = PolyData { points, ..PolyData::default() };
-    let others: Vec<usize> = (0..names.len()).filter(|c| !places.contains(&Some(*c))).collect();
-    for (name, columns) in arrays(&names, &others) {
+    let others: Vec<usize> = (0..header.columns.len())
+        .filter(|c| !places.contains(&Some(*c)) && !header.doubled.contains(c))
+        .collect();
+    let names: Vec<&str> = header.columns.iter().map(|c| c.name.as_str()).collect();
+    let arrays = arrays(&names, &others);
+    for (name, columns) in &arrays {
         let values: Vec<f64> = rows.iter().flat_map(|row| columns.iter().map(|&c| row[c])).collect();
         if values.iter().all(|v| v.is_nan()) {
             data.skipped.push(format!("`{name}` (no numbers)"));
         } else {
-            data.point_arrays.push(DataArray::new(&name, columns.len(), values));
+            data.point_arrays.push(DataArray::new(name, columns.len(), values));
         }
     }
     let mut lattice = lattice_from_points(data, choice, wanted)?;
-    lattice.notes[0] = format!("one point a line, columns by their names in line {line}");
-    if text.has_decimal_commas() {
-        lattice.notes.push("commas taken as decimal points".to_owned());
+    lattice.notes[0] = match header.line {
+        0 => "one point a line, columns x, y and a number by their places".to_owned(),
+        line => format!("one point a line, columns by their names in line {line}"),
+    };
+    let said = text.decimal_commas();
+    lattice.remarks.extend(said.map(|(words, _)| words.to_owned()));
+    if said.is_some_and(|(_, thousands)| thousands) {
+        lattice
+            .warnings
+            .push("every comma stands before three digits, as separators of thousands do".to_owned());
     }
+    if !header.doubled.is_empty() {
+        let name = |&c: &usize| names[c];
+        let taken: Vec<&str> = places.iter().flatten().map(name).collect();
+        let aside: Vec<&str> = header.doubled.iter().map(name).collect();
+        let (taken, aside) = (taken.join(", "), aside.join(", "));
+        lattice.warnings.push(format!("positions of the columns {taken} taken; {aside} left aside"));
+    }
+    let read =
+        |name: &str| arrays.iter().find(|(n, _)| n == name).map(|(_, c)| c.clone()).unwrap_or_default();
+    let of_array: Vec<usize> = lattice.array.split(", ").flat_map(read).collect();
+    let of_places: Vec<usize> = places.into_iter().flatten().collect();
+    lattice.warnings.extend([of_places, of_array].iter().filter_map(|of| header.unequal_units(of)));
     Ok(lattice)
-}
-
-/// A name without its unit: `S11 [MPa]`, `solid.sx (N/m^2)`.
-fn without_unit(name: &str) -> String {
-    let end = name.find(['[', '(']).filter(|at| *at > 0).unwrap_or(name.len());
-    name[..end].trim().to_owned()
-}
-
-fn position_of(names: &[String], known: &[&str]) -> Option<usize> {
-    let plain = |name: &str| name.chars().filter(|c| c.is_alphanumeric()).collect::<String>().to_lowercase();
-    names.iter().position(|name| known.contains(&plain(name).as_str()))
 }
 
 /// The numbers of a line. Words are no number but at the needed columns.
 fn row(text: &Text, line: usize, bytes: &[u8], needed: &[Option<usize>]) -> Result<Vec<f64>, IoError> {
-    if bytes.trim_ascii().is_empty() {
-        return Err(IoError::BlankLine { line });
-    }
     let expected = text.columns();
     let mut numbers = Vec::with_capacity(expected);
     for (column, word) in text.separator.words(bytes) {
@@ -95,7 +224,7 @@ fn row(text: &Text, line: usize, bytes: &[u8], needed: &[Option<usize>]) -> Resu
 }
 
 /// Columns that are one array: `Stress:0`, `Stress:1` and so on follow each other; the others are alone.
-fn arrays(names: &[String], columns: &[usize]) -> Vec<(String, Vec<usize>)> {
+fn arrays(names: &[&str], columns: &[usize]) -> Vec<(String, Vec<usize>)> {
     let mut all: Vec<(String, Vec<usize>)> = Vec::new();
     for &column in columns {
         let indexed =
@@ -105,7 +234,7 @@ fn arrays(names: &[String], columns: &[usize]) -> Vec<(String, Vec<usize>)> {
                 members.push(column);
             }
             (Some((stem, 0)), _) if names[column].contains(':') => all.push((stem.to_owned(), vec![column])),
-            _ => all.push((names[column].clone(), vec![column])),
+            _ => all.push((names[column].to_owned(), vec![column])),
         }
     }
     all
@@ -158,6 +287,45 @@ mod tests {
         is_read(&table(tecplot, |x, y| format!("{x} {y} {x} 0.25 0.25 {}", ten(y))));
     }
 
+    /// Labels, quotes, Fortran's exponents, comments, blank lines and a line of units are passed over.
+    #[test]
+    fn what_stands_between_the_numbers_is_passed_over() {
+        let ten = |y: f64| 10.0 * y;
+        is_read(&table("Part,Node,X,Y,S11,S22,S12\n", |x, y| {
+            format!("PLATE-1,4,{x},{y},{x},{},0.25", ten(y))
+        }));
+        is_read(&table("\"x\",\"y\",\"S11\",\"S22\",\"S12\"\n", |x, y| {
+            format!("\"{x}\",\"{y}\",\"{x}\",\"{}\",\"0.25\"", ten(y))
+        }));
+        is_read(&table("x y sxx syy sxy\n", |x, y| format!("{x} {y} {x} {}D+01 2.5D-01\n# more", y)));
+        is_read(&table("x,y,S11,S22,S12\nm,m,Pa,Pa,Pa\n", |x, y| format!("{x},{y},{x},{},0.25\n", ten(y))));
+    }
+
+    /// Two sets of positions, units that differ and commas that may separate thousands are said.
+    #[test]
+    fn doubtful_columns_are_warned_of() {
+        let warnings = |bytes: &[u8]| read(bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap().warnings;
+        let one = |header: &str, line: fn(f64, f64) -> String| {
+            let found = warnings(&table(header, line));
+            assert_eq!(found.len(), 1, "{header}: {found:?}");
+            found.into_iter().next().unwrap()
+        };
+        let two = one("x,y,X,Y,S11,S22,S12\n", |x, y| format!("{x},{y},{y},{x},1,2,3"));
+        assert!(two.contains("columns x, y taken; X, Y left aside"), "{two}");
+        let units = one("x,y,S11 [Pa],S22 [Pa],S12 [kPa]\n", |x, y| format!("{x},{y},1,2,3"));
+        assert!(units.contains("Pa, Pa, kPa"), "{units}");
+        let thousands = one("x\ty\tS11\tS22\tS12\n", |x, y| format!("{x}\t{y}\t1,200\t5,000\t3"));
+        assert!(thousands.contains("separators of thousands"), "{thousands}");
+    }
+
+    #[test]
+    fn numbers_at_positions_are_an_image() {
+        let lattice =
+            read(&table("", |x, y| format!("{x} {y} {}", x + y)), ArrayChoice::Usual, Wanted::Scalars);
+        let lattice = lattice.unwrap();
+        assert_eq!((lattice.size, lattice.components), ([4, 3, 1], 1));
+    }
+
     #[test]
     fn what_is_missing_is_said() {
         #[track_caller]
@@ -170,6 +338,5 @@ mod tests {
         refused("x,y,S11,S22\n1,2,3,4\n", "`S11` (1 component)");
         refused("x,y,S11,S22,S12\n1,2,3,4,5\n1,b,3,4,5\n", "line 3, column 3: expected a number");
         refused("x,y,S11,S22,S12\n1,2,3,4,5\n2,2,3,4\n", "line 3, column 8: found 4 numbers, expected 5");
-        refused("x,y,S11,S22,S12\n1,2,3,4,5\n\n2,2,3,4,5\n", "line 3");
     }
 }

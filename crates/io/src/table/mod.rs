@@ -20,17 +20,21 @@
 //! | `isvalid` | 0 | DaVis |
 //! | `flags` (fifth without names) | never: such vectors were mostly replaced; counted | OpenPIV |
 //!
+//! [`read_numbers`]: an image, one number a cell.
+//!
 //! [`read_columns`]: every column with a name is an array, those of `Stress:0`, `Stress:1`, ... (ParaView) are one; tensors
 //! are found in them as in any file with several arrays.
 //!
 //! 2x2 blocks ([`crate::matrices`]) are rows of numbers, too. [`kind`] tells them apart.
 
 mod columns;
+mod numbers;
 mod steps;
 mod text;
 mod vectors;
 
 pub use columns::read as read_columns;
+pub use numbers::read as read_numbers;
 pub use vectors::read as read_vectors;
 
 use steps::Steps;
@@ -62,24 +66,27 @@ pub enum Kind {
 pub fn kind(bytes: &[u8]) -> Kind {
     let Ok(text) = Text::of(bytes) else { return Kind::Other };
     let columns = text.columns();
-    if columns < 4 {
+    if columns < 3 {
         return Kind::Other;
     }
-    if text.names().is_some() || vectors::names_vectors(&text) {
+    if text.names().next().is_some() || vectors::names_vectors(&text) {
         return Kind::Named;
     }
-    let row = |line: &&[u8]| {
+    let row = |(_, line): &(usize, &[u8])| {
         let words = text.separator.words(line).map(|(_, word)| parsed(word).filter(|v| v.is_finite()));
         words.collect::<Option<Vec<f64>>>().filter(|row| row.len() == columns)
     };
     // Text columns at the end and ragged rows: the first two columns say enough.
-    let position = |line: &&[u8]| {
+    let position = |(_, line): &(usize, &[u8])| {
         let mut words = text.separator.words(line).map(|(_, word)| parsed(word).filter(|v| v.is_finite()));
         Some([words.next()??, words.next()??])
     };
     let positions: Option<Vec<[f64; 2]>> = text.lines.iter().map(position).collect();
     if positions.is_some_and(|p| are_nodes(&p)) {
         return Kind::Positions;
+    }
+    if columns < 4 {
+        return Kind::Other;
     }
     let Some(rows) = text.lines.iter().map(row).collect::<Option<Vec<_>>>() else { return Kind::Other };
     let pair = |at: usize| rows.iter().map(|row| [row[at], row[at + 1]]).collect::<Vec<_>>();

@@ -44,55 +44,85 @@ impl Separator {
 
 /// A text of numbers, one tuple a line, and what stands above them.
 pub(super) struct Text<'a> {
-    /// Lines from the first that begins with a number, blank ones at the end left out.
-    pub(super) lines: Vec<&'a [u8]>,
-    /// Number of the first, from 1.
-    pub(super) first: usize,
+    /// Lines from the first of numbers with their own numbers, from 1; blank ones and comments left out.
+    pub(super) lines: Vec<(usize, &'a [u8])>,
     /// The lines above, the first of them line 1.
     pub(super) above: Vec<String>,
     /// What separates the numbers.
     pub(super) separator: Separator,
 }
 
+/// Numbers in a line that begins with a word, at least.
+const LABELLED: usize = 3;
+
 impl<'a> Text<'a> {
     /// # Errors
-    /// [`IoError::EmptyText`] where no line begins with a number.
+    /// [`IoError::EmptyText`] where no line holds numbers.
     pub(super) fn of(bytes: &'a [u8]) -> Result<Self, IoError> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_end();
         let mut above = Vec::new();
-        let mut lines = bytes.split(|&b| b == b'\n');
-        while let Some(line) = lines.next() {
+        let mut lines = bytes.split(|&b| b == b'\n').enumerate();
+        while let Some((i, line)) = lines.next() {
             let separator = Separator::of(line);
-            if separator.words(line).next().and_then(|(_, word)| parsed(word)).is_some() {
-                let first = above.len() + 1;
-                let lines = std::iter::once(line).chain(lines).collect();
-                return Ok(Self { lines, first, above, separator });
+            if holds_numbers(separator, line) {
+                let is_text = |line: &[u8]| line.trim_ascii().is_empty() || is_comment(line);
+                let rest = lines.map(|(i, line)| (i + 1, line)).filter(|(_, line)| !is_text(line));
+                return Ok(Self {
+                    lines: std::iter::once((i + 1, line)).chain(rest).collect(),
+                    above,
+                    separator,
+                });
             }
             above.push(String::from_utf8_lossy(line).into_owned());
         }
         Err(IoError::EmptyText)
     }
 
-    /// Whether numbers are written with commas.
-    pub(super) fn has_decimal_commas(&self) -> bool {
-        let separates = matches!(self.separator, Separator::Mark(b','));
-        !separates && self.lines.iter().any(|line| line.contains(&b','))
+    /// Number of the first line of numbers, from 1.
+    pub(super) fn first(&self) -> usize {
+        self.lines[0].0
+    }
+
+    /// What is said of commas in numbers, and whether they look like separators of thousands.
+    pub(super) fn decimal_commas(&self) -> Option<(&'static str, bool)> {
+        if matches!(self.separator, Separator::Mark(b',')) {
+            return None;
+        }
+        let words = || self.lines.iter().flat_map(|(_, line)| self.separator.words(line)).map(|(_, w)| w);
+        let with_comma = || words().filter(|w| parsed(w).is_some() && w.contains(&b','));
+        with_comma().next()?;
+        let after = |w: &[u8]| w.split(|b| *b == b',').nth(1).map_or(0, <[u8]>::len);
+        Some(("commas taken as decimal points", with_comma().all(|w| after(w) == 3)))
     }
 
     /// Numbers in the first line.
     pub(super) fn columns(&self) -> usize {
-        self.separator.words(self.lines[0]).count()
+        self.separator.words(self.lines[0].1).count()
     }
 
-    /// Names of the columns: the last line above the numbers with as many as there are columns, and its number.
-    pub(super) fn names(&self) -> Option<(usize, Vec<String>)> {
+    /// Names of the columns: lines above the numbers with as many as there are columns, with their numbers, the nearest first.
+    pub(super) fn names(&self) -> impl Iterator<Item = (usize, Vec<String>)> + '_ {
         let columns = self.columns();
-        let named = |(i, line): (usize, &String)| {
+        let named = move |(i, line): (usize, &String)| {
             let names = names_of(line);
             (names.len() == columns).then_some((i + 1, names))
         };
-        self.above.iter().enumerate().rev().find_map(named)
+        self.above.iter().enumerate().rev().filter_map(named)
     }
+}
+
+fn is_comment(line: &[u8]) -> bool {
+    line.trim_ascii_start().first().is_some_and(|b| matches!(b, b'#' | b'%' | b'!'))
+}
+
+/// Whether a line is one of numbers: it begins with one, or with a label before three and more.
+fn holds_numbers(separator: Separator, line: &[u8]) -> bool {
+    if is_comment(line) {
+        return false;
+    }
+    let numbers: Vec<bool> = separator.words(line).map(|(_, word)| parsed(word).is_some()).collect();
+    let count = numbers.iter().filter(|is_number| **is_number).count();
+    numbers.first() == Some(&true) || (count >= LABELLED && 2 * count >= numbers.len())
 }
 
 /// The names in a line: in quotes, between separators, or between blanks with units apart, `x [px] y [px]`.
@@ -118,9 +148,15 @@ pub(super) fn names_of(line: &str) -> Vec<String> {
     }
 }
 
-/// A number. Its decimal point may be a comma, which then separates nothing ([`Separator::of`]).
+/// A number, possibly in quotes, or with Fortran's `D` before its exponent. Its decimal point may be a comma, which then separates
+/// nothing ([`Separator::of`]).
 pub(super) fn parsed(word: &[u8]) -> Option<f64> {
-    let word = std::str::from_utf8(word).ok()?;
+    let word = std::str::from_utf8(word).ok()?.trim_matches('"');
+    let number =
+        word.strip_prefix(['-', '+']).unwrap_or(word).starts_with(|c: char| c.is_ascii_digit() || c == '.');
+    if number && word.contains(['d', 'D']) {
+        return word.replace(['d', 'D'], "e").parse().ok();
+    }
     let with_comma = || word.replace(',', ".").parse();
     word.parse().or_else(|e| if word.matches(',').count() == 1 { with_comma() } else { Err(e) }).ok()
 }

@@ -48,6 +48,8 @@ impl Role {
 /// Which column holds what.
 struct Columns {
     roles: Vec<Option<Role>>,
+    /// What stands in brackets behind the names.
+    units: Vec<Option<String>>,
     /// Line that names them, from 1.
     named: Option<usize>,
 }
@@ -57,17 +59,40 @@ impl Columns {
         let all = [Role::X, Role::Y, Role::U, Role::V, Role::Flags, Role::Mask];
         // One column beside the vectors may be anything.
         let known = if columns < all.len() { 4 } else { all.len() };
-        Self { roles: all[..known].iter().copied().map(Some).collect(), named: None }
+        Self {
+            roles: all[..known].iter().copied().map(Some).collect(),
+            units: vec![None; known],
+            named: None,
+        }
     }
 
     /// The columns that the lines above the numbers name; the last line that does so.
     fn named_above(text: &Text) -> Option<Self> {
         let named = |(i, line): (usize, &String)| {
-            let roles: Vec<Option<Role>> = names_of(line).iter().map(|name| Role::of(name)).collect();
+            let names = names_of(line);
+            let roles: Vec<Option<Role>> = names.iter().map(|name| Role::of(name)).collect();
+            let unit = |name: &String| {
+                let (_, unit) = name.split_once(['[', '('])?;
+                Some(unit.trim_end_matches([']', ')', ' ']).to_owned())
+            };
+            let units = names.iter().map(unit).collect();
             let once = |role: &Role| roles.iter().filter(|r| **r == Some(*role)).count() == 1;
-            Role::NEEDED.iter().all(once).then_some(Self { roles, named: Some(i + 1) })
+            Role::NEEDED.iter().all(once).then_some(Self { roles, units, named: Some(i + 1) })
         };
         text.above.iter().enumerate().rev().find_map(named)
+    }
+
+    /// Warnings where x and y, or u and v, have different units.
+    fn unequal_units(&self) -> Vec<String> {
+        let unit = |role| self.of(role).and_then(|at| self.units[at].as_ref());
+        let differ = |(a, b, names): (Role, Role, &str)| {
+            let (a, b) = (unit(a)?, unit(b)?);
+            (a != b).then(|| format!("{names} have different units ({a}, {b}), taken as they stand"))
+        };
+        [(Role::X, Role::Y, "x and y"), (Role::U, Role::V, "u and v")]
+            .into_iter()
+            .filter_map(differ)
+            .collect()
     }
 
     fn of(&self, role: Role) -> Option<usize> {
@@ -77,6 +102,8 @@ impl Columns {
 
 /// A vector with its place.
 struct Row {
+    /// Its line, from 1.
+    line: usize,
     position: [f64; 2],
     vector: [f64; 2],
     masked: bool,
@@ -88,7 +115,7 @@ struct Row {
 /// Names line and column of the first word that does not fit; positions off the lattice, and two vectors at one.
 pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     let text = Text::of(bytes)?;
-    let columns = match (Columns::named_above(&text), text.names()) {
+    let columns = match (Columns::named_above(&text), text.names().next()) {
         (Some(columns), _) => columns,
         (None, Some((line, names))) => {
             return Err(IoError::TableHeader { line, found: shortened(names.join(", ").as_bytes()) });
@@ -97,8 +124,8 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     };
     let mut rows = Vec::new();
     let (mut flagged, mut others) = (0, 0);
-    for (i, line) in text.lines.iter().enumerate() {
-        let numbers = numbers(&text, &columns, line, i)?;
+    for &(number, line) in &text.lines {
+        let numbers = numbers(&text, &columns, line, number)?;
         let of = |role| columns.of(role).and_then(|at| numbers.get(at)).copied();
         let need = |role| of(role).unwrap_or(f64::NAN);
         // A sixth column without name that holds anything but 0 and 1 is no mask.
@@ -106,6 +133,7 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
         others += usize::from(mask != 0.0 && mask != 1.0);
         flagged += usize::from(of(Role::Flags).is_some_and(|f| f != 0.0));
         rows.push(Row {
+            line: number,
             position: [need(Role::X), need(Role::Y)],
             vector: [need(Role::U), need(Role::V)],
             masked: mask != 0.0 || of(Role::Choice).is_some_and(|c| c < 1.0),
@@ -114,7 +142,7 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     let mut notes = vec![words_of(&columns)];
     if columns.named.is_none() && columns.roles.len() >= 5 && is_flat(&rows) {
         return Err(IoError::TableHeader {
-            line: text.first,
+            line: text.first(),
             found: format!("{} columns, the third of one value", text.columns()),
         });
     }
@@ -126,10 +154,15 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     }
     let y_up = "y taken to run upwards and v with it (right-handed, as OpenPIV's transform_coordinates makes them); where a \
                 file has y downwards the picture is upside down";
-    if text.has_decimal_commas() {
-        notes.push("commas taken as decimal points".to_owned());
+    let said = text.decimal_commas();
+    let mut lattice = lattice(&rows, notes)?;
+    lattice.remarks.extend(said.map(|(words, _)| words.to_owned()));
+    if said.is_some_and(|(_, thousands)| thousands) {
+        lattice
+            .warnings
+            .push("every comma stands before three digits, as separators of thousands do".to_owned());
     }
-    let mut lattice = lattice(&rows, text.first, notes)?;
+    lattice.warnings.extend(columns.unequal_units());
     lattice.remarks.push(y_up.to_owned());
     if columns.named.is_none() {
         lattice.warnings.push(words_of(&columns));
@@ -148,12 +181,8 @@ fn is_flat(rows: &[Row]) -> bool {
 }
 
 /// The numbers of a line as far as they are needed.
-fn numbers(text: &Text, columns: &Columns, line: &[u8], index: usize) -> Result<Vec<f64>, IoError> {
-    let number = text.first + index;
+fn numbers(text: &Text, columns: &Columns, line: &[u8], number: usize) -> Result<Vec<f64>, IoError> {
     let (expected, mut found) = (text.columns(), Vec::with_capacity(columns.roles.len()));
-    if line.trim_ascii().is_empty() {
-        return Err(IoError::BlankLine { line: number });
-    }
     let mut count = 0;
     for (column, word) in text.separator.words(line) {
         count += 1;
@@ -199,14 +228,14 @@ fn words_of(columns: &Columns) -> String {
     format!("one vector a line, columns {} {how}", names.join(", "))
 }
 
-/// The vectors on the lattice of their positions; `first` is the line of the first row.
-fn lattice(rows: &[Row], first: usize, mut notes: Vec<String>) -> Result<Lattice, IoError> {
+/// The vectors on the lattice of their positions.
+fn lattice(rows: &[Row], mut notes: Vec<String>) -> Result<Lattice, IoError> {
     let axes = [0, 1].map(|a| Steps::of(rows.iter().map(|row| row.position[a]).collect()));
     let [width, height] = axes.map(|a| a.count);
     let nodes = width.saturating_mul(height);
     let index = |axis: usize, i: usize| {
         let value = rows[i].position[axis];
-        let (line, axis_name, step) = (first + i, ['x', 'y'][axis], axes[axis].step);
+        let (line, axis_name, step) = (rows[i].line, ['x', 'y'][axis], axes[axis].step);
         axes[axis].index(value).ok_or(IoError::Position { line, axis: axis_name, value, step })
     };
     let sparse = nodes > rows.len().saturating_mul(SPARSE);
@@ -220,9 +249,9 @@ fn lattice(rows: &[Row], first: usize, mut notes: Vec<String>) -> Result<Lattice
         }
         let node = y * width + x;
         if line_of[node] > 0 {
-            return Err(IoError::SamePosition { line: first + i, before: line_of[node] });
+            return Err(IoError::SamePosition { line: row.line, before: line_of[node] });
         }
-        line_of[node] = first + i;
+        line_of[node] = row.line;
         values[2 * node..2 * node + 2].copy_from_slice(&row.vector);
         mask[node] = if row.masked { 0.0 } else { 1.0 };
     }
@@ -307,7 +336,7 @@ mod tests {
         for mark in [';', '\t'] {
             let line = |x: f64, y: f64| comma(format!("{x:.2}{mark}{y:.2}{mark}{x:.3}{mark}{:.1}", ten(y)));
             let lattice = is_read(&table("", line), 0);
-            assert!(lattice.notes.iter().any(|n| n.contains("decimal points")), "{:?}", lattice.notes);
+            assert!(lattice.remarks.iter().any(|n| n.contains("decimal points")), "{:?}", lattice.remarks);
         }
         is_read(
             &table("x;y;Velocity u [m/s];Velocity v [m/s]\n", |x, y| format!("{x};{y};{x};{};", ten(y))),
@@ -353,10 +382,8 @@ mod tests {
         refused("x y u v\n", "line 1: expected rows of numbers, found none (an empty file, or words alone)");
         refused("x,y,u,v\n1,2,3,4\n1, a,3,4\n", "line 3, column 4: expected a number, found `a`");
         refused("1 2 3 4\nnan 2 3 4\n", "line 2, column 1: expected a finite number, found `nan`");
-        refused(
-            "1 2 3 4\n\n2 2 3 4\n",
-            "line 2: expected numbers, found a blank line (they are allowed at the end only)",
-        );
+        // Blank lines separate blocks of rows, as gnuplot has them.
+        assert!(read(b"1 2 3 4\n2 2 3 4\n\n1 3 3 4\n2 3 3 4\n").is_ok());
         refused(
             "1 2 3 4\n2 2 3\n",
             "line 2, column 6: found 3 numbers, expected 4: x, y, u, v and as many as in the first row",
@@ -375,10 +402,7 @@ mod tests {
             "4 vectors on a lattice of 4 x 4 positions: expected a vector at most of them",
         );
         // Decimal commas between tabs are not taken for two numbers.
-        refused(
-            "1,5,0\t2\t3\t4\n",
-            "line 1: expected rows of numbers, found none (an empty file, or words alone)",
-        );
+        refused("1,5,0\t2\t3\t4\n", "line 1, column 1: expected a number, found `1,5,0`");
     }
 
     #[test]

@@ -50,6 +50,11 @@ impl ComponentArrays {
         pairs.join(",")
     }
 
+    /// Whether the arrays hold one number each: entries of a tensor, or components of a vector where vectors are wanted.
+    pub(crate) fn are_numbers(&self, wanted: crate::Wanted) -> bool {
+        self.kind == Kind::Entries || wanted == crate::Wanted::Vectors
+    }
+
     /// Names of the arrays, in the order given.
     pub fn arrays(&self) -> impl Iterator<Item = &str> {
         self.pairs.iter().map(|p| p.1.as_str())

@@ -113,7 +113,8 @@ impl TensorOrder {
     }
 
     /// Whether an entry is given, by a component of its own or that of its mirror image.
-    pub(crate) const fn has(&self, row: usize, column: usize) -> bool {
+    #[must_use]
+    pub const fn has(&self, row: usize, column: usize) -> bool {
         self.entries[3 * row + column].is_some()
     }
 

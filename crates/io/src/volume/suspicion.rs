@@ -16,9 +16,9 @@ pub struct Suspicion {
     /// Share of tensors with a negative eigenvalue as read.
     pub share: f64,
     /// Tools that use the better order.
-    pub tools: &'static str,
-    /// The better order.
-    pub order: TensorOrder,
+    pub tools: String,
+    /// The better orders, which signs of eigenvalues do not tell apart.
+    pub orders: Vec<TensorOrder>,
     /// Share with the better order.
     pub better: f64,
 }
@@ -52,8 +52,12 @@ impl TensorVolume {
             return None;
         }
         let others = TensorOrder::SIX.into_iter().filter(|(_, order)| *order != self.order.0);
-        let judged = others.map(|(tools, order)| (negative_share(tuples(), order), tools, order));
-        let (better, tools, order) = judged.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        (better < CLEARLY_FEWER * share).then_some(Suspicion { share, tools, order, better })
+        let judged: Vec<_> =
+            others.map(|(tools, order)| (negative_share(tuples(), order), tools, order)).collect();
+        let better = judged.iter().map(|j| j.0).fold(f64::INFINITY, f64::min);
+        let best = || judged.iter().filter(|j| j.0 == better);
+        let tools = best().map(|j| j.1).collect::<Vec<_>>().join(" or ");
+        let orders = best().map(|j| j.2).collect();
+        (better < CLEARLY_FEWER * share).then_some(Suspicion { share, tools, orders, better })
     }
 }

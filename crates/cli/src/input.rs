@@ -8,8 +8,7 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use tigereye_core::{Field, Normalization, Tensor2};
 use tigereye_experiments::scene::is_scene_file;
-use tigereye_experiments::settings::{defined_plane, is_field_file, make_plane};
-use tigereye_experiments::spec::load_field;
+use tigereye_experiments::sources::{defined_plane, is_field_file, load_field, make_plane};
 use tigereye_input::provenance::hash_of_field;
 use tigereye_input::{
     Derived, InputError, PlaneField, Reading, TEXT_MATRICES, TensorFile, is_readable, open,

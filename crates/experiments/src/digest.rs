@@ -1,15 +1,12 @@
 //! The numbers of an experiment that snapshot tests remember.
 
-use crate::measure::{inner_cells, mean_anisotropy};
-use crate::pulses::PulseRecord;
-use crate::runs::{LightResult, Results};
-use crate::settings::Settings;
-use crate::spec::PulseNumber;
+use crate::ids::RunId;
+use crate::plan::Plan;
+use crate::results::Results;
+use crate::runs::{FtleDigest, GradientDigest, LightDigest, PulsesDigest, RunOutcome, rounded};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use tigereye_core::Surface;
-use tigereye_lines::Ftle;
-use tigereye_ltg::LtgOutcome;
+use tigereye_core::{Anisotropy, Field, Surface, Tensor2};
 use tigereye_report::ExperimentOutcome;
 
 /// Shapes, extrema, quantiles, counters and checks of an experiment. Numbers are rounded to nine digits; what is smaller
@@ -43,53 +40,6 @@ struct FieldDigest {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct LightDigest {
-    directions: usize,
-    steps: usize,
-    stop: String,
-    cell_updates: u64,
-    total_energy: String,
-    /// Smallest, quartiles and largest energy of a cell.
-    energy_quantiles: [String; 5],
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
-struct GradientDigest {
-    directions: usize,
-    slices: usize,
-    sources: u64,
-    iterations_total: u64,
-    iterations_max: u64,
-    cell_updates: u64,
-    limited: u64,
-    mean: String,
-    /// Smallest, quartiles and largest value of an inner cell.
-    quantiles: [String; 5],
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
-struct PulsesDigest {
-    pulses: usize,
-    settled: usize,
-    /// Steps or evaluations of all pulses.
-    stopped_steps: String,
-    plain_steps: String,
-    evaluations: String,
-    /// Smallest, quartiles and largest of the pulses.
-    stopped_distance: [String; 5],
-    missing_energy: [String; 5],
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
-struct FtleDigest {
-    samples: usize,
-    lines: usize,
-    left: String,
-    /// Smallest, quartiles and largest of the larger exponents.
-    quantiles: [String; 5],
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize)]
 struct SceneDigest {
     width: usize,
     height: usize,
@@ -109,18 +59,9 @@ struct CheckDigest {
 
 /// Digests an evaluated experiment.
 #[must_use]
-pub(crate) fn digest(settings: &Settings, results: &Results, outcome: &ExperimentOutcome) -> Digest {
-    let fields = settings.fields.iter().map(|(name, f)| {
-        let largest = f.values().iter().map(tigereye_core::Tensor2::max_abs).fold(0.0, f64::max);
-        let digest = FieldDigest {
-            width: f.grid().width(),
-            height: f.grid().height(),
-            mean_planar_anisotropy: rounded(mean_anisotropy(f)),
-            largest_component: rounded(largest),
-        };
-        (name.clone(), digest)
-    });
-    let scenes = settings.scenes.iter().map(|(name, s)| {
+pub(crate) fn digest(plan: &Plan, results: &Results<'_>, outcome: &ExperimentOutcome) -> Digest {
+    let fields = plan.media.fields.iter().map(|named| (named.name.clone(), of_field(&named.field)));
+    let scenes = plan.media.scenes.iter().map(|(name, s)| {
         let count =
             |is: fn(&Surface) -> bool| s.layout.surfaces.values().iter().flatten().filter(|s| is(s)).count();
         let digest = SceneDigest {
@@ -133,14 +74,14 @@ pub(crate) fn digest(settings: &Settings, results: &Results, outcome: &Experimen
         };
         (name.clone(), digest)
     });
-    Digest {
-        slug: settings.slug.clone(),
+    let mut digest = Digest {
+        slug: plan.slug.clone(),
         fields: fields.collect(),
         scenes: scenes.collect(),
-        lights: results.lights.iter().map(|(n, r)| (n.clone(), light(r))).collect(),
-        gradients: results.gradients.iter().map(|(n, g)| (n.clone(), gradient(g))).collect(),
-        pulses: results.pulses.iter().map(|(n, p)| (n.clone(), pulses(p))).collect(),
-        ftle: results.ftle.iter().map(|(n, f)| (n.clone(), exponents(f))).collect(),
+        lights: BTreeMap::new(),
+        gradients: BTreeMap::new(),
+        pulses: BTreeMap::new(),
+        ftle: BTreeMap::new(),
         figures: outcome
             .figures
             .iter()
@@ -163,98 +104,27 @@ pub(crate) fn digest(settings: &Settings, results: &Results, outcome: &Experimen
                 passed: c.passed,
             })
             .collect(),
+    };
+    for (i, run) in plan.runs.iter().enumerate() {
+        let name = || run.name.clone();
+        match results.outcome(RunId(i)) {
+            Some(RunOutcome::Light(light)) => _ = digest.lights.insert(name(), light.digest()),
+            Some(RunOutcome::Gradient(gradient)) => _ = digest.gradients.insert(name(), gradient.digest()),
+            Some(RunOutcome::Pulses(pulses)) => _ = digest.pulses.insert(name(), pulses.digest()),
+            Some(RunOutcome::Ftle(ftle)) => _ = digest.ftle.insert(name(), ftle.digest()),
+            None => {}
+        }
     }
+    digest
 }
 
-fn light(result: &LightResult) -> LightDigest {
-    LightDigest {
-        directions: result.last.directions().count(),
-        steps: result.work.steps,
-        stop: format!("{:?}", result.stop),
-        cell_updates: result.work.cell_updates,
-        total_energy: rounded(result.last.total_energy()),
-        energy_quantiles: quantiles(result.last.energy().values().to_vec()),
-    }
-}
-
-fn gradient(outcome: &LtgOutcome) -> GradientDigest {
-    let (volume, work) = (&outcome.volume, &outcome.work);
-    let values = volume.slices().iter().flat_map(|&t| {
-        inner_cells(volume.grid()).filter_map(move |c| volume.value(c, t)).collect::<Vec<_>>()
-    });
-    GradientDigest {
-        directions: volume.directions().count(),
-        slices: volume.slices().len(),
-        sources: work.sources,
-        iterations_total: work.iterations_total,
-        iterations_max: work.iterations_max,
-        cell_updates: work.cell_updates,
-        limited: outcome.limited,
-        mean: rounded(volume.values().iter().sum::<f64>() / volume.values().len().max(1) as f64),
-        quantiles: quantiles(values.collect()),
-    }
-}
-
-fn exponents(found: &Ftle) -> FtleDigest {
-    let finite: Vec<f64> = found.larger.values().iter().copied().filter(|v| v.is_finite()).collect();
-    FtleDigest {
-        samples: found.samples,
-        lines: 2 * finite.len(),
-        left: rounded(found.left),
-        quantiles: quantiles(finite),
-    }
-}
-
-fn pulses(records: &[PulseRecord]) -> PulsesDigest {
-    let all = |number| records.iter().map(|p| p.number(number)).collect::<Vec<f64>>();
-    let sum = |number| all(number).iter().sum::<f64>().to_string();
-    PulsesDigest {
-        pulses: records.len(),
-        settled: all(PulseNumber::Settled).iter().filter(|s| **s == 1.0).count(),
-        stopped_steps: sum(PulseNumber::StoppedSteps),
-        plain_steps: sum(PulseNumber::PlainSteps),
-        evaluations: sum(PulseNumber::Evaluations),
-        stopped_distance: quantiles(all(PulseNumber::StoppedDistance)),
-        missing_energy: quantiles(all(PulseNumber::MissingEnergy)),
-    }
-}
-
-fn quantiles(mut values: Vec<f64>) -> [String; 5] {
-    values.sort_unstable_by(f64::total_cmp);
-    std::array::from_fn(|i| match values.len() {
-        0 => "none".to_owned(),
-        n => rounded(values[i * (n - 1) / 4]),
-    })
-}
-
-/// Nine digits, or `~0` for rounding noise.
-fn rounded(x: f64) -> String {
-    if x == 0.0 {
-        "0".to_owned()
-    } else if x.abs() < 1e-9 {
-        "~0".to_owned()
-    } else {
-        format!("{x:.8e}")
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rounding_keeps_nine_digits_and_hides_noise() {
-        assert_eq!(rounded(std::f64::consts::PI), "3.14159265e0");
-        assert_eq!(
-            (rounded(-3e-14), rounded(0.0), rounded(f64::NAN)),
-            ("~0".into(), "0".into(), "NaN".into())
-        );
-    }
-
-    #[test]
-    fn quantiles_are_order_statistics() {
-        let q = quantiles(vec![4.0, 0.0, 3.0, 1.0, 2.0]);
-        assert_eq!(q[2], "2.00000000e0");
-        assert_eq!(quantiles(Vec::new())[0], "none");
+fn of_field(field: &Field<Tensor2>) -> FieldDigest {
+    let largest = field.values().iter().map(Tensor2::max_abs).fold(0.0, f64::max);
+    let anisotropy = field.values().iter().map(|t| Anisotropy::of(t).planar).sum::<f64>();
+    FieldDigest {
+        width: field.grid().width(),
+        height: field.grid().height(),
+        mean_planar_anisotropy: rounded(anisotropy / field.values().len() as f64),
+        largest_component: rounded(largest),
     }
 }

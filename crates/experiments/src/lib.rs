@@ -1,34 +1,56 @@
-//! Experiment files, their evaluation, checks and report.
+//! Experiment files, their evaluation and their checks.
 //!
 //! One `.ron` file is one experiment: it names fields, propagations and gradients, the figures to draw of them and the
-//! checks they must pass. [`spec`] (what may stand in a file) is resolved to [`settings`] (ranges checked, names looked
-//! up, nothing optional left), run, and reported. This crate opens no files and reads no clocks: the program hands it
-//! both through [`Host`].
+//! checks they must pass.
+//!
+//! ```text
+//! text --load--> Experiment --plan--> Plan --evaluate--> ExperimentOutcome (for the report)
+//!               (what stands         (ids, parsed       and Digest (for snapshots)
+//!                in the file)         expressions)
+//! ```
+//!
+//! [`runs`](crate::runs), [`panels`](crate::panels), [`quantities`](crate::quantities) and [`tables`](crate::tables) have a file for each
+//! kind. This crate opens no files and reads no clocks: the program hands it both through [`Host`].
 
-mod comparison;
 mod digest;
-mod draw;
+mod error;
 mod evaluate;
+pub mod experiment;
+mod fault;
 pub mod field_file;
+mod figures;
+pub mod form;
 mod host;
+mod ids;
 pub mod library;
-mod measure;
+pub mod lights;
+mod load;
+mod media;
 mod medium;
-mod places;
-mod pulses;
-mod reel;
-mod runs;
+mod names;
+pub mod numerics;
+pub mod panels;
+mod parse;
+mod plan;
+pub mod quantities;
+mod results;
+pub mod runs;
+pub mod scalars;
 pub mod scene;
-pub mod settings;
 pub mod sheet;
-pub mod spec;
-mod tables;
-mod uses;
-mod ways;
+pub mod sources;
+pub mod tables;
+mod unavailable;
 
 pub use digest::Digest;
-pub use evaluate::{Evaluation, ExperimentError, evaluate, normalization_name};
+pub use error::ExperimentError;
+pub use evaluate::{Evaluation, evaluate};
+pub use experiment::Experiment;
+pub use fault::SpecError;
+pub use form::Scope;
 pub use host::Host;
+pub use load::load;
 pub use medium::Medium;
-pub use reel::Reel;
-pub use runs::RunError;
+pub use plan::{Plan, plan, slug_of};
+pub use runs::{RunError, normalization_name};
+pub use unavailable::Unavailable;

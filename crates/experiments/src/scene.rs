@@ -1,18 +1,19 @@
 //! Scene files to scenes: pictures and fields read, everything checked. All problems are reported at once.
 
-use crate::host::Host;
-use crate::settings::{LightFault, beside, cell_of, lights_of, make_field, normalization_of};
-use crate::spec::{
-    self, FieldSource, LightSource, MaterialSource, Point, ProfileShape, SceneFile, ScenePart, ShapeSource,
-    SourceText, SpecError,
+use crate::fault::{Faults, SpecError};
+use crate::form::{
+    FieldSource, Finite, LightSource, MaterialSource, Place, Placed, Point, ProfileShape, SceneFile,
+    ScenePart, ShapeSource,
 };
+use crate::host::Host;
+use crate::lights::{LightFault, LightValue, cell_of, lights_of};
+use crate::parse::parse;
+use crate::sources::{beside, make_field};
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
-use tigereye_core::{Cell, Directions, Field, Grid, Surface, TransmissionField};
+use tigereye_core::{Cell, Directions, Field, Grid, TransmissionField};
 use tigereye_input::format_of;
 use tigereye_input::provenance::{hash_of_bytes, hash_of_field};
 use tigereye_io::picture;
-use tigereye_report::shortened;
 use tigereye_scenes::{Fault, Layout, Mask, Material, Part, Scene, SceneError, Shape, leaks};
 use tigereye_transport::Light;
 
@@ -32,9 +33,6 @@ pub fn is_scene_file(name: &str) -> bool {
     name == &ENDING[1..] || name.ends_with(ENDING)
 }
 
-/// Line and column, from 1.
-type Place = (usize, usize);
-
 /// A scene, ready to be built for any number of directions.
 #[derive(Clone, Debug)]
 pub struct PreparedScene {
@@ -46,10 +44,8 @@ pub struct PreparedScene {
     pub layout: Layout,
     /// Its lights.
     pub lights: Vec<LightSource>,
-    /// Where their profiles stand in the file.
-    profiles_at: Vec<Place>,
-    /// Name of the file.
-    file: String,
+    /// What is reported, with their places, of lights whose profiles some directions do not have.
+    profiles_at: Vec<SpecError>,
     /// Hash of the file and of what it names, hex.
     pub blake3: String,
 }
@@ -68,10 +64,8 @@ impl PreparedScene {
     /// # Errors
     /// Every light whose profile these directions do not have, with its place in the scene's file.
     pub fn lights_in(&self, directions: Directions) -> Result<Vec<Light>, Vec<SpecError>> {
-        let of_file = |fault: LightFault| {
-            let (line, column) = self.profiles_at[fault.index];
-            SpecError { file: self.file.clone(), line, column, problem: shortened(&fault.problem) }
-        };
+        let of_file =
+            |fault: LightFault| SpecError { problem: fault.problem, ..self.profiles_at[fault.index].clone() };
         lights_of(&self.lights, self.scene.grid, directions)
             .map_err(|faults| faults.into_iter().map(of_file).collect())
     }
@@ -103,26 +97,25 @@ impl PreparedScene {
 /// # Errors
 /// Every problem found, with line and column.
 pub fn prepare(path: &str, text: &str, host: &dyn Host) -> Result<PreparedScene, Vec<SpecError>> {
-    let file = spec::load_scene(path, text).map_err(|e| vec![e])?;
-    let source = SourceText::new(text);
+    let file = parse(path, text, |scene: &SceneFile| &scene.format).map_err(|e| vec![e])?;
     let mut reader = Reader {
         path,
         host,
-        parts: source.items("parts:"),
-        lights: source.items("lights:"),
-        source,
-        problems: Vec::new(),
+        parts: file.parts.iter().map(|p| [p.shape.key(), p.material.key()]).collect(),
+        size: file.width.key(),
+        faults: Faults::new(path, text),
         hashes: hash_of_bytes(text.as_bytes()),
         masks: BTreeMap::new(),
         mask_cells: 0,
         crystal_cells: 0,
     };
-    let grid = match Grid::new(file.width, file.height) {
+    let (width, height) = (*file.width, *file.height);
+    let grid = match Grid::new(width, height) {
         Ok(grid) if grid.cells() <= Scene::MAX_CELLS => grid,
         _ => {
-            let fault = Fault::Size { width: file.width, height: file.height };
-            let key = if file.width > 0 && file.height == 0 { "height:" } else { "width:" };
-            return Err(vec![reader.fault(key, &fault.to_string())]);
+            let fault = Fault::Size { width, height };
+            let culprit = if width > 0 && height == 0 { &file.height } else { &file.width };
+            return Err(vec![reader.faults.fault(culprit.key(), &fault.to_string())]);
         }
     };
     let part = |(i, part)| reader.part(i, part, grid).map(|part| (i, part));
@@ -141,14 +134,15 @@ pub fn prepare(path: &str, text: &str, host: &dyn Host) -> Result<PreparedScene,
     }
     let profiles_at = reader.lights(&file, grid, layout.as_ref());
     match layout {
-        Some(layout) if reader.problems.is_empty() => {
+        Some(layout) if reader.faults.is_empty() => {
             let blake3 = hash_of_bytes(reader.hashes.as_bytes());
-            let (title, lights) = (file.title, file.lights);
-            Ok(PreparedScene { title, scene, layout, lights, profiles_at, file: path.to_owned(), blake3 })
+            let (title, lights) = (file.title, file.lights.iter().map(|light| (**light).clone()).collect());
+            Ok(PreparedScene { title, scene, layout, lights, profiles_at, blake3 })
         }
         _ => {
-            reader.problems.sort_by_key(|problem| (problem.line, problem.column));
-            Err(reader.problems)
+            let mut faults = reader.faults.into_errors();
+            faults.sort_by_key(|fault| (fault.line, fault.column));
+            Err(faults)
         }
     }
 }
@@ -156,12 +150,11 @@ pub fn prepare(path: &str, text: &str, host: &dyn Host) -> Result<PreparedScene,
 struct Reader<'a> {
     path: &'a str,
     host: &'a dyn Host,
-    source: SourceText<'a>,
-    /// Where the parts stand.
-    parts: Vec<Range<usize>>,
-    /// Where the lights stand.
-    lights: Vec<Range<usize>>,
-    problems: Vec<SpecError>,
+    /// Where shape and material of the parts stand.
+    parts: Vec<[Place; 2]>,
+    /// Where the width of the scene stands.
+    size: Place,
+    faults: Faults<'a>,
     /// Hashes of all that was read.
     hashes: String,
     /// Bitmaps that were read, by their names and whether they are inverted.
@@ -173,31 +166,15 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// A fault at a key of the scene itself.
-    fn fault(&self, key: &str, problem: &str) -> SpecError {
-        self.fault_at(self.source.place_after(&[], key), problem)
-    }
-
-    fn fault_at(&self, (line, column): Place, problem: &str) -> SpecError {
-        SpecError { file: self.path.to_owned(), line, column, problem: shortened(problem) }
-    }
-
-    /// The place of a key in one of the parts or lights, or of that one where it has no such key.
-    fn place_in(&self, items: &[Range<usize>], index: usize, key: &str) -> Place {
-        items.get(index).map_or((1, 1), |item| self.source.place_in(item.clone(), key))
-    }
-
     fn fault_of_scene(&mut self, error: &SceneError) {
         let problem = error.fault.to_string();
         let of_material = matches!(
             error.fault,
             Fault::Crystal { .. } | Fault::Core(_) | Fault::Share { .. } | Fault::Angle { .. }
         );
-        let key = if of_material { "material:" } else { "shape:" };
-        self.problems.push(match error.part {
-            Some(i) => self.fault_at(self.place_in(&self.parts, i, key), &problem),
-            None => self.fault("parts:", &problem),
-        });
+        let of_parts = || self.parts.first().map_or(self.size, |places| places[0]);
+        let place = error.part.map_or_else(of_parts, |i| self.parts[i][usize::from(of_material)]);
+        self.faults.at(place, &problem);
     }
 
     fn part(&mut self, index: usize, part: &ScenePart, grid: Grid) -> Option<Part> {
@@ -206,10 +183,9 @@ impl Reader<'_> {
         match (shape, material) {
             (Ok(shape), Ok(material)) => return Some(Part { shape, material }),
             (shape, material) => {
-                for (key, fault) in [("shape:", shape.err()), ("material:", material.err())] {
+                for (place, fault) in self.parts[index].into_iter().zip([shape.err(), material.err()]) {
                     if let Some(problem) = fault {
-                        let place = self.place_in(&self.parts, index, key);
-                        self.problems.push(self.fault_at(place, &problem));
+                        self.faults.at(place, &problem);
                     }
                 }
             }
@@ -298,14 +274,12 @@ impl Reader<'_> {
             MaterialSource::Empty => Material::Clear { transmittance: 1.0 },
             MaterialSource::Absorber => Material::Absorber,
             MaterialSource::Filter(part) => Material::Clear { transmittance: part.get() },
-            MaterialSource::Mirror { reflectance, angle_deg } => Material::Mirror {
-                reflectance: reflectance.get(),
-                angle_deg: angle_deg.map(spec::Finite::get),
-            },
-            MaterialSource::Diffuse { reflectance, angle_deg } => Material::Diffuse {
-                reflectance: reflectance.get(),
-                angle_deg: angle_deg.map(spec::Finite::get),
-            },
+            MaterialSource::Mirror { reflectance, angle_deg } => {
+                Material::Mirror { reflectance: reflectance.get(), angle_deg: angle_deg.map(Finite::get) }
+            }
+            MaterialSource::Diffuse { reflectance, angle_deg } => {
+                Material::Diffuse { reflectance: reflectance.get(), angle_deg: angle_deg.map(Finite::get) }
+            }
             MaterialSource::Crystal { field, at, normalization } => {
                 let mut field = (**field).clone();
                 name_files_beside(&mut field, self.path, self.host);
@@ -321,29 +295,32 @@ impl Reader<'_> {
                 Material::Crystal {
                     field,
                     at: Cell::new(at.0, at.1),
-                    normalization: normalization_of(*normalization),
+                    normalization: normalization.normalization(),
                 }
             }
         })
     }
 
-    /// Checks that lights can shine, in some directions at least, and stand in the open, as far as walls are known; the places of
+    /// Checks that lights can shine, in some directions at least, and stand in the open, as far as walls are known; what to report of
     /// their profiles.
-    fn lights(&mut self, file: &SceneFile, grid: Grid, layout: Option<&Layout>) -> Vec<Place> {
-        let in_wall = |(index, light)| {
+    fn lights(&mut self, file: &SceneFile, grid: Grid, layout: Option<&Layout>) -> Vec<SpecError> {
+        let in_wall = |(index, light): (usize, &Placed<LightSource>)| {
             let problem = light_fault(layout?, cell_of(light, grid))?;
-            Some(LightFault { index, key: "cell:", problem })
+            Some(LightFault { index, value: LightValue::Cell, problem })
         };
         let mut faults: Vec<LightFault> = file.lights.iter().enumerate().filter_map(in_wall).collect();
         let misplaced: BTreeSet<usize> = faults.iter().map(|f| f.index).collect();
-        let makes = |lights: &[LightSource], samples: usize| match Directions::new(samples) {
-            Ok(directions) => lights_of(lights, grid, directions).err().unwrap_or_default(),
+        let makes = |lights: &[Placed<LightSource>], samples: usize| match Directions::new(samples) {
+            Ok(directions) => {
+                lights_of(lights.iter().map(|l| &**l), grid, directions).err().unwrap_or_default()
+            }
             Err(_) => Vec::new(),
         };
         for fault in makes(&file.lights, SAMPLES) {
             let light = &file.lights[fault.index];
             // Whether a pulse hits a sample is known once the directions are.
-            let is_pulse = fault.key == "profile:" && matches!(light.profile, ProfileShape::Pulse { .. });
+            let is_pulse = fault.value == LightValue::Profile
+                && matches!(light.profile.as_deref(), Some(ProfileShape::Pulse { .. }));
             let of_others = || {
                 (8..=Directions::MAX)
                     .step_by(8)
@@ -353,12 +330,20 @@ impl Reader<'_> {
                 faults.push(fault);
             }
         }
-        for LightFault { index, key, problem } in faults {
-            let place = self.place_in(&self.lights, index, key);
-            self.problems.push(self.fault_at(place, &problem));
+        for LightFault { index, value, problem } in faults {
+            self.faults.at(place_of(&file.lights[index], value), &problem);
         }
-        (0..file.lights.len()).map(|i| self.place_in(&self.lights, i, "profile:")).collect()
+        file.lights.iter().map(|light| self.faults.fault(place_of(light, LightValue::Profile), "")).collect()
     }
+}
+
+/// Where a value of a light stands, or the light where it has no such value.
+fn place_of(light: &Placed<LightSource>, value: LightValue) -> Place {
+    let place = match value {
+        LightValue::Cell => light.cell.as_ref().map(Placed::key),
+        LightValue::Profile => light.profile.as_ref().map(Placed::key),
+    };
+    place.unwrap_or(light.place())
 }
 
 /// What keeps a light from a cell.
@@ -372,31 +357,6 @@ pub fn light_fault(layout: &Layout, cell: Cell) -> Option<String> {
     layout.is_wall(cell).then(|| {
         let part = layout.part_of.at(cell).map(|i| format!(" of part {}", i + 1)).unwrap_or_default();
         format!("the light at ({x}, {y}) is inside a wall{part}: expected a cell that passes light on")
-    })
-}
-
-/// What the legend of a gradient calls the cells that [`where_result`] leaves out.
-#[must_use]
-pub fn missing_label(surfaces: Option<&Field<Option<Surface>>>) -> &'static str {
-    match surfaces.is_some_and(|s| s.values().iter().flatten().any(Surface::is_wall)) {
-        true => "border, or beside a wall",
-        false => "border, 0 by definition",
-    }
-}
-
-/// A gradient's scalar where it is a result, not a number elsewhere: at the border, where it is 0 by definition, and in and beside
-/// the walls of a scene, where others are compared with a pulse that shines on nothing.
-#[must_use]
-pub fn where_result(field: &Field<f64>, surfaces: Option<&Field<Option<Surface>>>) -> Field<f64> {
-    let grid = field.grid();
-    let is_wall_at = |cell: Cell| {
-        let surface = surfaces.and_then(|s| *s.at(cell));
-        surface.is_some_and(|s| s.is_wall())
-    };
-    let beside = |cell: Cell| [0, 2, 4, 6].iter().filter_map(|&k| grid.neighbour(cell, k)).any(is_wall_at);
-    Field::from_fn(grid, |cell| {
-        let missing = grid.is_border(cell) || is_wall_at(cell) || beside(cell);
-        if missing { f64::NAN } else { *field.at(cell) }
     })
 }
 

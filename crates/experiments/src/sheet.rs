@@ -1,6 +1,5 @@
 //! One page about a tensor field: ellipses, lines, anisotropy, determinant, one light, a gradient.
 
-use crate::scene::where_result;
 use thiserror::Error;
 use tigereye_core::{
     Anisotropy, Cell, CellShape, CoreError, Directions, Eigenvalues, Field, Grid, Normalization,
@@ -17,7 +16,7 @@ use tigereye_transport::{
     EightLobe, Engine, Level, Light, Problem, Scattering, Scheme, SharedWeights, Stopping, StoppingRule,
     TransportError,
 };
-use tigereye_views::{line_overlay, point_overlays};
+use tigereye_views::{gradient as gradient_view, light, line_overlay, point_overlays};
 
 /// What a sheet shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -176,15 +175,13 @@ fn lit(
     field: &Field<Tensor2>,
     options: &SheetOptions,
     directions: Directions,
-    light: Cell,
+    at: Cell,
 ) -> Result<(String, Picture), SheetError> {
     let (coarse, size) = averaged(field, LONGEST_LIT)?;
     let place = |at: usize, before: usize, after: usize| (at * after / before).min(after - 1);
     let (before, after) = (field.grid(), coarse.grid());
-    let source = Cell::new(
-        place(light.x, before.width(), after.width()),
-        place(light.y, before.height(), after.height()),
-    );
+    let source =
+        Cell::new(place(at.x, before.width(), after.width()), place(at.y, before.height(), after.height()));
     let field = &coarse;
     let transmission = TransmissionField::from_tensors(field, directions, options.normalization)?;
     let scheme = Scheme::new(directions, SharedWeights::Thesis);
@@ -192,15 +189,14 @@ fn lit(
     let lights = [Light::continuous(source, PolarProfile::constant(directions, 1.0))];
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
     let outcome = EightLobe.propagate(&problem)?;
-    let heat = HeatOptions {
-        quantity: "energy of a cell / W".to_owned(),
-        scale: HeatScale::Logarithmic { decades: 4.0 },
+    let request = light::Request {
+        decades: Some(light::DECADES),
         sources: vec![source],
         cell: shape_after(options.cell, before, after),
-        ..HeatOptions::default()
+        ..light::Request::default()
     };
-    let title = format!("light of cell ({}, {}){size}", light.x, light.y);
-    Ok((title, heat_map(&outcome.distribution.energy(), &heat)))
+    let title = format!("light of cell ({}, {}){size}", at.x, at.y);
+    Ok((title, light::picture(&outcome.distribution.energy(), request)))
 }
 
 /// The shape of cells of which there are others over the same area; what is averaged of squares stays square.
@@ -246,15 +242,9 @@ fn gradient(
     };
     let outcome = sweep(&Scattering::new(&scheme, &transmission), &settings, &Shared(observer))?;
     let slice = outcome.volume.slice(sample).unwrap_or_else(|| field.map(|_| 0.0));
-    // What is 0 by definition would stretch the scale.
-    let inner = where_result(&slice, None);
-    let heat = HeatOptions {
-        quantity: "LTG / (W/rad)".to_owned(),
-        missing: Some("border, 0 by definition".to_owned()),
-        cell,
-        ..HeatOptions::default()
-    };
-    Ok((format!("light transport gradient, {}°{size}", options.slice_deg), heat_map(&inner, &heat)))
+    let request = gradient_view::Request { cell, ..gradient_view::Request::default() };
+    let title = format!("light transport gradient, {}°{size}", options.slice_deg);
+    Ok((title, gradient_view::picture(&slice, request)))
 }
 
 /// A sweep wants to know whom it talks to.

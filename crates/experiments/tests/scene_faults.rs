@@ -3,8 +3,7 @@
 
 use tigereye_core::{Cell, Directions, Surface};
 use tigereye_experiments::scene::{PreparedScene, is_scene_file, prepare};
-use tigereye_experiments::spec::{self, SpecError};
-use tigereye_experiments::{Host, settings};
+use tigereye_experiments::{Host, SpecError, load, plan};
 use tigereye_scenes::Material;
 
 const GOOD: &str = r#"// A room.
@@ -314,11 +313,11 @@ fn problems(from: &str, to: &str) -> String {
         ),
         ("bad.scene.ron".to_owned(), b"(format: 1)".to_vec()),
     ]);
-    let experiment = match spec::load("e.ron", &text) {
+    let experiment = match load("e.ron", &text) {
         Ok(experiment) => experiment,
         Err(e) => return e.to_string(),
     };
-    match settings::resolve("e.ron", &text, experiment, false, &host) {
+    match plan("e.ron", &text, &experiment, false, &host) {
         Ok(_) => String::new(),
         Err(problems) => problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
     }

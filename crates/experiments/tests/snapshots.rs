@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 use tigereye_experiments::library::is_experiment;
-use tigereye_experiments::{Host, evaluate, settings::resolve, spec};
+use tigereye_experiments::{Host, evaluate, load, plan};
 
 /// Memory for gradients, bytes.
 const MEMORY: u64 = 4 << 30;
@@ -31,16 +31,16 @@ fn digest(path: &Path) -> Option<(String, tigereye_experiments::Digest, Vec<Stri
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path).expect("a readable experiment");
     let host = Folder(path.parent().expect("a folder").to_path_buf());
-    let experiment = spec::load(&name, &text).unwrap_or_else(|e| panic!("{e}"));
+    let experiment = load(&name, &text).unwrap_or_else(|e| panic!("{e}"));
     if let Some(missing) = experiment.needs.iter().find(|file| !host.has(file)) {
         println!("skipped: {name} needs {missing} (set TIGEREYE_REFERENCE)");
         return None;
     }
-    let settings = resolve(&name, &text, experiment, false, &host).unwrap_or_else(|e| panic!("{e:?}"));
-    let evaluation = evaluate(&settings, "test", MEMORY, &host).unwrap_or_else(|e| panic!("{e}"));
+    let plan = plan(&name, &text, &experiment, false, &host).unwrap_or_else(|e| panic!("{e:?}"));
+    let evaluation = evaluate(&plan, "test", MEMORY, &host).unwrap_or_else(|e| panic!("{e}"));
     let failed = evaluation.outcome.checks.iter().filter(|c| !c.passed);
-    let failed = failed.map(|c| format!("{}: {} = {:?}", settings.slug, c.name, c.value)).collect();
-    Some((settings.slug, evaluation.digest, failed))
+    let failed = failed.map(|c| format!("{}: {} = {:?}", plan.slug, c.name, c.value)).collect();
+    Some((plan.slug, evaluation.digest, failed))
 }
 
 #[test]

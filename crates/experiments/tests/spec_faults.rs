@@ -3,8 +3,7 @@
 
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
-use tigereye_experiments::spec::{self, SpecError};
-use tigereye_experiments::{Host, library, settings};
+use tigereye_experiments::{Host, Scope, SpecError, library, load, plan};
 
 const FILE: &str = "folder/good.ron";
 
@@ -106,9 +105,9 @@ impl Host for Nothing {
 
 /// All faults of a text.
 fn faults(text: &str, full: bool) -> Vec<SpecError> {
-    match spec::load(FILE, text) {
+    match load(FILE, text) {
         Err(e) => vec![e],
-        Ok(experiment) => settings::resolve(FILE, text, experiment, full, &Nothing).err().unwrap_or_default(),
+        Ok(experiment) => plan(FILE, text, &experiment, full, &Nothing).err().unwrap_or_default(),
     }
 }
 
@@ -415,9 +414,9 @@ fn rows_of_another_scope_are_left_out_but_missing_times_are_told() {
         .replace("angles_deg: [0, 67.5],", "angles_deg: [0, 67.5], scope: Full,")
         .replace("slices_deg: [0, 45],", "slices_deg: [0, 45], scope: Full,");
     let tables = |full| {
-        let experiment = spec::load(FILE, &text).unwrap();
-        let settings = settings::resolve(FILE, &text, experiment, full, &Nothing).unwrap();
-        settings.experiment.tables.iter().map(|t| t.title.clone()).collect::<Vec<_>>()
+        let experiment = load(FILE, &text).unwrap();
+        let plan = plan(FILE, &text, &experiment, full, &Nothing).ok().unwrap();
+        plan.tables().map(str::to_owned).collect::<Vec<_>>()
     };
     assert_eq!(
         (tables(true), tables(false)),
@@ -435,7 +434,13 @@ fn names_stand_once() {
 
 #[test]
 fn figures_have_names_of_their_own() {
-    refused("name: \"curve\"", "name: \"picture\"", "\"picture\"", &["two figures", "\"picture\""]);
+    let text = GOOD.replace("name: \"curve\"", "name: \"picture\"");
+    let found = faults(&text, true);
+    let [fault] = &found[..] else { panic!("expected one fault, found {found:#?}") };
+    assert!(fault.problem.contains("two figures are called \"picture\""), "{fault}");
+    // It is the second that is one too many.
+    let (first, second) = (text.find("\"picture\"").unwrap(), text.rfind("\"picture\"").unwrap());
+    assert!(first < second && fault.line == text[..second].matches('\n').count() + 1, "{fault}");
 }
 
 #[test]
@@ -460,8 +465,10 @@ fn kept_steps_come_before_the_end() {
 }
 
 #[test]
-fn panels_show_steps_that_are_kept() {
-    refused("step: 3,", "step: 5,", "step: 5", &["figure \"picture\"", "step 5", "frames"]);
+fn panels_show_steps_that_there_are() {
+    // Steps that are shown are kept, whatever the run says.
+    assert_eq!(faults(&GOOD.replace("step: 3,", "step: 5,"), true), []);
+    refused("step: 3,", "step: 9,", "step: 9", &["figure \"picture\"", "step 9", "ends after 8 steps"]);
 }
 
 #[test]
@@ -671,19 +678,19 @@ fn every_experiment_has_a_header_a_check_and_a_figure() {
         }
         for full in [true, false] {
             let host = Folder(path.parent().unwrap().to_path_buf());
-            let experiment = spec::load(&name, &text).map_err(|e| vec![e]);
+            let experiment = load(&name, &text).map_err(|e| vec![e]);
             // The snapshots resolve those whose data are not part of the project, where these are there.
             if experiment.as_ref().is_ok_and(|e| e.needs.iter().any(|file| !host.has(file))) {
                 continue;
             }
-            match experiment.and_then(|e| settings::resolve(&name, &text, e, full, &host)) {
+            match experiment.and_then(|e| plan(&name, &text, &e, full, &host)) {
                 Err(faults) => problems.extend(faults.iter().map(ToString::to_string)),
                 Ok(s) => {
-                    let always = full || s.experiment.scope == spec::Scope::Always;
-                    if always && s.experiment.figures.is_empty() {
+                    let always = full || s.scope == Scope::Always;
+                    if always && s.figures().next().is_none() {
                         problems.push(format!("{name}: no figure with full: {full}"));
                     }
-                    if always && s.experiment.checks.is_empty() {
+                    if always && s.checks().next().is_none() {
                         problems.push(format!("{name}: no check with full: {full}"));
                     }
                 }

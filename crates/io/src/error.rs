@@ -486,7 +486,7 @@ pub enum IoError {
     },
     /// Points that do not lie on a regular lattice.
     #[error(
-        "the points form no lattice: expected equal steps along each axis, x fastest; point {point} (from 0) is off"
+        "the points form no lattice: expected one at every node of equal steps along each axis, in any order; point {point} (from 0) is off, or one is missing or doubled"
     )]
     NoLattice {
         /// The first point that is off, from 0.

@@ -106,6 +106,8 @@ pub struct CheckOutcome {
     pub basis: String,
     /// Whether the value meets the expectation.
     pub passed: bool,
+    /// Why there is no value, where it could not be measured.
+    pub reason: Option<String>,
 }
 
 /// An expectation.

@@ -76,6 +76,9 @@ struct Check<'a> {
     passed: bool,
     kind: &'static str,
     basis: &'a str,
+    /// Why there is no value.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<&'a str>,
 }
 
 impl<'a> Check<'a> {
@@ -85,8 +88,9 @@ impl<'a> Check<'a> {
             Expected::AtMost(bound) => ("at most", bound, 0.0),
             Expected::AtLeast(bound) => ("at least", bound, 0.0),
         };
-        let CheckOutcome { name, value, passed, basis, .. } = check;
-        Self { name, value: *value, expected, tolerance, passed: *passed, kind, basis }
+        let CheckOutcome { name, value, passed, basis, reason, .. } = check;
+        let reason = reason.as_deref();
+        Self { name, value: *value, expected, tolerance, passed: *passed, kind, basis, reason }
     }
 }
 

@@ -2,13 +2,17 @@
 
 pub mod ftle;
 pub mod glyphs;
+pub mod gradient;
 pub mod lic;
+pub mod light;
 pub mod lines;
 mod overlays;
+mod reel;
 pub mod ridges;
 pub mod topology;
 
 pub use overlays::{line_overlay, point_overlays};
+pub use reel::Reel;
 
 use std::ops::Range;
 use tigereye_core::{CellShape, Field, Grid, Tensor2};

@@ -30,12 +30,11 @@ pub(crate) fn check(args: &CheckArgs) -> Result<u8, CliError> {
                 let words = format!("{}: read, but it needs {file}, which is not there\n", path.display());
                 print_text(&words)?;
             }
-            Ok(Prepared::Ready(settings)) => {
-                let e = &settings.experiment;
+            Ok(Prepared::Ready(plan)) => {
                 let parts = [
-                    counted(settings.runs.len(), "run"),
-                    counted(e.figures.len(), "figure"),
-                    counted(e.checks.len(), "check"),
+                    counted(plan.runs().count(), "run"),
+                    counted(plan.figures().count(), "figure"),
+                    counted(plan.checks().count(), "check"),
                 ];
                 print_text(&format!("{}: ok, {}\n", path.display(), parts.join(", ")))?;
             }

@@ -13,20 +13,16 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tigereye_core::{Cell, CellShape, Field, LightDistribution, PolarProfile, StopReason, Surface};
-use tigereye_experiments::Reel;
-use tigereye_experiments::settings::profile_of_expression;
+use tigereye_experiments::lights::profile_of_expression;
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{Rows, npy, pvd, vti};
-use tigereye_render::{
-    HeatOptions, HeatScale, PolarOptions, Scene, TransmissionScale, heat_map, polar_overlay,
-};
+use tigereye_render::{PolarOptions, Scene, TransmissionScale, polar_overlay};
 use tigereye_transport::{
     EightLobe, Emission, Engine, Light, Outcome, Problem, Scheme, SharedWeights, Stopping, StoppingRule,
 };
+use tigereye_views::{Reel, light};
 
-/// Decades of energy that pictures show.
-const DECADES: f64 = 4.0;
 /// Resolution of PNG pictures.
 pub(super) const PNG_SCALE: f64 = 2.0;
 
@@ -310,7 +306,7 @@ fn encoded(output: &Path, args: &PropagateArgs, drawn: &Drawn<'_>, story: &str) 
         }
         "apng" => {
             let reel = drawn.reel.ok_or_else(|| CliError::input(&name, "no step was kept"))?;
-            let made = reel.encoded(&drawn.energy_options(), DECADES, 1);
+            let made = reel.encoded(&drawn.energy().into_options(), light::DECADES, 1);
             made.map(|(bytes, _)| bytes).map_err(|e| CliError::input(&name, e))
         }
         "png" => drawn.picture(args).to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
@@ -334,15 +330,14 @@ impl Drawn<'_> {
         self.problem.lights.iter().map(|l| l.cell).collect()
     }
 
-    fn energy_options(&self) -> HeatOptions {
-        HeatOptions {
+    fn energy(&self) -> light::Request {
+        light::Request {
             title: self.title.to_owned(),
+            decades: Some(light::DECADES),
             sources: self.sources(),
             walls: self.walls.cloned(),
-            quantity: "energy of a cell / W".to_owned(),
-            scale: HeatScale::Logarithmic { decades: DECADES },
             cell: CellShape::of(self.geometry.spacing()),
-            ..HeatOptions::default()
+            ..light::Request::default()
         }
     }
 
@@ -359,7 +354,7 @@ impl Drawn<'_> {
                 };
                 polar_overlay(Some(self.problem.transmission), Some(&self.outcome.distribution), &options)
             }
-            Picture::Energy => heat_map(&self.outcome.distribution.energy(), &self.energy_options()),
+            Picture::Energy => light::picture(&self.outcome.distribution.energy(), self.energy()),
         }
     }
 }

@@ -9,8 +9,9 @@ use crate::{files, interrupt, system};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tigereye_experiments::scene::is_scene_file;
-use tigereye_experiments::settings::{Settings, resolve, slug_of};
-use tigereye_experiments::{ExperimentError, Host, RunError, evaluate, library, spec};
+use tigereye_experiments::{
+    ExperimentError, Host, Plan, RunError, Scope, evaluate, library, load, plan, slug_of,
+};
 use tigereye_input::provenance;
 use tigereye_report::{About, ExperimentOutcome};
 
@@ -43,19 +44,18 @@ impl Source {
 /// An experiment, ready to run, or the file that it cannot do without.
 #[expect(clippy::large_enum_variant, reason = "there are a few dozen")]
 pub(crate) enum Prepared {
-    Ready(Settings),
+    Ready(Plan),
     Lacks(String),
 }
 
 /// Parses and resolves an experiment; every fault is a line of its own.
 pub(crate) fn prepare(source: &Source, full: bool) -> Result<Prepared, CliError> {
     let host = FileHost::new(source.folder.clone(), source.slug());
-    let experiment =
-        spec::load(&source.name, &source.text).map_err(|e| CliError::Inputs(vec![e.to_string()]))?;
+    let experiment = load(&source.name, &source.text).map_err(|e| CliError::Inputs(vec![e.to_string()]))?;
     if let Some(missing) = experiment.needs.iter().find(|file| !host.has(file)) {
         return Ok(Prepared::Lacks(missing.clone()));
     }
-    resolve(&source.name, &source.text, experiment, full, &host)
+    plan(&source.name, &source.text, &experiment, full, &host)
         .map(Prepared::Ready)
         .map_err(|faults| CliError::Inputs(faults.iter().map(ToString::to_string).collect()))
 }
@@ -166,7 +166,7 @@ fn run_sources(
     let mut left_out = Vec::new();
     for source in sources {
         match prepare(source, full) {
-            Ok(Prepared::Ready(settings)) => prepared.push((source, settings)),
+            Ok(Prepared::Ready(plan)) => prepared.push((source, plan)),
             Ok(Prepared::Lacks(file)) => {
                 let slug = source.slug();
                 let where_to =
@@ -181,7 +181,7 @@ fn run_sources(
         return Err(CliError::Inputs(faults));
     }
     if !full {
-        prepared.retain(|(_, s)| s.experiment.scope == spec::Scope::Always);
+        prepared.retain(|(_, s)| s.scope == Scope::Always);
     }
     left_out.iter().for_each(|words| eprintln!("left out: {words}"));
     if prepared.is_empty() && !left_out.is_empty() {
@@ -195,9 +195,8 @@ fn run_sources(
     let outcomes = system::on_threads(resources.threads, || {
         let count = prepared.len();
         let mut outcomes = Vec::with_capacity(count);
-        for (i, (source, settings)) in prepared.iter().enumerate() {
-            let outcome =
-                run_one(source, settings, &again(&settings.slug), memory, &format!("[{}/{count}]", i + 1))?;
+        for (i, (source, plan)) in prepared.iter().enumerate() {
+            let outcome = run_one(source, plan, &again(&plan.slug), memory, &format!("[{}/{count}]", i + 1))?;
             write_outcome(out, &outcome)?;
             outcomes.push(outcome);
         }
@@ -219,15 +218,15 @@ fn run_sources(
 
 fn run_one(
     source: &Source,
-    settings: &Settings,
+    plan: &Plan,
     command: &str,
     memory: u64,
     prefix: &str,
 ) -> Result<ExperimentOutcome, CliError> {
     interrupt::check()?;
     let start = Instant::now();
-    let host = FileHost::new(source.folder.clone(), format!("{prefix} {}", settings.slug));
-    let evaluation = evaluate(settings, command, memory, &host).map_err(|e| match e {
+    let host = FileHost::new(source.folder.clone(), format!("{prefix} {}", plan.slug));
+    let evaluation = evaluate(plan, command, memory, &host).map_err(|e| match e {
         ExperimentError::Run { source: RunError::Interrupted, .. } => CliError::Interrupted,
         e => CliError::input(&source.name, e),
     })?;
@@ -239,7 +238,7 @@ fn run_one(
         0 => format!("{} passed", counted(outcome.checks.len(), "check")),
         n => format!("{n} of {} FAILED", counted(outcome.checks.len(), "check")),
     };
-    eprintln!("{prefix} {}: {verdict}, {:.1} s", settings.slug, outcome.seconds);
+    eprintln!("{prefix} {}: {verdict}, {:.1} s", plan.slug, outcome.seconds);
     Ok(outcome)
 }
 
@@ -264,10 +263,10 @@ fn conclude(outcomes: &[ExperimentOutcome], out: &Path, seconds: f64) -> Result<
     let failed: Vec<String> = outcomes
         .iter()
         .flat_map(|o| {
-            o.checks
-                .iter()
-                .filter(|c| !c.passed)
-                .map(move |c| format!("  {}: {} = {:.6e}, expected {}", o.slug, c.name, c.value, c.expected))
+            o.checks.iter().filter(|c| !c.passed).map(move |c| {
+                let why = c.reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
+                format!("  {}: {} = {:.6e}{why}, expected {}", o.slug, c.name, c.value, c.expected)
+            })
         })
         .collect();
     let page = out.join("index.html");

@@ -9,12 +9,12 @@ use crate::part_file::Identity;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use tigereye_core::{CellShape, Field, LtgVolume, Surface};
-use tigereye_experiments::scene::{missing_label, where_result};
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{Rows, npy, vti};
-use tigereye_render::{HeatOptions, Scene, heat_map};
+use tigereye_render::Scene;
 use tigereye_transport::Stopping;
+use tigereye_views::gradient;
 
 /// Endings of files that hold volumes, or pictures of them.
 pub(super) const ENDINGS: [&str; 4] = ["vti", "npy", "png", "svg"];
@@ -101,21 +101,16 @@ fn picture(
     walls: Option<&Field<Option<Surface>>>,
     cell: CellShape,
 ) -> Scene {
-    let (field, quantity) = match volume.slices() {
-        [t] => (volume.slice(*t), format!("LTG at {} degrees / (W/rad)", volume.directions().angle_deg(*t))),
-        _ => (None, "mean LTG over direction / (W/rad)".to_owned()),
+    let (slice, scalar) = match volume.slices() {
+        [t] => (volume.slice(*t), gradient::Scalar::SliceAt(volume.directions().angle_deg(*t))),
+        _ => (None, gradient::Scalar::Mean),
     };
-    let field = field.unwrap_or_else(|| volume.mean_over_directions());
-    let options = HeatOptions {
-        title: title.to_owned(),
-        quantity,
-        missing: Some(missing_label(walls).to_owned()),
-        walls: walls.cloned(),
-        cell,
-        ..HeatOptions::default()
-    };
-    // What is no result would stretch the scale.
-    heat_map(&where_result(&field, walls), &options)
+    let field = slice.unwrap_or_else(|| volume.mean_over_directions());
+    let (title, walls) = (title.to_owned(), walls.cloned());
+    gradient::picture(
+        &field,
+        gradient::Request { title, scalar, walls, cell, ..gradient::Request::default() },
+    )
 }
 
 /// Plain steps of a pulse that has no stationary state.

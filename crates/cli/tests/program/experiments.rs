@@ -123,11 +123,23 @@ fn what_cannot_be_measured_fails() {
     let place = Place::new();
     let text =
         experiment("Near(3, 0)").replace("Steps(run: \"light\")", "RadiusMean(run: \"light\", step: 99999)");
-    place.write("small.ron", text);
-    assert_eq!(place.tigereye(&["run", "small.ron", "--out", "r"]).code, 1);
+    // A step that the run cannot reach is a fault of the file.
+    place.write("small.ron", &text);
+    place.refuses(
+        &["run", "small.ron", "--out", "r"],
+        &["check \"steps\"", "step 99999", "ends after 3 steps"],
+    );
+    // Whether it does by its rule shows when it runs.
+    place.write("small.ron", text.replace("stop: Steps(3)", "stop: FluxChange(threshold: 0.5)"));
+    let run = place.tigereye(&["run", "small.ron", "--out", "r"]);
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    assert!(run.stdout.contains("before step 99999"), "{}", run.stdout);
+    let page = String::from_utf8(place.read("r/index.html")).unwrap();
+    assert!(page.contains("no value: the run ended after"), "the report says why");
     let summary = has_the_agreed_shape(&place, "r");
     assert_eq!(summary["passed"], false);
-    assert!(summary["experiments"][0]["checks"][0]["value"].is_null());
+    let check = &summary["experiments"][0]["checks"][0];
+    assert!(check["value"].is_null() && check["reason"].as_str().unwrap().contains("before step 99999"));
 }
 
 #[test]

@@ -75,7 +75,10 @@ fn row(check: &CheckOutcome) -> Markup {
                     span.beyond { "by " (number(beyond)) }
                 }
             }
-            th scope="row" { (check.name) }
+            th scope="row" {
+                (check.name)
+                @if let Some(reason) = &check.reason { " " span.reason { "no value: " (reason) } }
+            }
             td.number { (number(check.value)) }
             td.number { (expected(check.expected)) }
             td.number { (tolerance(check.expected)) }

@@ -17,6 +17,7 @@ fn check(name: &str, value: f64, expected: Expected) -> CheckOutcome {
         expected,
         basis: "geometry".into(),
         passed: expected.is_met_by(value),
+        reason: None,
     }
 }
 

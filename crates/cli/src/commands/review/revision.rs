@@ -11,7 +11,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use tempfile::TempDir;
 use tigereye_experiments::library::is_experiment;
-use tigereye_experiments::settings::slug_of;
+use tigereye_experiments::slug_of;
 
 /// How often a running program is looked at.
 const PAUSE: Duration = Duration::from_millis(50);

@@ -1,0 +1,141 @@
+//! What may stand in an experiment file.
+
+use crate::form::{FieldSource, Finite, Named, NonNegative, Placed, Positive, Scope};
+use crate::panels::Panel;
+use crate::quantities::Quantity;
+use crate::runs::Run;
+use crate::tables::TableRows;
+use serde::Deserialize;
+use std::num::NonZeroUsize;
+use tigereye_report::Expected;
+
+/// One experiment file.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Experiment {
+    /// Version of the format, 1.
+    pub(crate) format: Placed<u32>,
+    /// Heading.
+    pub(crate) title: String,
+    /// What it reproduces, for example `Thesis, Fig. 4.8`.
+    pub(crate) source: String,
+    /// Section of the gallery; sections are sorted.
+    pub(crate) section: String,
+    /// The sentence that the figures support or examine.
+    pub(crate) claim: String,
+    /// What to look for, for someone who has not read the source.
+    pub(crate) look_for: String,
+    /// When the whole experiment runs.
+    #[serde(default)]
+    pub(crate) scope: Scope,
+    /// Data files that are not part of the project; where one is missing, the experiment is left out and says so.
+    #[serde(default)]
+    pub needs: Vec<String>,
+    /// Tensor fields by name.
+    #[serde(default)]
+    pub(crate) fields: Named<FieldSource>,
+    /// Scenes by name, each in a file `NAME.scene.ron` beside this one. Runs of light take them where they take fields.
+    #[serde(default)]
+    pub(crate) scenes: Named<Placed<String>>,
+    /// Propagations, gradients and studies of pulses by name, in order.
+    #[serde(default)]
+    pub(crate) runs: Named<Run>,
+    /// Pictures.
+    pub(crate) figures: Vec<Figure>,
+    /// Tables of results.
+    #[serde(default)]
+    pub(crate) tables: Vec<Table>,
+    /// What must hold.
+    pub(crate) checks: Vec<Check>,
+}
+
+/// A picture with its caption.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Figure {
+    /// File name without ending.
+    pub(crate) name: Placed<String>,
+    /// What is seen, in one or two sentences.
+    pub(crate) caption: String,
+    /// Panels side by side; a panel that needs a run of another scope is left out.
+    pub(crate) panels: Vec<Panel>,
+    /// Panels per row.
+    #[serde(default = "three")]
+    pub(crate) columns: usize,
+    /// The steps of a light run, to be watched beside the picture.
+    #[serde(default)]
+    pub(crate) animation: Option<Animation>,
+}
+
+/// Energies after the steps of a light run, one scale for all, as an animated PNG of the figure's name.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Animation {
+    /// Name of the light run.
+    pub(crate) run: Placed<String>,
+    /// Every how many steps there is a frame; more where there would be too many.
+    #[serde(default = "one")]
+    pub(crate) every: NonZeroUsize,
+    /// Decades below the brightest cell that is no light.
+    #[serde(default)]
+    pub(crate) decades: Option<Positive>,
+}
+
+const fn one() -> NonZeroUsize {
+    NonZeroUsize::MIN
+}
+
+const fn three() -> usize {
+    3
+}
+
+/// A table with its caption.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Table {
+    /// Heading.
+    pub(crate) title: String,
+    /// What is seen, in one or a few sentences.
+    pub(crate) caption: String,
+    /// What it shows.
+    pub(crate) rows: TableRows,
+}
+
+/// A statement about a number of this run.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Check {
+    /// The statement in words.
+    pub(crate) name: String,
+    /// The number.
+    pub(crate) quantity: Quantity,
+    /// What it must be.
+    pub(crate) expect: Expectation,
+    /// Why it must be so.
+    pub(crate) basis: String,
+}
+
+/// What a number must be.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+pub enum Expectation {
+    /// The first number, give or take the second (same unit).
+    Near(Finite, NonNegative),
+    /// The first number, give or take the second times its magnitude.
+    NearRelative(Finite, NonNegative),
+    /// At most this.
+    AtMost(Finite),
+    /// At least this.
+    AtLeast(Finite),
+}
+
+impl Expectation {
+    /// As the report has it.
+    pub(crate) fn expected(self) -> Expected {
+        match self {
+            Self::Near(v, t) => Expected::Near { value: v.get(), tolerance: t.get() },
+            Self::NearRelative(v, t) => Expected::Near { value: v.get(), tolerance: t.get() * v.get().abs() },
+            Self::AtMost(v) => Expected::AtMost(v.get()),
+            Self::AtLeast(v) => Expected::AtLeast(v.get()),
+        }
+    }
+}

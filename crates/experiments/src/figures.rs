@@ -1,0 +1,110 @@
+//! Figures from their panels.
+
+use crate::error::ExperimentError;
+use crate::panels::{Curve, Drawing, PANEL_PX, PlannedPanel};
+use crate::plan::{PlannedAnimation, PlannedFigure};
+use crate::results::Results;
+use crate::unavailable::Unavailable;
+use std::fmt::Write as _;
+use tigereye_render::{RenderError, Scene, small_multiples};
+use tigereye_report::{DataFile, Figure};
+use tigereye_views::light;
+
+/// Resolution of the PNG files, pixels per unit.
+const PNG_SCALE: f64 = 1.5;
+
+/// A figure with the tables behind its charts, and its animation.
+pub(crate) struct Drawn {
+    pub(crate) figure: Figure,
+    pub(crate) tables: Vec<DataFile>,
+}
+
+pub(crate) fn draw(
+    figure: &PlannedFigure,
+    slug: &str,
+    results: &Results<'_>,
+) -> Result<Drawn, ExperimentError> {
+    let alone = figure.panels.len() == 1;
+    let failed =
+        |source| ExperimentError::Figure { slug: slug.to_owned(), figure: figure.name.clone(), source };
+    let mut panels = Vec::new();
+    let mut tables = Vec::new();
+    for panel in &figure.panels {
+        let undrawn = |source: Unavailable| ExperimentError::Panel {
+            slug: slug.to_owned(),
+            figure: figure.name.clone(),
+            panel: panel.title.clone(),
+            source,
+        };
+        panels.push((panel.title.clone(), scene(panel, alone, results).map_err(undrawn)?));
+        if let Some(curves) = &panel.curves {
+            let name = match tables.len() {
+                0 => figure.name.clone(),
+                n => format!("{}-{}", figure.name, n + 1),
+            };
+            tables.push(table(&name, &curves(results).map_err(undrawn)?));
+        }
+    }
+    let alt: Vec<String> = panels.iter().map(|(t, s)| format!("{t}. {}", s.description)).collect();
+    let mut frames = 0;
+    if let Some(encoded) = figure.animation.as_ref().and_then(|a| animation(a, results)) {
+        let (bytes, count) = encoded.map_err(failed)?;
+        tables.push(DataFile { name: format!("{}.apng", figure.name), bytes });
+        frames = count;
+    }
+    let mut scene = match panels.len() {
+        1 => panels.remove(0).1,
+        _ => small_multiples(&panels, figure.columns.clamp(1, panels.len().max(1)), ""),
+    };
+    scene.title.clone_from(&figure.caption);
+    scene.description = alt.join(" ");
+    let figure = Figure {
+        timed: figure.panels.iter().any(|panel| panel.is_timed),
+        frames,
+        name: figure.name.clone(),
+        caption: figure.caption.clone(),
+        alt: scene.description.clone(),
+        width_px: scene.width_px,
+        height_px: scene.height_px,
+        png: scene.to_png(PNG_SCALE).map_err(failed)?,
+        svg: scene.to_svg().map_err(failed)?,
+    };
+    Ok(Drawn { figure, tables })
+}
+
+/// A panel; among others its heading stands above it.
+fn scene(panel: &PlannedPanel, alone: bool, results: &Results<'_>) -> Result<Scene, Unavailable> {
+    let title = if alone { panel.title.clone() } else { String::new() };
+    (panel.picture)(&Drawing { results, alone, title })
+}
+
+/// Frames of a run of light and their number; `None` where nothing was kept.
+fn animation(
+    animation: &PlannedAnimation,
+    results: &Results<'_>,
+) -> Option<Result<(Vec<u8>, usize), RenderError>> {
+    let run = &results[animation.light];
+    let reel = run.reel.as_ref()?;
+    let grid = run.last.grid();
+    let request = light::Request {
+        sources: run.sources.clone(),
+        walls: run.surfaces.clone(),
+        cell_px: Some((PANEL_PX / grid.width().max(grid.height())).max(2)),
+        ..light::Request::default()
+    };
+    let decades = animation.decades.unwrap_or(light::DECADES);
+    Some(reel.encoded(&request.into_options(), decades, animation.every))
+}
+
+/// The points of a chart as comma-separated values.
+fn table(name: &str, curves: &[Curve]) -> DataFile {
+    let mut text = String::from("series,x,y\n");
+    for Curve { label, points, .. } in curves {
+        for (x, y) in points {
+            let quoted = label.replace('"', "\"\"");
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "\"{quoted}\",{x:?},{y:?}");
+        }
+    }
+    DataFile { name: format!("{name}.csv"), bytes: text.into_bytes() }
+}

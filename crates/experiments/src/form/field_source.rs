@@ -1,0 +1,189 @@
+//! Where tensor fields come from.
+
+use super::named::Named;
+use super::numbers::{Fraction, Sigma};
+use super::placed::Placed;
+use serde::Deserialize;
+
+/// A tensor field in a file of its own, `NAME.field.ron`: commands and experiments take it where they take a generator.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct FieldFile {
+    /// Version of the format, 1.
+    pub format: Placed<u32>,
+    /// Heading of its sheet.
+    pub title: String,
+    /// Where it comes from: a paper, a formula, a measurement.
+    #[serde(default)]
+    pub source: String,
+    /// The field.
+    pub field: FieldSource,
+}
+
+/// Where a tensor field comes from.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+#[expect(clippy::large_enum_variant, reason = "an experiment has a handful")]
+pub enum FieldSource {
+    /// A generator with its parameters, as `tigereye field list` shows them.
+    Generator {
+        /// Name of the generator.
+        name: String,
+        /// Parameters that differ from their defaults, for example `{"size": "51"}`.
+        #[serde(default)]
+        parameters: Named<Parameter>,
+    },
+    /// Semi-axes by expressions in x, y (-1 to 1, y up), i, j, n, r, theta.
+    Axes {
+        /// Cells per row.
+        width: usize,
+        /// Cells per column.
+        height: usize,
+        /// Direction of the major semi-axis, radians.
+        phi: String,
+        /// Major semi-axis.
+        s1: String,
+        /// Minor semi-axis.
+        s2: String,
+    },
+    /// The four components by expressions in the same variables.
+    Components {
+        /// Cells per row.
+        width: usize,
+        /// Cells per column.
+        height: usize,
+        /// Component xx.
+        xx: String,
+        /// Component xy.
+        xy: String,
+        /// Component yx.
+        yx: String,
+        /// Component yy.
+        yy: String,
+    },
+    /// A data file of any format that the program reads, or another field's file (`.field.ron`), looked up beside the experiment file, in its parent folders, and
+    /// among the data that the program carries. The options are those of the command line.
+    File {
+        /// Path of the file.
+        path: String,
+        /// Array of a VTK file or archive; `None`: its active tensors or its only tensor array.
+        #[serde(default)]
+        array: Option<String>,
+        /// Arrays that hold one component each, `XX=S_XX,YY=S_YY,XY=S_XY`, or one row, `X=T_x,Y=T_y`.
+        #[serde(default)]
+        components: Option<String>,
+        /// Component order: a tool's name or component names.
+        #[serde(default)]
+        order: Option<String>,
+        /// What shears are: `tensor` (the default) or `engineering`.
+        #[serde(default)]
+        shear: Option<String>,
+        /// Axes that the components are along: `voxel`, `world`, `measurement` or `fsl`.
+        #[serde(default)]
+        frame: Option<String>,
+        /// Slice of a volume, `z=10`.
+        #[serde(default)]
+        slice: Option<String>,
+        /// Plane of a volume: `xy`, `xz` or `yz`.
+        #[serde(default)]
+        plane: Option<String>,
+        /// Part of the plane, `X0:X1,Y0:Y1`.
+        #[serde(default)]
+        crop: Option<String>,
+        /// Columns and rows to resample to, after cropping.
+        #[serde(default)]
+        resample: Option<(usize, usize)>,
+        /// Tensors of an image.
+        #[serde(default)]
+        derive: Option<DeriveRule>,
+        /// File of one number a voxel; tensors become zero where it is not above [`mask_above`](Self::File::mask_above).
+        #[serde(default)]
+        mask: Option<String>,
+        /// What a mask, or the confidence in an NRRD file, must exceed.
+        #[serde(default)]
+        mask_above: f64,
+        /// What becomes of tensors that are infinite or not a number: `refuse` (the default) or `zero`.
+        #[serde(default)]
+        not_finite: Option<String>,
+        /// Every how many cells one is kept, from the upper left.
+        #[serde(default = "one")]
+        stride: usize,
+    },
+    /// Another field with noise added to its tensors.
+    Noisy {
+        /// The field.
+        of: Box<FieldSource>,
+        /// Size of the noise over that of each tensor (Frobenius norm, root of the mean square).
+        share: Fraction,
+        /// Seed of the random numbers.
+        seed: u64,
+    },
+}
+
+/// Tensors made of an image; scales are standard deviations of Gaussians, in cells.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub enum DeriveRule {
+    /// Gradient of a vector field.
+    Gradient {
+        /// Of the field smoothed by this much.
+        #[serde(default)]
+        sigma: Option<Sigma>,
+    },
+    /// Second derivatives of a scalar field.
+    Hessian {
+        /// Of the field smoothed by this much.
+        #[serde(default)]
+        sigma: Option<Sigma>,
+    },
+    /// Rate of strain: the symmetric part of the gradient of a vector field.
+    StrainRate {
+        /// Of the field smoothed by this much.
+        #[serde(default)]
+        sigma: Option<Sigma>,
+    },
+    /// Averaged products of a scalar field's derivatives: light and lines run across stripes.
+    Structure {
+        /// Derivatives of the field smoothed by this much.
+        #[serde(default)]
+        sigma: Option<Sigma>,
+        /// Averaged over this much.
+        #[serde(default)]
+        window: Option<Sigma>,
+    },
+    /// The structure tensor with its eigenvalues exchanged: light and lines run along stripes.
+    Orientation {
+        /// Derivatives of the field smoothed by this much.
+        #[serde(default)]
+        sigma: Option<Sigma>,
+        /// Averaged over this much.
+        #[serde(default)]
+        window: Option<Sigma>,
+    },
+}
+
+fn one() -> usize {
+    1
+}
+
+/// A generator's parameter: a number, a flag or a word.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(try_from = "ron::Value")]
+pub struct Parameter(pub String);
+
+impl TryFrom<ron::Value> for Parameter {
+    type Error = String;
+
+    fn try_from(value: ron::Value) -> Result<Self, String> {
+        match value {
+            ron::Value::Bool(b) => Ok(Self(b.to_string())),
+            ron::Value::String(s) => Ok(Self(s)),
+            ron::Value::Number(n) => Ok(Self(number_text(n.into_f64()))),
+            other => Err(format!("expected a number, true, false or a string, found {other:?}")),
+        }
+    }
+}
+
+fn number_text(x: f64) -> String {
+    format!("{x}")
+}

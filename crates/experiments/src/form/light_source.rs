@@ -1,0 +1,61 @@
+//! Lights.
+
+use super::numbers::{Finite, NonNegative, Positive};
+use super::placed::Placed;
+use serde::Deserialize;
+
+/// A light.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct LightSource {
+    /// Column and row, 0 on the upper left; left out: the centre.
+    #[serde(default)]
+    pub cell: Option<Placed<(usize, usize)>>,
+    /// When it shines.
+    #[serde(default)]
+    pub emission: EmissionKind,
+    /// What it shines.
+    #[serde(default)]
+    pub profile: Option<Placed<ProfileShape>>,
+}
+
+/// When a light shines.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+pub enum EmissionKind {
+    /// Always; its cell's profile is replaced after every step.
+    #[default]
+    Continuous,
+    /// Once, before the first step.
+    Impulse,
+}
+
+/// What a light shines, W/rad.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub enum ProfileShape {
+    /// The same in every direction.
+    Isotropic(Positive),
+    /// `max(0, cos(theta - theta0))^power`.
+    Emitter {
+        /// Brightest direction, degrees.
+        theta_deg: Finite,
+        /// 0 spherical, 1 Lambert, 2 cone, more: narrower.
+        power: NonNegative,
+        /// Intensity in the brightest direction, W/rad.
+        #[serde(default = "Positive::one")]
+        intensity: Positive,
+    },
+    /// One sample.
+    Pulse {
+        /// Direction, degrees; must be a sample.
+        theta_deg: Finite,
+    },
+    /// An expression in `theta` (radians), negative values clipped.
+    Expression(String),
+}
+
+impl Default for ProfileShape {
+    fn default() -> Self {
+        Self::Isotropic(Positive::one())
+    }
+}

@@ -1,0 +1,29 @@
+//! What may stand in the project's files: the values that experiments, fields and scenes are made of.
+//!
+//! Strict: unknown keys, missing keys, wrong types and numbers out of range are errors with line and column. Keys carry
+//! their units. What an experiment as a whole may hold stands in [`crate::experiment`]; its runs, panels, tables and quantities have
+//! a file each.
+
+mod choices;
+mod field_source;
+mod light_source;
+mod named;
+mod numbers;
+mod placed;
+mod scene_file;
+mod words;
+
+pub use choices::{
+    AxesChoice, EngineChoice, FamilyChoice, MajorChoice, NormalizationRule, OmegaStep, Scope, Stop, Weights,
+};
+pub use field_source::{DeriveRule, FieldFile, FieldSource, Parameter};
+pub use light_source::{EmissionKind, LightSource, ProfileShape};
+pub use named::Named;
+pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive, Sigma};
+pub(crate) use placed::nested;
+pub use placed::{Place, Placed};
+pub use scene_file::{MaterialSource, Point, SceneFile, ScenePart, ShapeSource};
+pub(crate) use words::{options, words_of_fault};
+
+/// The format this version reads.
+pub const FORMAT: u32 = 1;

@@ -1,0 +1,46 @@
+//! A gradient without its direction.
+
+use crate::form::Placed;
+use crate::names::Names;
+use crate::panels::kind::{PanelKind, PlannedPanel};
+use serde::Deserialize;
+use tigereye_views::gradient::Scalar;
+
+/// A gradient without its direction.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Flat {
+    /// Name of the gradient run.
+    run: Placed<String>,
+    /// How directions are summed up.
+    view: FlatView,
+    /// Heading of the panel.
+    title: String,
+}
+
+/// How the directions of a gradient are summed up.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+pub enum FlatView {
+    /// Mean.
+    Mean,
+    /// Maximum.
+    Maximum,
+    /// Standard deviation.
+    Deviation,
+}
+
+impl PanelKind for Flat {
+    fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+        let (gradient, view) = (names.gradient(&self.run)?, self.view);
+        Some(PlannedPanel::new(&self.title, move |drawing| {
+            let gradient = &drawing.results[gradient];
+            let volume = gradient.volume();
+            let (scalar, which) = match view {
+                FlatView::Mean => (volume.mean_over_directions(), Scalar::Mean),
+                FlatView::Maximum => (volume.max_over_directions(), Scalar::Largest),
+                FlatView::Deviation => (volume.deviation_over_directions(), Scalar::Deviation),
+            };
+            Ok(drawing.gradient_map(&scalar, gradient.surfaces.as_ref(), which, Vec::new()))
+        }))
+    }
+}

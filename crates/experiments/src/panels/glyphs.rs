@@ -1,0 +1,57 @@
+//! The tensors as ellipses.
+
+use crate::form::Placed;
+use crate::names::Names;
+use crate::panels::kind::{PanelKind, PlannedPanel};
+use serde::Deserialize;
+use tigereye_core::{Field, Tensor2};
+use tigereye_render::{GlyphOptions, GlyphScale, glyphs};
+
+/// The tensors as ellipses.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Glyphs {
+    /// Name of the field.
+    field: Placed<String>,
+    /// What the colours mean.
+    #[serde(default)]
+    colour: GlyphColour,
+    /// Heading of the panel.
+    title: String,
+}
+
+/// What the colours of glyphs mean.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+pub enum GlyphColour {
+    /// Linear anisotropy `(s1 - s2) / (s1 + s2)`.
+    #[default]
+    Anisotropy,
+    /// Tension and compression: for stresses. (The sign of a generator's rotated diagonal tensor means nothing.)
+    Sign,
+}
+
+impl PanelKind for Glyphs {
+    fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+        let field = names.field(&self.field)?;
+        let colour = match self.colour {
+            GlyphColour::Anisotropy => tigereye_render::GlyphColour::Anisotropy,
+            GlyphColour::Sign => tigereye_render::GlyphColour::AxisSign,
+        };
+        Some(PlannedPanel::new(&self.title, move |drawing| {
+            let named = drawing.results.field(field);
+            let (field, cell) = (&named.field, named.cell);
+            let scale = if same_size(field) { GlyphScale::Field } else { GlyphScale::SquareRoot };
+            let cell_px = drawing.cell_px_of(field.grid(), cell);
+            let title = drawing.title.clone();
+            let options = GlyphOptions { title, scale, colour, cell_px, cell, ..GlyphOptions::default() };
+            Ok(glyphs(field, &options))
+        }))
+    }
+}
+
+/// Whether the largest and smallest ellipses of a field differ by less than a factor of four.
+fn same_size(field: &Field<Tensor2>) -> bool {
+    let sizes = || field.values().iter().map(Tensor2::max_abs).filter(|s| *s > 0.0);
+    let (low, high) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
+    high < 4.0 * low
+}

@@ -1,0 +1,56 @@
+//! Lines along an axis, evenly spaced, with the degenerate points.
+
+use crate::form::{AxesChoice, FamilyChoice, MajorChoice, Placed};
+use crate::names::Names;
+use crate::panels::kind::{PanelKind, PlannedPanel};
+use serde::Deserialize;
+use tigereye_lines::{Family, Following, LineOptions};
+use tigereye_views::lines::{LinesRequest, Seeds, lines};
+use tigereye_views::point_overlays;
+use tigereye_views::topology::topology;
+
+/// Distance of lines in parts of the longer side.
+const LINES_A_SIDE: f64 = 32.0;
+
+/// Lines along an axis, evenly spaced, with the degenerate points.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Lines {
+    /// Name of the field.
+    field: Placed<String>,
+    /// The axes that lines follow.
+    #[serde(default)]
+    axes: AxesChoice,
+    /// By what the major one is larger.
+    #[serde(default)]
+    major: Option<MajorChoice>,
+    /// Which of the two; both when left out.
+    #[serde(default)]
+    family: Option<FamilyChoice>,
+    /// Heading of the panel.
+    title: String,
+}
+
+impl PanelKind for Lines {
+    fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+        let field = names.field(&self.field)?;
+        let named = names.named_field(field);
+        let following = Following { axes: self.axes.ordered(self.major, &named.field), cell: named.cell };
+        let families = self.family.map_or(vec![Family::Major, Family::Minor], |f| vec![f.family()]);
+        Some(PlannedPanel::new(&self.title, move |drawing| {
+            let field = &drawing.results.field(field).field;
+            let longest = following.longer_side(field.grid());
+            let request = LinesRequest {
+                following,
+                families: families.clone(),
+                seeds: Seeds::Even((longest / LINES_A_SIDE).max(0.5)),
+                options: LineOptions { step: 0.2, length: 2.0 * longest, ..LineOptions::default() },
+                ribbon: None,
+            };
+            let points = topology(field, following, &[], &LineOptions::default()).points;
+            let found = lines(field, &request)?;
+            let cell_px = drawing.cell_px_of(field.grid(), following.cell);
+            Ok(found.picture(field, &drawing.title, point_overlays(&points), cell_px))
+        }))
+    }
+}

@@ -1,0 +1,51 @@
+//! A scalar over the cells.
+
+use crate::names::Names;
+use crate::panels::kind::{PanelKind, PlannedPanel};
+use crate::scalars::{Map as Scalar, MapSource, Ridges};
+use serde::Deserialize;
+use tigereye_render::Rgba;
+use tigereye_views::{ftle, gradient};
+use tigereye_views::ridges::line_overlay;
+
+/// A scalar over the cells.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Map {
+    /// The scalar.
+    map: MapSource,
+    /// Whether its height ridges are drawn.
+    #[serde(default)]
+    ridges: bool,
+    /// Heading of the panel.
+    title: String,
+}
+
+impl PanelKind for Map {
+    fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+        let (scalar, ridges) = (self.map.resolve(names)?, self.ridges);
+        Some(PlannedPanel::new(&self.title, move |drawing| {
+            let results = drawing.results;
+            let overlays = if ridges {
+                let found = Ridges::Of(scalar).lines(results)?;
+                vec![line_overlay(&found, "height ridges", Rgba::hex(0xd62728))]
+            } else {
+                Vec::new()
+            };
+            let (id, which) = match scalar {
+                Scalar::Ftle(id) => {
+                    let outcome = &results[id];
+                    let following = outcome.following;
+                    let cell_px = drawing.cell_px_of(outcome.at_cells().grid(), following.cell);
+                    let title = &drawing.title;
+                    return Ok(ftle::picture(&outcome.found, following.axes, title, overlays, cell_px));
+                }
+                Scalar::Slice(slice) => (slice.gradient, gradient::Scalar::Slice),
+                Scalar::Mean(id) => (id, gradient::Scalar::Mean),
+                Scalar::Maximum(id) => (id, gradient::Scalar::Largest),
+            };
+            let surfaces = results[id].surfaces.as_ref();
+            Ok(drawing.gradient_map(&scalar.scalar(results)?, surfaces, which, overlays))
+        }))
+    }
+}

@@ -1,0 +1,49 @@
+//! Pictures of figures, a kind a file: what stands in the experiment file, what its names stand for, and how it is drawn.
+//!
+//! A panel is added by its file, which implements [`PanelKind`](kind::PanelKind), and its line in [`panels!`].
+
+mod kind;
+pub mod series;
+
+use kind::PanelKind;
+pub(crate) use kind::{Curve, Drawing, PANEL_PX, PlannedPanel};
+
+use crate::names::Names;
+use serde::Deserialize;
+
+macro_rules! panels {
+    ($($module:ident::$kind:ident),+ $(,)?) => {
+        $(pub mod $module;)+
+
+        /// One panel. Every kind has the documentation of its type.
+        #[derive(Clone, Debug, Deserialize, PartialEq)]
+        #[allow(missing_docs, reason = "the types are documented")]
+        pub enum Panel {
+            $($kind($module::$kind),)+
+        }
+
+        impl Panel {
+            /// How the panel is drawn; `None` where something is wrong, which is reported.
+            pub(crate) fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+                match self {
+                    $(Self::$kind(form) => form.resolve(names),)+
+                }
+            }
+        }
+    };
+}
+
+panels! {
+    glyphs::Glyphs,
+    orientation::Orientation,
+    lines::Lines,
+    texture::Texture,
+    map::Map,
+    ridges::Ridges,
+    overlay::Overlay,
+    energy::Energy,
+    slice::Slice,
+    flat::Flat,
+    polar::Polar,
+    chart::Chart,
+}

@@ -1,0 +1,30 @@
+//! The direction of the longer semi-axis in colours.
+
+use crate::form::Placed;
+use crate::names::Names;
+use crate::panels::kind::{PanelKind, PlannedPanel};
+use serde::Deserialize;
+use tigereye_render::{OrientationOptions, orientation_map};
+
+/// The direction of the longer semi-axis in colours.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Orientation {
+    /// Name of the field.
+    field: Placed<String>,
+    /// Heading of the panel.
+    title: String,
+}
+
+impl PanelKind for Orientation {
+    fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+        let field = names.field(&self.field)?;
+        Some(PlannedPanel::new(&self.title, move |drawing| {
+            let named = drawing.results.field(field);
+            let cell_px = drawing.cell_px_of(named.field.grid(), named.cell);
+            let (title, cell) = (drawing.title.clone(), named.cell);
+            let options = OrientationOptions { title, cell_px, cell, ..OrientationOptions::default() };
+            Ok(orientation_map(&named.field, &options))
+        }))
+    }
+}

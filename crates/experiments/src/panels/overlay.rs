@@ -1,0 +1,74 @@
+//! Transmission and light of every cell as polar diagrams.
+
+use crate::form::{Placed, Positive};
+use crate::names::Names;
+use crate::panels::kind::{PanelKind, PlannedPanel};
+use serde::Deserialize;
+use tigereye_render::{IntensityScale, PolarOptions, TransmissionScale, polar_overlay};
+
+/// Transmission (red) and light (blue) of every cell.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Overlay {
+    /// Name of the light run.
+    run: Placed<String>,
+    /// Step to show; the last when left out.
+    #[serde(default)]
+    step: Option<Placed<usize>>,
+    /// How brightness is drawn.
+    #[serde(default)]
+    scale: Scale,
+    /// Whether the transmission is drawn.
+    #[serde(default = "yes")]
+    transmission: bool,
+    /// Heading of the panel.
+    title: String,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// How the brightness of an overlay is drawn.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
+pub enum Scale {
+    /// Against the brightest cell, the lights included.
+    Linear,
+    /// Against the brightest cell that is not a light.
+    LinearWithoutSources,
+    /// Each cell against itself: shape only.
+    PerCell,
+    /// By the logarithm of the cell's mean over four decades.
+    #[default]
+    Logarithmic,
+    /// The same over so many decades.
+    Decades(Positive),
+}
+
+impl PanelKind for Overlay {
+    fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+        let frame = names.frame(&self.run, self.step.as_ref())?;
+        let intensity = match self.scale {
+            Scale::Linear => IntensityScale::Linear { exclude_sources: false },
+            Scale::LinearWithoutSources => IntensityScale::Linear { exclude_sources: true },
+            Scale::PerCell => IntensityScale::PerCell,
+            Scale::Logarithmic => IntensityScale::Logarithmic { decades: 4.0 },
+            Scale::Decades(d) => IntensityScale::Logarithmic { decades: d.get() },
+        };
+        let shows_transmission = self.transmission;
+        Some(PlannedPanel::new(&self.title, move |drawing| {
+            let run = &drawing.results[frame.light];
+            let options = PolarOptions {
+                title: drawing.title.clone(),
+                intensity,
+                transmission: TransmissionScale::Rate,
+                sources: run.sources.clone(),
+                walls: run.surfaces.clone(),
+                cell_px: drawing.cell_px(run.last.grid()),
+                ..PolarOptions::default()
+            };
+            let light = drawing.results.frame(frame)?;
+            Ok(polar_overlay(shows_transmission.then_some(&run.transmission), Some(light), &options))
+        }))
+    }
+}

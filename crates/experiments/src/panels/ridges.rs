@@ -1,0 +1,44 @@
+//! Height ridges of several scalars over each other.
+
+use crate::form::Placed;
+use crate::names::Names;
+use crate::panels::kind::{PanelKind, PlannedPanel};
+use crate::scalars::RidgeSource;
+use serde::Deserialize;
+use tigereye_render::{PlainOptions, SERIES_PALETTE, plain_map};
+use tigereye_views::ridges::line_overlay;
+
+/// Height ridges of several scalars over each other.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Ridges {
+    /// The field, for its size.
+    field: Placed<String>,
+    /// Names in the legend, and ridges; at most four.
+    sources: Vec<(String, RidgeSource)>,
+    /// Heading of the panel.
+    title: String,
+}
+
+impl PanelKind for Ridges {
+    fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+        let field = names.field(&self.field)?;
+        let resolved = self.sources.iter().map(|(label, source)| Some((label.clone(), source.resolve(names)?)));
+        let sources = resolved.collect::<Option<Vec<_>>>()?;
+        Some(PlannedPanel::new(&self.title, move |drawing| {
+            let named = drawing.results.field(field);
+            let overlays = sources.iter().zip(SERIES_PALETTE).map(|((label, source), colour)| {
+                Ok(line_overlay(&source.lines(drawing.results)?, label, colour))
+            });
+            let options = PlainOptions {
+                title: drawing.title.clone(),
+                description: "Height ridges".to_owned(),
+                cell_px: drawing.cell_px_of(named.field.grid(), named.cell),
+                cell: named.cell,
+                overlays: overlays.collect::<Result<_, crate::unavailable::Unavailable>>()?,
+                ..PlainOptions::default()
+            };
+            Ok(plain_map(named.field.grid(), &options))
+        }))
+    }
+}

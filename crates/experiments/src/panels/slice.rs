@@ -1,0 +1,54 @@
+//! One direction of a gradient.
+
+use crate::form::{Finite, Placed};
+use crate::names::Names;
+use crate::numerics::gradient::ridge_columns;
+use crate::panels::kind::{PanelKind, PlannedPanel};
+use serde::Deserialize;
+use tigereye_core::Field;
+use tigereye_render::Overlay;
+use tigereye_views::gradient::Scalar;
+
+/// Columns between neighbouring rows beyond which a ridge line is broken.
+const LARGEST_JUMP: f64 = 2.0;
+
+/// One direction of a gradient.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Slice {
+    /// Name of the gradient run.
+    run: Placed<String>,
+    /// Direction, degrees.
+    deg: Placed<Finite>,
+    /// Whether the maximum of every row is marked.
+    #[serde(default)]
+    ridge: bool,
+    /// Heading of the panel.
+    title: String,
+}
+
+impl PanelKind for Slice {
+    fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+        let slice = names.slice(&self.run, &self.deg)?;
+        let marks_ridge = self.ridge;
+        Some(PlannedPanel::new(&self.title, move |drawing| {
+            let scalar = drawing.results.slice(slice)?;
+            let overlays = if marks_ridge { vec![ridge_line(&scalar)] } else { Vec::new() };
+            let gradient = &drawing.results[slice.gradient];
+            Ok(drawing.gradient_map(&scalar, gradient.surfaces.as_ref(), Scalar::Slice, overlays))
+        }))
+    }
+}
+
+fn ridge_line(slice: &Field<f64>) -> Overlay {
+    let ridge = ridge_columns(slice);
+    // Where the largest value jumps from row to row there is no ridge to follow.
+    let near = |y: usize, other: Option<&Option<f64>>| match (ridge[y], other) {
+        (Some(a), Some(Some(b))) => (a - b).abs() <= LARGEST_JUMP,
+        _ => false,
+    };
+    let follows = |y: usize| near(y, ridge.get(y + 1)) || (y > 0 && near(y, ridge.get(y - 1)));
+    let point = |(y, x): (usize, &Option<f64>)| [x.filter(|_| follows(y)).unwrap_or(f64::NAN), y as f64];
+    let points = ridge.iter().enumerate().map(point).collect();
+    Overlay { label: "largest value of each row".to_owned(), points, ..Overlay::default() }
+}

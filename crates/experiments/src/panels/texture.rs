@@ -1,0 +1,52 @@
+//! Noise smeared along an axis.
+
+use crate::form::{AxesChoice, FamilyChoice, MajorChoice, Placed};
+use crate::names::Names;
+use crate::panels::kind::{PANEL_PX, PanelKind, PlannedPanel};
+use serde::Deserialize;
+use tigereye_lines::{ConvolutionOptions, Following};
+use tigereye_views::lic::{self, TextureRequest};
+
+/// Noise smeared along an axis (line integral convolution).
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Texture {
+    /// Name of the field.
+    field: Placed<String>,
+    /// The axes that lines follow.
+    #[serde(default)]
+    axes: AxesChoice,
+    /// By what the major one is larger.
+    #[serde(default)]
+    major: Option<MajorChoice>,
+    /// Which of the two.
+    #[serde(default)]
+    family: FamilyChoice,
+    /// Smeared along both axes, as far as each is long (HyperLIC).
+    #[serde(default)]
+    hyper: bool,
+    /// Heading of the panel.
+    title: String,
+}
+
+impl PanelKind for Texture {
+    fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+        let field = names.field(&self.field)?;
+        let named = names.named_field(field);
+        let following = Following { axes: self.axes.ordered(self.major, &named.field), cell: named.cell };
+        let (family, hyper) = (self.family.family(), self.hyper);
+        Some(PlannedPanel::new(&self.title, move |drawing| {
+            let field = &drawing.results.field(field).field;
+            let longest = following.longer_side(field.grid()).ceil() as usize;
+            // Whole pixels a sample, and at most eight samples a cell.
+            let wanted = if drawing.alone { 2 * PANEL_PX } else { PANEL_PX } / longest;
+            let pixels = wanted.div_ceil(8).max(1);
+            let samples = (wanted / pixels).max(1);
+            let options = ConvolutionOptions { samples, ..ConvolutionOptions::default() };
+            let request = TextureRequest { following, family, hyper, options };
+            let found = lic::texture(field, &request)?;
+            let cell_px = Some(samples * pixels);
+            Ok(lic::picture(&found, field, &request, hyper, &drawing.title, cell_px)?)
+        }))
+    }
+}

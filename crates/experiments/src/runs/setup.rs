@@ -1,0 +1,132 @@
+//! What runs of light share, and how they are resolved.
+
+use crate::fault::Faults;
+use crate::form::{DirectionCount, NormalizationRule, Placed, Stop, Weights};
+use crate::ids::{FieldId, MediumId};
+use crate::media::Media;
+use crate::medium::Medium;
+use crate::runs::error::RunError;
+use serde_json::{Value, json};
+use tigereye_core::{Directions, Normalization, TransmissionField};
+use tigereye_input::provenance::{provenance, with_rows};
+use tigereye_io::Rows;
+use tigereye_io::volume::PlaneGeometry;
+use tigereye_transport::{SharedWeights, Stopping, StoppingRule};
+
+/// What runs of light, gradients and pulses share.
+#[derive(Clone, Debug)]
+pub(crate) struct Setup {
+    /// What light goes through.
+    pub(crate) medium: MediumId,
+    /// Angular sampling.
+    pub(crate) directions: Directions,
+    /// How profiles are scaled.
+    pub(crate) normalization: Normalization,
+    /// Cone weights of the overlap.
+    pub(crate) weights: SharedWeights,
+    /// When each propagation ends.
+    pub(crate) stopping: Stopping,
+}
+
+impl Setup {
+    /// What the cells do to light.
+    pub(crate) fn transmission(&self, run: &str, medium: Medium<'_>) -> Result<TransmissionField, RunError> {
+        let failed = |source| RunError::Field { run: run.to_owned(), source };
+        medium.transmission(self.directions, self.normalization).map_err(failed)
+    }
+
+    /// How a result came about: the parameters that all have and those of its kind.
+    pub(crate) fn story(&self, command: &str, media: &Media, own: Value) -> String {
+        let stop = match self.stopping.rule {
+            StoppingRule::FluxChange { .. } => "flux",
+            StoppingRule::DistributionChange { .. } => "distribution",
+            StoppingRule::Converged { .. } => "stationary",
+            StoppingRule::Steps(_) => "steps",
+        };
+        let normalization = match self.medium {
+            MediumId::Scene(_) => "scene".to_owned(),
+            MediumId::Field(_) => normalization_name(self.normalization),
+        };
+        let mut parameters = json!({
+            "field": media.name(self.medium),
+            "directions": self.directions.count(),
+            "normalization": normalization,
+            "stop": stop,
+            "threshold": self.stopping.rule.threshold(),
+            "max_iterations": self.stopping.max_iterations,
+            "weights": format!("{:?}", self.weights),
+        });
+        if let (Some(all), Value::Object(own)) = (parameters.as_object_mut(), own) {
+            all.extend(own);
+        }
+        let parameters = with_rows(parameters, Rows::of_results(&PlaneGeometry::UNPLACED));
+        provenance(command, &parameters, &media.medium(self.medium).blake3())
+    }
+}
+
+/// The name of a normalisation as options spell it.
+#[must_use]
+pub fn normalization_name(normalization: Normalization) -> String {
+    match normalization {
+        Normalization::Global => "global".to_owned(),
+        Normalization::Local => "local".to_owned(),
+        Normalization::LocalAbove { fraction, below: tigereye_core::Below::Absorb } => {
+            format!("local-above:{fraction}")
+        }
+        Normalization::LocalAbove { fraction, below: tigereye_core::Below::Global } => {
+            format!("local-above-global:{fraction}")
+        }
+    }
+}
+
+/// Resolves one run.
+pub(crate) struct RunResolver<'a, 'f> {
+    pub(crate) name: &'a Placed<String>,
+    pub(crate) media: &'a Media,
+    /// Names of all fields and scenes that the file has, those among them that could not be made.
+    pub(crate) declared: &'a [String],
+    pub(crate) faults: &'a mut Faults<'f>,
+}
+
+impl RunResolver<'_, '_> {
+    /// Reports what is wrong with the run.
+    pub(crate) fn fault(&mut self, problem: &str) {
+        self.faults.at(self.name.place(), &format!("run \"{}\"{problem}", self.name));
+    }
+
+    /// The field or scene of a name.
+    pub(crate) fn medium(&mut self, name: &Placed<String>) -> Option<MediumId> {
+        let field = self.media.fields.iter().position(|f| f.name == **name);
+        let scene = || self.media.scenes.iter().position(|(n, _)| *n == **name);
+        let found = field.map(|i| MediumId::Field(FieldId(i))).or_else(|| scene().map(MediumId::Scene));
+        if found.is_none() && !self.declared.contains(name) {
+            let known = self.declared.join(", ");
+            let problem = format!("run \"{}\" names a field \"{name}\": expected one of {known}", self.name);
+            self.faults.at(name.place(), &problem);
+        }
+        found
+    }
+
+    /// What a run of light says of its field and its scheme.
+    pub(crate) fn setup(
+        &mut self,
+        field: &Placed<String>,
+        directions: DirectionCount,
+        normalization: NormalizationRule,
+        weights: Weights,
+        stop: Stop,
+    ) -> Option<Setup> {
+        let medium = self.medium(field)?;
+        if matches!(medium, MediumId::Scene(_)) && normalization != NormalizationRule::default() {
+            self.fault(": a scene's crystals have a normalisation of their own, in the scene's file");
+            return None;
+        }
+        Some(Setup {
+            medium,
+            directions: directions.0,
+            normalization: normalization.normalization(),
+            weights: weights.shared(),
+            stopping: stop.stopping(),
+        })
+    }
+}

@@ -1,0 +1,50 @@
+//! The energy of light in colours.
+
+use tigereye_core::{Cell, CellShape, Field, Surface};
+use tigereye_render::{HeatOptions, HeatScale, Overlay, Scene, heat_map};
+
+/// Decades below the brightest cell that pictures show where nobody says another range.
+pub const DECADES: f64 = 4.0;
+
+/// Which picture of the energy.
+#[derive(Clone, Debug, Default)]
+pub struct Request {
+    /// Heading.
+    pub title: String,
+    /// Decades below the brightest cell; linear where there are none.
+    pub decades: Option<f64>,
+    /// Cells of the lights, which are marked.
+    pub sources: Vec<Cell>,
+    /// What the cells are, in a scene.
+    pub walls: Option<Field<Option<Surface>>>,
+    /// What is drawn above.
+    pub overlays: Vec<Overlay>,
+    /// Pixels per cell; chosen by the picture where nobody says.
+    pub cell_px: Option<usize>,
+    /// The shape of a cell.
+    pub cell: CellShape,
+}
+
+impl Request {
+    /// What a map of energies of cells (W) needs.
+    #[must_use]
+    pub fn into_options(self) -> HeatOptions {
+        HeatOptions {
+            title: self.title,
+            quantity: "energy of a cell / W".to_owned(),
+            scale: self.decades.map_or(HeatScale::Linear, |decades| HeatScale::Logarithmic { decades }),
+            sources: self.sources,
+            walls: self.walls,
+            overlays: self.overlays,
+            cell_px: self.cell_px,
+            cell: self.cell,
+            ..HeatOptions::default()
+        }
+    }
+}
+
+/// The energy of every cell, W.
+#[must_use]
+pub fn picture(energy: &Field<f64>, request: Request) -> Scene {
+    heat_map(energy, &request.into_options())
+}

@@ -7,12 +7,11 @@ static ASKED: AtomicBool = AtomicBool::new(false);
 /// Whether the first one ends the program: nobody asks before the end.
 static AT_ONCE: AtomicBool = AtomicBool::new(false);
 
-/// Installs the handler.
-pub(crate) fn install() -> Result<(), CliError> {
-    ctrlc::set_handler(|| {
+/// Installs the handler; where the program ends at once, it calls `clear` before.
+pub(crate) fn install(clear: fn()) -> Result<(), CliError> {
+    ctrlc::set_handler(move || {
         if ASKED.swap(true, Ordering::SeqCst) || AT_ONCE.load(Ordering::SeqCst) {
-            crate::files::abandon();
-            crate::commands::review::abandon();
+            clear();
             std::process::exit(130);
         }
     })

@@ -25,7 +25,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     // clap prints usage errors itself, to standard error, and exits with 2.
     let cli = Cli::parse();
-    if let Err(error) = interrupt::install() {
+    if let Err(error) = interrupt::install(clear_away) {
         return report(&error);
     }
     // A wrong name is told before anything runs, not ignored.
@@ -65,4 +65,10 @@ fn dispatch(cli: Cli) -> Result<u8, CliError> {
 fn report(error: &CliError) -> ExitCode {
     eprintln!("tigereye: {error}");
     ExitCode::from(error.exit_code())
+}
+
+/// Removes what is half-written, for a process that ends right now.
+fn clear_away() {
+    files::abandon();
+    commands::review::abandon();
 }

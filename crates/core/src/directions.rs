@@ -10,7 +10,7 @@ pub struct Directions(usize);
 
 impl Directions {
     /// Largest number of samples.
-    pub const MAX: usize = 7200;
+    pub const MAX: usize = crate::limits::MAX_DIRECTIONS;
 
     /// `samples` directions.
     ///

@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum CoreError {
     /// A grid needs at least one cell and at most [`crate::Grid::MAX_CELLS`].
-    #[error("a grid of {width} x {height} cells is not possible: expected 1 to {max} cells", max = crate::Grid::MAX_CELLS)]
+    #[error("a grid of {width} x {height} cells is not possible: expected 1 to {max} cells", max = crate::limits::MAX_CELLS)]
     GridSize {
         /// Requested width in cells.
         width: usize,
@@ -24,13 +24,13 @@ pub enum CoreError {
         height: usize,
     },
     /// The number of angular samples is no multiple of 8 or too large.
-    #[error("{samples} directions are not possible: expected a multiple of 8 from 8 to {max}", max = crate::Directions::MAX)]
+    #[error("{samples} directions are not possible: expected a multiple of 8 from 8 to {max}", max = crate::limits::MAX_DIRECTIONS)]
     Directions {
         /// Requested number of samples.
         samples: usize,
     },
     /// More samples than a field's transmission may have.
-    #[error("{cells} cells in {directions} directions are too many samples: expected at most {max}, of fewer directions or fewer cells", max = crate::TransmissionField::MAX_SAMPLES)]
+    #[error("{cells} cells in {directions} directions are too many samples: expected at most {max}, of fewer directions or fewer cells", max = crate::limits::MAX_SAMPLES)]
     TooManySamples {
         /// Cells of the grid.
         cells: usize,

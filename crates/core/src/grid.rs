@@ -33,7 +33,7 @@ pub struct Grid {
 
 impl Grid {
     /// Largest number of cells a grid may have.
-    pub const MAX_CELLS: usize = 1 << 28;
+    pub const MAX_CELLS: usize = crate::limits::MAX_CELLS;
 
     /// A grid of `width` x `height` cells.
     ///

@@ -15,6 +15,7 @@ mod error;
 mod factors;
 mod field;
 mod grid;
+mod limits;
 pub mod math;
 mod profile;
 mod reflection;

@@ -174,7 +174,7 @@ impl RateScale {
 
 impl TransmissionField {
     /// Most samples, cells times directions: 4096 x 4096 cells in 32 directions, 4 GiB here and as much in the light.
-    pub const MAX_SAMPLES: usize = 1 << 29;
+    pub const MAX_SAMPLES: usize = crate::limits::MAX_SAMPLES;
 
     /// Transmission of a tensor field.
     ///

@@ -1,5 +1,6 @@
 //! What can be wrong with a field's name, arguments or expressions.
 
+use crate::nearest::did_you_mean;
 use crate::{ExpressionError, ParameterKind};
 use thiserror::Error;
 use tigereye_core::CoreError;
@@ -65,8 +66,8 @@ pub enum FieldError {
     /// Sides that a resampled field may not have.
     #[error(
         "{width} x {height} cells: expected at most {} along each side and {} in all, before and after",
-        crate::images::MAX_RESAMPLED,
-        crate::images::MAX_RESAMPLED_CELLS
+        crate::limits::MAX_RESAMPLED,
+        crate::limits::MAX_RESAMPLED_CELLS
     )]
     ResampledSize {
         /// Columns asked for.
@@ -97,9 +98,9 @@ pub enum FieldError {
         /// The value there.
         value: f64,
     },
-    /// A half-axis of negative length.
+    /// A semi-axis of negative length.
     #[error(
-        "expression `{expression}` = `{text}` is {value} in cell ({x}, {y}): a half-axis has a length of at least 0"
+        "expression `{expression}` = `{text}` is {value} in cell ({x}, {y}): a semi-axis has a length of at least 0"
     )]
     NegativeAxis {
         /// Which one: `s1` or `s2`.
@@ -113,9 +114,4 @@ pub enum FieldError {
         /// The value there.
         value: f64,
     },
-}
-
-/// ", did you mean ..." where something is near.
-pub(crate) fn did_you_mean(suggestion: Option<&str>) -> String {
-    suggestion.map(|s| format!(", did you mean `{s}`?")).unwrap_or_default()
 }

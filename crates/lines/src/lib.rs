@@ -20,6 +20,7 @@ mod followed;
 mod ftle;
 mod hyperstreamline;
 mod interpolated;
+mod line_options;
 mod nearest;
 mod ridges;
 mod seeding;
@@ -41,14 +42,13 @@ pub use followed::{Followed, Following, is_complex, usual_axes};
 pub use ftle::{Ftle, FtleOptions, SamplingError, fine_grid, ftle};
 pub use hyperstreamline::half_widths;
 pub use interpolated::{Interpolated, ellipse_tensors, signed_ellipse_tensors};
+pub use line_options::{Inertia, LineEnd, LineOptions, Method};
 pub use nearest::NearestSegment;
 pub use ridges::{
     RidgeBounds, RidgeLines, RidgeOptions, RidgeSurface, Threshold, ridge_lines, ridge_surface,
 };
 pub use seeding::{MAX_POINTS, evenly_spaced};
 pub use shapes::{Polyline, Polylines, Surface};
-pub use tensor_line::{
-    Inertia, LineEnd, LineOptions, Method, TensorLine, half_line, half_line_end, tensor_line,
-};
+pub use tensor_line::{TensorLine, half_line, half_line_end, tensor_line};
 pub use topology::{Separatrix, Topology};
 pub use volume::Volume;

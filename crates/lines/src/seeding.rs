@@ -1,6 +1,6 @@
 //! Lines that cover a field evenly.
 
-use crate::tensor_line::distance;
+use crate::line_options::distance;
 use crate::{Family, Interpolated, LineEnd, LineOptions, TensorLine, tensor_line};
 use std::collections::VecDeque;
 

@@ -20,7 +20,7 @@ pub struct Volume<'a> {
 
 impl<'a> Volume<'a> {
     /// Most samples a volume may have.
-    pub const MAX_SAMPLES: usize = 1 << 28;
+    pub const MAX_SAMPLES: usize = crate::extraction_error::MAX_SAMPLES;
 
     /// A volume of `size` samples along x, y and the third axis.
     ///

@@ -1,6 +1,6 @@
 //! Steps along an axis.
 
-use crate::tensor_line::distance;
+use crate::line_options::distance;
 use crate::{Family, Interpolated, LineEnd, LineOptions, Method};
 
 /// Cosine of the largest turn from one stage of a step to the next, 30 degrees, which fourth order follows well.

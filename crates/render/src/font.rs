@@ -2,7 +2,7 @@
 //!
 //! All pictures use one face, a subset of DejaVu Sans (see `assets/README.md`). Nothing is asked of the system.
 
-use crate::scene::{PathBuilder, Segment};
+use crate::scene::{Anchor, PathBuilder, Segment, Text};
 use ab_glyph::{Font, FontRef, OutlineCurve, Point};
 use std::sync::OnceLock;
 
@@ -26,6 +26,16 @@ pub fn text_width(text: &str, size_px: f64) -> f64 {
     let Some(face) = face() else { return 0.0 };
     let units: f64 = text.chars().map(|c| f64::from(face.h_advance_unscaled(face.glyph_id(c)))).sum();
     units / UNITS_PER_EM * size_px
+}
+
+/// Horizontal shift in pixels from the anchor point to the left end of a text.
+pub(crate) fn anchor_shift(text: &Text) -> f64 {
+    let width = text_width(&text.text, text.size_px);
+    match text.anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => -0.5 * width,
+        Anchor::End => -width,
+    }
 }
 
 /// Whether the embedded font has a shape for `c`.

@@ -4,7 +4,6 @@ use crate::colour::Rgba;
 use crate::error::RenderError;
 use crate::font;
 use crate::scene::{Item, Path, Raster, Scene, Segment, Stroke, Text};
-use crate::svg::anchor_shift;
 use tigereye_core::math;
 use tiny_skia::{
     Color, FillRule, FilterQuality, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PixmapPaint, StrokeDash,
@@ -117,7 +116,7 @@ fn draw_text(pixmap: &mut Pixmap, text: &Text, transform: Transform) {
     let placed = transform
         .pre_translate(text.x_px as f32, text.y_px as f32)
         .pre_concat(turned(text.rotation_deg))
-        .pre_translate(anchor_shift(text) as f32, 0.0)
+        .pre_translate(font::anchor_shift(text) as f32, 0.0)
         .pre_scale(scale, -scale);
     pixmap.fill_path(&shape, &paint(text.colour), FillRule::Winding, placed, None);
 }

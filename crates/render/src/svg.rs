@@ -4,7 +4,7 @@ use crate::colour::Rgba;
 use crate::error::RenderError;
 use crate::font;
 use crate::png_export::raster_png;
-use crate::scene::{Anchor, Item, Path, Raster, Scene, Segment, Text};
+use crate::scene::{Item, Path, Raster, Scene, Segment, Text};
 use base64::Engine;
 use std::fmt::Write;
 
@@ -100,7 +100,7 @@ fn write_text(out: &mut String, text: &Text) {
     if text.rotation_deg != 0.0 {
         let _ = write!(placing, " rotate({})", number(-text.rotation_deg));
     }
-    let shift = anchor_shift(text);
+    let shift = font::anchor_shift(text);
     if shift != 0.0 {
         let _ = write!(placing, " translate({})", number(shift));
     }
@@ -109,16 +109,6 @@ fn write_text(out: &mut String, text: &Text) {
     write_paint(out, "fill", text.colour);
     // Font units are whole numbers.
     let _ = writeln!(out, r#" d="{}"/>"#, path_data(&segments, 1.0));
-}
-
-/// Horizontal shift in pixels from the anchor point to the left end of a text.
-pub(crate) fn anchor_shift(text: &Text) -> f64 {
-    let width = font::text_width(&text.text, text.size_px);
-    match text.anchor {
-        Anchor::Start => 0.0,
-        Anchor::Middle => -0.5 * width,
-        Anchor::End => -width,
-    }
 }
 
 /// Steps with coordinates rounded to whole `1/unit` pixels. Positions are rounded before differences are taken, so

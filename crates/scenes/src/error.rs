@@ -17,7 +17,7 @@ pub struct SceneError {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum Fault {
     /// No cells, or more than a scene may have.
-    #[error("a scene of {width} x {height} cells is not possible: expected 1 to {max} cells", max = crate::Scene::MAX_CELLS)]
+    #[error("a scene of {width} x {height} cells is not possible: expected 1 to {max} cells", max = crate::limits::MAX_CELLS)]
     Size {
         /// Columns.
         width: usize,
@@ -94,7 +94,7 @@ pub enum Fault {
         y: usize,
     },
     /// Shapes that take too long.
-    #[error("the shapes so far are too many or too detailed for so many cells: expected at most {max} cells times sides", max = crate::Scene::MAX_WORK)]
+    #[error("the shapes so far are too many or too detailed for so many cells: expected at most {max} cells times sides", max = crate::limits::MAX_WORK)]
     Work,
     /// A tensor that is not finite, or a normalisation by a fraction that is none.
     #[error(transparent)]

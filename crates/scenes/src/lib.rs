@@ -11,6 +11,7 @@
 mod border;
 mod error;
 mod leaks;
+mod limits;
 mod mask;
 mod paths;
 mod scene;

@@ -103,9 +103,9 @@ impl Layout {
 
 impl Scene {
     /// Most cells: a thousand by a thousand.
-    pub const MAX_CELLS: usize = 1 << 20;
+    pub const MAX_CELLS: usize = crate::limits::MAX_CELLS;
     /// Most tests of a cell against a side of a shape.
-    pub const MAX_WORK: f64 = 1e8;
+    pub const MAX_WORK: f64 = crate::limits::MAX_WORK;
 
     /// What lies where.
     ///

@@ -1,6 +1,6 @@
 //! Memory that begins where a cache line does, so that whole vectors never straddle two lines.
 
-use crate::real::Number;
+use crate::number::Number;
 
 const LINE_BYTES: usize = 64;
 

@@ -2,6 +2,9 @@
 
 use thiserror::Error;
 
+/// Brightest sample of a light, W/rad: products with it stay numbers.
+pub(crate) const BRIGHTEST: f64 = 1e100;
+
 /// An argument that a propagation cannot work with.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum TransportError {
@@ -37,10 +40,7 @@ pub enum TransportError {
         y: usize,
     },
     /// A light whose sums would no longer be numbers.
-    #[error(
-        "the light at ({x}, {y}) is {largest:e} W/rad at most: expected no more than {:e}",
-        crate::light::BRIGHTEST
-    )]
+    #[error("the light at ({x}, {y}) is {largest:e} W/rad at most: expected no more than {:e}", BRIGHTEST)]
     TooBright {
         /// Column of the light.
         x: usize,

@@ -9,6 +9,7 @@ mod error;
 mod kernel;
 mod light;
 mod limits;
+mod number;
 mod oracle;
 mod pulses;
 mod real;

@@ -69,9 +69,6 @@ pub fn emitter(directions: Directions, theta0_rad: f64, m: f64) -> PolarProfile 
     })
 }
 
-/// Brightest sample of a light, W/rad: products with it stay numbers.
-pub(crate) const BRIGHTEST: f64 = 1e100;
-
 /// Checks that the lights can be propagated in a grid with a sampling.
 ///
 /// # Errors
@@ -108,7 +105,7 @@ pub fn check_lights(lights: &[Light], grid: Grid, directions: Directions) -> Res
                     return Err(TransportError::DarkLight { x, y });
                 }
                 let largest = p.samples().iter().fold(0.0, |m: f64, &v| m.max(v));
-                if largest > BRIGHTEST {
+                if largest > crate::error::BRIGHTEST {
                     return Err(TransportError::TooBright { x, y, largest });
                 }
             }

@@ -8,8 +8,8 @@
 //! entries a row. And T is the same in opposite directions, so row k+4 repeats row k: twenty numbers a cell.
 
 use crate::Scheme;
+use crate::number::Number;
 use crate::pulses::{Passage, SectorSums, Walls};
-use crate::real::Number;
 use std::sync::OnceLock;
 use tigereye_core::{Cell, Grid, TransmissionField};
 
@@ -29,15 +29,44 @@ pub struct Scattering<'a> {
     transmission: &'a TransmissionField,
     pub(crate) cells: Vec<CellScattering>,
     /// The same in the form of the pulse lanes, made when first needed.
-    pub(crate) passages_f64: OnceLock<Vec<Passage<f64>>>,
-    pub(crate) passages_f32: OnceLock<Vec<Passage<f32>>>,
+    passages_f64: OnceLock<Vec<Passage<f64>>>,
+    passages_f32: OnceLock<Vec<Passage<f32>>>,
     /// The cells that send light back, likewise.
-    pub(crate) walls_f64: OnceLock<Walls<f64>>,
-    pub(crate) walls_f32: OnceLock<Walls<f32>>,
+    walls_f64: OnceLock<Walls<f64>>,
+    walls_f32: OnceLock<Walls<f32>>,
     /// What sums over the angular samples need.
-    pub(crate) sums_f64: OnceLock<SectorSums<f64>>,
-    pub(crate) sums_f32: OnceLock<SectorSums<f32>>,
+    sums_f64: OnceLock<SectorSums<f64>>,
+    sums_f32: OnceLock<SectorSums<f32>>,
 }
+
+/// Numbers that the parts of a field are kept in.
+pub(crate) trait Stored: Number {
+    /// How the cells of a field pass light on, row-major.
+    fn passages<'f>(field: &'f Scattering<'_>) -> &'f [Passage<Self>];
+    /// The cells that send light back.
+    fn walls<'f>(field: &'f Scattering<'_>) -> &'f Walls<Self>;
+    /// The field's angular sums.
+    fn sector_sums<'f>(field: &'f Scattering<'_>) -> &'f SectorSums<Self>;
+}
+
+macro_rules! stored {
+    ($type:ident, $passages:ident, $walls:ident, $sums:ident) => {
+        impl Stored for $type {
+            fn passages<'f>(field: &'f Scattering<'_>) -> &'f [Passage<Self>] {
+                field.$passages.get_or_init(|| field.make_passages())
+            }
+            fn walls<'f>(field: &'f Scattering<'_>) -> &'f Walls<Self> {
+                field.$walls.get_or_init(|| Walls::of(field.transmission()))
+            }
+            fn sector_sums<'f>(field: &'f Scattering<'_>) -> &'f SectorSums<Self> {
+                field.$sums.get_or_init(|| SectorSums::new(field.scheme()))
+            }
+        }
+    };
+}
+
+stored!(f64, passages_f64, walls_f64, sums_f64);
+stored!(f32, passages_f32, walls_f32, sums_f32);
 
 impl<'a> Scattering<'a> {
     /// Computes every cell's matrix. Panics where the samplings differ ([`crate::Problem::check`] reports it).

@@ -1,6 +1,6 @@
 //! Where and why a formula cannot be read.
 
-use crate::error::did_you_mean;
+use crate::nearest::did_you_mean;
 use thiserror::Error;
 
 /// A problem in a formula.
@@ -73,13 +73,13 @@ pub enum ExpressionErrorKind {
         /// The character.
         character: char,
     },
-    /// A formula of more than [`super::MAX_LENGTH`] characters.
-    #[error("the expression has {length} characters: expected at most {}", super::MAX_LENGTH)]
+    /// A formula of more than [`crate::limits::MAX_LENGTH`] characters.
+    #[error("the expression has {length} characters: expected at most {}", crate::limits::MAX_LENGTH)]
     TooLong {
         /// Its length.
         length: usize,
     },
-    /// A formula nested deeper than [`super::MAX_NESTING`].
-    #[error("nested too deeply: expected at most {} levels", super::MAX_NESTING)]
+    /// A formula nested deeper than [`crate::limits::MAX_NESTING`].
+    #[error("nested too deeply: expected at most {} levels", crate::limits::MAX_NESTING)]
     TooDeep,
 }

@@ -2,9 +2,11 @@
 //!
 //! Pratt, "Top down operator precedence", POPL 1973.
 
+use super::error::{ExpressionError, ExpressionErrorKind};
 use super::functions::{Binary, CONSTANTS, FUNCTIONS, Function, constant};
 use super::lexer::{Located, Position, Token, tokens};
-use super::{Expression, ExpressionError, ExpressionErrorKind, Instruction, MAX_LENGTH, MAX_NESTING};
+use super::program::{Expression, Instruction};
+use crate::limits::{MAX_LENGTH, MAX_NESTING};
 use crate::nearest::nearest;
 
 /// Binding strength of a sign: stronger than a product, weaker than a power.
@@ -29,8 +31,18 @@ const fn strength(op: Binary) -> (u8, u8) {
     }
 }
 
+impl Expression {
+    /// Parses `text`; names in it are those of `variables`, which go before constants of the same name.
+    ///
+    /// # Errors
+    /// [`ExpressionError`] with the line and column of the first problem.
+    pub fn parse(text: &str, variables: &[&str]) -> Result<Self, ExpressionError> {
+        parse(text, variables)
+    }
+}
+
 /// Parses `text` over `variables`.
-pub(super) fn parse(text: &str, variables: &[&str]) -> Result<Expression, ExpressionError> {
+fn parse(text: &str, variables: &[&str]) -> Result<Expression, ExpressionError> {
     let length = text.chars().count();
     if length > MAX_LENGTH {
         let kind = ExpressionErrorKind::TooLong { length };

@@ -24,7 +24,8 @@ mod kernel;
 mod resample;
 mod stencils;
 
-pub use resample::{MAX_RESAMPLED, MAX_RESAMPLED_CELLS, resampled};
+pub use crate::limits::{MAX_RESAMPLED, MAX_RESAMPLED_CELLS};
+pub use resample::resampled;
 
 use kernel::{Kernel, NARROW, Order, along_rows, columns_of, turned};
 use tigereye_core::{Field, Tensor2};

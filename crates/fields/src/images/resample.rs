@@ -1,12 +1,8 @@
 //! Fields of another size.
 
 use crate::FieldError;
+use crate::limits::{MAX_RESAMPLED, MAX_RESAMPLED_CELLS};
 use tigereye_core::{Cell, Field, Grid, Tensor2};
-
-/// Longest side of a resampled field.
-pub const MAX_RESAMPLED: usize = 1 << 14;
-/// Most cells of a resampled field: 512 MiB of tensors.
-pub const MAX_RESAMPLED_CELLS: usize = 1 << 24;
 
 /// The same picture with another number of cells, component by component. Every new cell is a mean of the old ones under
 /// a triangle around its centre, as wide as two cells of the coarser of both grids: linear interpolation where the new

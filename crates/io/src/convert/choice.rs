@@ -1,51 +1,13 @@
 //! Which array of image data is meant.
 
-use super::described;
+use super::arrays::described;
+use super::wanted::{Association, Wanted};
 use crate::image::ActiveArrays;
 use crate::volume::{
-    ComponentArrays, Group, Naming, groups, joined, joined_rows, names_eigenvectors, names_principal_values,
-    naming, row_groups,
+    ComponentArrays, Group, Naming, groups, joined, joined_rows, names_principal_values, naming, row_groups,
 };
 use crate::{DataArray, ImageData, IoError};
 use std::borrow::Cow;
-
-/// Name of the tensor array that is written.
-pub const TENSOR_ARRAY: &str = "Tensors";
-
-/// Arrays by which VTK says what points and cells are: no data.
-pub(crate) const VALID_POINTS: &str = "vtkValidPointMask";
-pub(crate) const GHOSTS: &str = "vtkGhostType";
-
-/// Where the tuples of an array sit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Association {
-    /// At the points of the image.
-    Points,
-    /// In the cells between them.
-    Cells,
-}
-
-impl Association {
-    /// What stands before the name of an array where both associations have one of that name.
-    const fn prefix(self) -> &'static str {
-        match self {
-            Self::Points => "points:",
-            Self::Cells => "cells:",
-        }
-    }
-}
-
-/// What the tuples of an array are to be.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Wanted {
-    /// Tensors.
-    #[default]
-    Tensors,
-    /// Vectors of two or three components.
-    Vectors,
-    /// Single numbers.
-    Scalars,
-}
 
 /// Which array the user names.
 #[derive(Clone, Copy, Debug, Default)]
@@ -62,58 +24,6 @@ pub enum ArrayChoice<'a> {
 impl<'a> From<Option<&'a str>> for ArrayChoice<'a> {
     fn from(name: Option<&'a str>) -> Self {
         name.map_or(Self::Usual, Self::Named)
-    }
-}
-
-impl Wanted {
-    const fn fits(self, components: usize) -> bool {
-        match self {
-            Self::Tensors => matches!(components, 9 | 7 | 6 | 4 | 3),
-            Self::Vectors => matches!(components, 3 | 2),
-            Self::Scalars => components == 1,
-        }
-    }
-
-    const fn words(self) -> &'static str {
-        match self {
-            Self::Tensors => {
-                "array of tensors: 9, 7, 6, 4 or 3 components (--array takes a vector or eigenvectors as well)"
-            }
-            Self::Vectors => "array with 3 or 2 components",
-            Self::Scalars => "array with one component",
-        }
-    }
-
-    const fn active(self, names: &ActiveArrays) -> Option<&String> {
-        match self {
-            Self::Tensors => names.tensors.as_ref(),
-            Self::Vectors => names.vectors.as_ref(),
-            Self::Scalars => names.scalars.as_ref(),
-        }
-    }
-
-    /// How well an array suits: 0 not at all, then the better the larger.
-    fn suits(self, array: &DataArray, active: &ActiveArrays) -> u8 {
-        let data = ![VALID_POINTS, GHOSTS].contains(&array.name.as_str());
-        if !data || !self.fits(array.components) {
-            return 0;
-        }
-        let is_vector = active.vectors.as_ref() == Some(&array.name);
-        match (self, naming(&array.component_names, array.components)) {
-            (Self::Tensors, Naming::Tensor(_)) => 2,
-            (Self::Tensors, Naming::Principal) => 0,
-            (Self::Tensors, _) if names_eigenvectors(&array.name) => 0,
-            // Three numbers without names of a tensor's components are a vector rather than a tensor.
-            (Self::Tensors, Naming::Other) if array.components == 3 => 0,
-            (Self::Tensors, _)
-                if array.components == 3 && (is_vector || names_principal_values(&array.name)) =>
-            {
-                0
-            }
-            (Self::Tensors, _) => 1 + u8::from(array.components > 3),
-            (Self::Vectors, Naming::Tensor(_) | Naming::Principal) => 0,
-            (Self::Vectors | Self::Scalars, _) => 1,
-        }
     }
 }
 

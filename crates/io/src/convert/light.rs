@@ -1,16 +1,10 @@
 //! Light distributions as image data.
 
-use super::{PROVENANCE, Rows, rows};
+use super::arrays::{ENERGY, FLUX, INTENSITY, PROVENANCE};
+use super::rows::{self, Rows};
 use crate::volume::PlaneGeometry;
 use crate::{DataArray, ImageData};
 use tigereye_core::LightDistribution;
-
-/// Name of the array of energies.
-pub(super) const ENERGY: &str = "energy";
-/// Name of the array of intensities.
-pub(super) const INTENSITY: &str = "intensity";
-/// Name of the array of fluxes.
-pub(super) const FLUX: &str = "flux";
 
 /// An image of W x H x 1 points with three arrays:
 ///

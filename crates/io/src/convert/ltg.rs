@@ -3,17 +3,14 @@
 //! On a field that lies somewhere the rows run upwards. Otherwise row 0 is the field's first row and is **not** flipped, as in
 //! the published volumes.
 
-use super::{PROVENANCE, Rows, described, rows};
+use super::arrays::{LTG_ARRAY, PROVENANCE, PUBLISHED_ARRAY, described};
+use super::rows::{self, Rows};
 use crate::volume::PlaneGeometry;
 use crate::{DataArray, FieldEntry, FieldValues, ImageData, IoError, ScalarType};
 use tigereye_core::{Directions, Grid, LtgVolume};
 
-/// Name of the array that [`image_from_ltg`] writes.
-pub const LTG_ARRAY: &str = "LTG";
 /// Field data entry with the sample indices of the slices, where not all are held.
 pub const SLICES: &str = "slices";
-/// Name of the array in the published volumes.
-pub(super) const PUBLISHED_ARRAY: &str = "Energy";
 
 /// A light transport gradient as read.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,6 @@
 //! Which way the rows of a result run, and where its points lie.
 
-use super::ltg::{LTG_ARRAY, PUBLISHED_ARRAY};
-use super::{PROVENANCE, light};
+use super::arrays::{ENERGY, FLUX, INTENSITY, LTG_ARRAY, PROVENANCE, PUBLISHED_ARRAY};
 use crate::ImageData;
 use crate::volume::{IDENTITY, PlaneGeometry};
 use serde_json::Value;
@@ -41,7 +40,7 @@ impl Rows {
         let is_down = match image.text(PROVENANCE) {
             Some(story) => match told(story) {
                 Some(rows) => return rows,
-                None => [LTG_ARRAY, light::ENERGY, light::INTENSITY, light::FLUX].contains(&array),
+                None => [LTG_ARRAY, ENERGY, INTENSITY, FLUX].contains(&array),
             },
             None => array == PUBLISHED_ARRAY && is_plain(image),
         };

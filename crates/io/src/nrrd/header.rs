@@ -1,6 +1,6 @@
 //! The text header of an NRRD file.
 
-use super::{KINDS, Kind, Layout};
+use super::layout::{KINDS, Kind, Layout};
 use crate::error::shortened;
 use crate::volume::order_of;
 use crate::{ByteOrder, IoError, Limits, ScalarType, Wanted};

@@ -1,6 +1,7 @@
 //! What programs write and what is assumed of it: the tables that decide, and the page of the documentation made from them.
 
-use super::{Frame, Known, TensorOrder};
+use super::meaning::{Frame, Known};
+use super::order::TensorOrder;
 
 /// A name for a component order, after the program that writes it.
 #[derive(Clone, Copy, Debug)]

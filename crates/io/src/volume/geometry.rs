@@ -1,6 +1,7 @@
 //! Where the cells of a plane lie in the world of their file.
 
-use super::{Crop, World};
+use super::choice::{Axis, Crop};
+use super::meaning::World;
 use tigereye_core::math::hypot;
 
 /// Difference of a direction from a world axis that counts as rounding: files hold directions in single precision.
@@ -106,7 +107,7 @@ impl PlaneGeometry {
     pub fn direction(&self) -> Option<[f64; 9]> {
         let columns = [self.right, self.up, self.normal()];
         let direction = std::array::from_fn(|i| columns[i % 3][i / 3]);
-        (direction != super::IDENTITY).then_some(direction)
+        (direction != super::matrix3::IDENTITY).then_some(direction)
     }
 
     /// Position of a point in cells: columns from the leftmost, rows **upwards** from the lowest.
@@ -161,7 +162,7 @@ impl World {
     pub(super) fn words(&self, axis: usize, direction: [f64; 3]) -> String {
         const ENDS: [[&str; 2]; 3] = [["left", "right"], ["posterior", "anterior"], ["inferior", "superior"]];
         let mainly = if direction[axis] < 1.0 - ROUNDING { "mainly " } else { "" };
-        let name = super::Axis::ALL[axis].name();
+        let name = Axis::ALL[axis].name();
         let patient = self.signs().map_or_else(String::new, |signs| {
             format!(", the patient's {}", ENDS[axis][usize::from(signs[axis] > 0.0)])
         });

@@ -1,6 +1,11 @@
 //! Between VTK image data and volumes.
 
-use super::{Content, Frame, IDENTITY, Known, Lattice, Naming, TensorVolume, World, naming};
+use super::convention::Content;
+use super::lattice::Lattice;
+use super::matrix3::IDENTITY;
+use super::meaning::{Frame, Known, World};
+use super::names::{Naming, naming};
+use super::tensors::TensorVolume;
 use crate::convert::{
     ArrayChoice, Association, GHOSTS, Rows, TENSOR_ARRAY, VALID_POINTS, Wanted, choose_array,
 };

@@ -4,7 +4,7 @@
 //! read, and what stands before or after them is not: the quantity's own name differs between normal and shear components
 //! (`sigma_xx`, `tau_xy`).
 
-use super::TensorOrder;
+use super::order::TensorOrder;
 
 /// What the names of an array's components mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,11 @@
 //! What writers of volumes share.
 
-use super::{
-    Frame, IDENTITY, Known, Lattice, PlaneGeometry, Shear, TensorOrder, TensorVolume, World, product, turned,
-};
+use super::geometry::PlaneGeometry;
+use super::lattice::Lattice;
+use super::matrix3::{IDENTITY, product, turned};
+use super::meaning::{Frame, Known, Shear, World};
+use super::order::TensorOrder;
+use super::tensors::TensorVolume;
 use crate::{IoError, ScalarType};
 use tigereye_core::{Field, Tensor2};
 

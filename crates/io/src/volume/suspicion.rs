@@ -1,6 +1,7 @@
 //! Whether the component order looks wrong.
 
-use super::{TensorOrder, TensorVolume};
+use super::order::TensorOrder;
+use super::tensors::TensorVolume;
 use tigereye_core::symmetric_eigenvalues3;
 
 /// Below this share of negative tensors nothing is suspected.

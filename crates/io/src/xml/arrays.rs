@@ -1,7 +1,9 @@
 //! `<DataArray>` and `<Array>` elements to numbers and strings.
 
 use super::blocks::{Expected, payload};
-use super::encoding::{Binary, Compressor, Stream};
+use super::compressor::Compressor;
+use super::encoding::{Binary, Stream};
+use super::place::Place;
 use super::tree::{Document, Element};
 use crate::error::shortened;
 use crate::{ByteOrder, IoError, Limits, ScalarType};
@@ -21,44 +23,6 @@ pub(crate) enum Content {
     Text(Vec<String>),
     /// An array of this type, which holds no numbers; not decoded.
     Skipped(String),
-}
-
-/// Name and place of an array, for messages.
-pub(crate) struct Place {
-    array: String,
-    byte: usize,
-}
-
-impl Place {
-    pub(crate) fn truncated(&self, byte: usize, needed: u128, present: usize) -> IoError {
-        IoError::ArrayTruncated { array: self.array.clone(), byte, needed, present }
-    }
-
-    pub(crate) fn base64(&self, byte: usize) -> IoError {
-        IoError::ArrayBase64 { array: self.array.clone(), byte }
-    }
-
-    pub(crate) fn size(&self, byte: usize, found: u128, expected: u128, unit: &'static str) -> IoError {
-        IoError::ArraySize { array: self.array.clone(), byte, found, expected, unit }
-    }
-
-    pub(crate) fn block(&self, byte: usize, block: usize, method: Compressor, expected: usize) -> IoError {
-        let method = if method == Compressor::Lz4 { "LZ4" } else { "zlib" };
-        IoError::ArrayBlock { array: self.array.clone(), byte, block, method, expected }
-    }
-
-    fn number(&self, byte: usize, word: &[u8], scalar: &'static str) -> IoError {
-        IoError::ArrayNumber { array: self.array.clone(), byte, found: shortened(word), scalar }
-    }
-
-    fn text(&self, byte: usize) -> IoError {
-        IoError::ArrayText { array: self.array.clone(), byte }
-    }
-
-    fn unsupported(&self, attribute: &'static str, value: &str, expected: &'static str) -> IoError {
-        let (array, value) = (self.array.clone(), shortened(value.as_bytes()));
-        IoError::ArrayUnsupported { array, byte: self.byte, attribute, value, expected }
-    }
 }
 
 /// Reads the arrays of one file and keeps count of what they take.

@@ -7,8 +7,9 @@
 //!
 //! `last size` is 0 where the last block is full.
 
-use super::arrays::Place;
-use super::encoding::{Binary, Compressor, Stream};
+use super::compressor::Compressor;
+use super::encoding::{Binary, Stream};
+use super::place::Place;
 use crate::IoError;
 use flate2::read::ZlibDecoder;
 use std::borrow::Cow;

@@ -1,18 +1,11 @@
 //! Where the bytes of an array come from: raw, or base64 in runs that each end on their own padding.
 
-use super::arrays::Place;
+use super::compressor::Compressor;
+use super::place::Place;
 use crate::{ByteOrder, IoError};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::borrow::Cow;
-
-/// How compressed blocks were made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Compressor {
-    None,
-    Zlib,
-    Lz4,
-}
 
 /// What the root element says about all binary arrays of a file.
 #[derive(Clone, Copy, Debug)]

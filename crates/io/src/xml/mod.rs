@@ -3,7 +3,9 @@
 
 mod arrays;
 mod blocks;
+mod compressor;
 mod encoding;
+mod place;
 mod sections;
 mod tree;
 mod writer;

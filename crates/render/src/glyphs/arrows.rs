@@ -1,9 +1,9 @@
 //! Principal axes as arrows, as structural mechanics draws stresses.
 
 use super::layers::{Layer, Layers, Tone};
-use super::legend::Note;
+use super::note::Note;
+use super::scaling::{Scaling, towards};
 use super::signed::NEGLIGIBLE;
-use super::{Scaling, towards};
 use tigereye_core::{PrincipalAxes, Tensor2};
 
 /// Length of a head: this part of what fills a cell, but not more than [`MOST_OF_AXIS`] of its axis.

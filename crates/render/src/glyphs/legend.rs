@@ -1,33 +1,15 @@
 //! What marks of glyphs mean.
 
-use super::GlyphColour;
 use super::arrows;
+use super::kind::GlyphColour;
 use super::layers::{COMPRESSION, DASH_PX, Layer, MIXED, TENSION};
+use super::note::Note;
 use super::turned;
 use crate::colour::Rgba;
 use crate::legend::{Entry, Mark};
 use crate::scene::{PathBuilder, Scene};
 use crate::shapes::Marker;
 use tigereye_core::math;
-
-/// Something a legend must explain, in its order there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Note {
-    Tension,
-    Compression,
-    Mixed,
-    PositiveLobe,
-    NegativeLobe,
-    ArrowsOutwards,
-    ArrowsInwards,
-    TurnedLeft,
-    TurnedRight,
-    Mirrored,
-    SymmetricPart,
-    NoSymmetricPart,
-    Zero,
-    Broken,
-}
 
 impl Note {
     pub(super) fn entry(self, colour: GlyphColour) -> Entry {

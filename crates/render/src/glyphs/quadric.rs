@@ -1,8 +1,9 @@
 //! Ellipses, boxes and superquadrics: outlines about the half-axes.
 
+use super::kind::{GlyphColour, GlyphKind};
 use super::layers::{Layers, Tone};
-use super::legend::Note;
-use super::{GlyphColour, GlyphKind, Scaling, towards};
+use super::note::Note;
+use super::scaling::{Scaling, towards};
 use crate::scene::PathBuilder;
 use tigereye_core::{Anisotropy, AxisSign, Eigenvalues, Svd, Tensor2, is_totally_anisotropic, math};
 

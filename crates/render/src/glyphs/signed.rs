@@ -1,8 +1,8 @@
 //! The normal component of a tensor in every direction, its sign shown.
 
 use super::layers::{Layers, Tone};
-use super::legend::Note;
-use super::{Scaling, towards};
+use super::note::Note;
+use super::scaling::{Scaling, towards};
 use tigereye_core::{Eigenvalues, PrincipalAxes, Tensor2, math};
 
 /// Smaller parts of the larger principal value are rounding.

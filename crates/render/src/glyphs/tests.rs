@@ -1,7 +1,7 @@
 //! Laws of glyphs.
 
 use super::layers::{Layer, Layers};
-use super::legend::Note;
+use super::note::Note;
 use super::{GlyphColour, GlyphKind, GlyphOptions, GlyphScale, Scaling, glyphs};
 use crate::scene::Segment;
 use tigereye_core::{Field, Grid, OrthogonalFactor, PrincipalAxes, Svd, Tensor2, math};

@@ -1,8 +1,10 @@
 //! Ellipses of tensors that need not be symmetric, with the rotation or reflection they contain.
 
+use super::kind::GlyphColour;
 use super::layers::{COMPRESSION, Layers, TENSION, Tone};
-use super::legend::Note;
-use super::{GlyphColour, Scaling, quadric, towards};
+use super::note::Note;
+use super::quadric;
+use super::scaling::{Scaling, towards};
 use crate::colour::Rgba;
 use crate::scene::{PathBuilder, Scene, Segment};
 use tigereye_core::{OrthogonalFactor, Svd, Symmetry, Tensor2, math};

@@ -5,6 +5,7 @@
 //! bounded, and a fault names the file and the key.
 
 mod compare;
+mod error;
 mod page;
 mod picture;
 mod snapshot;
@@ -13,48 +14,15 @@ mod tests;
 mod words;
 
 pub use compare::{ReadFigure, Results, read, results};
+pub use error::{MAX_FILE, ReviewError};
 pub use page::html;
 pub use snapshot::{Pending, snapshots};
 pub use words::{json, text};
 
-use thiserror::Error;
+use picture::Picture;
 
 /// Below this magnitude values are rounding noise, as in snapshots: their changes are relative to it.
 const NOISE: f64 = 1e-9;
-
-/// Largest summary, snapshot or picture, bytes.
-pub const MAX_FILE: u64 = 64 << 20;
-
-/// Why two results cannot be compared.
-#[derive(Debug, Error)]
-pub enum ReviewError {
-    /// A file that is no JSON.
-    #[error("{file}: expected the JSON that `reproduce --out` writes: {problem}")]
-    Json {
-        /// The file.
-        file: String,
-        /// What the reader says.
-        problem: String,
-    },
-    /// A value that is missing or wrong.
-    #[error("{file}: {key}: expected {expected}")]
-    Key {
-        /// The file.
-        file: String,
-        /// Where in the file, for example `experiments[2].checks[0].value`.
-        key: String,
-        /// What should stand there.
-        expected: String,
-    },
-    /// A figure that is no readable picture.
-    #[error("{file}: {problem}")]
-    Picture {
-        /// The file.
-        file: String,
-        /// What is wrong with it.
-        problem: String,
-    },
-}
 
 /// One of the two things that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -381,11 +349,4 @@ impl FigureReview {
             _ => ", another size",
         }
     }
-}
-
-/// A PNG with its size.
-#[derive(Clone, Debug)]
-struct Picture {
-    png: Vec<u8>,
-    size: [u32; 2],
 }

@@ -1,6 +1,6 @@
 //! Where two pictures differ, pixel by pixel.
 
-use super::{MAX_FILE, Picture, ReviewError};
+use super::error::{MAX_FILE, ReviewError};
 use std::io::Cursor;
 
 /// Largest picture, pixels.
@@ -11,6 +11,13 @@ const RED: [u8; 3] = [200, 0, 30];
 
 /// Share of red that the smallest difference has, of 255: it must be seen on a page.
 const LEAST_RED: u32 = 72;
+
+/// A PNG with its size.
+#[derive(Clone, Debug)]
+pub(super) struct Picture {
+    pub(super) png: Vec<u8>,
+    pub(super) size: [u32; 2],
+}
 
 /// How two pictures of one size differ.
 #[derive(Clone, Debug)]

@@ -7,8 +7,8 @@
 //! one: `|v_i| + |v_{n-i}| = max(|v_i + v_{n-i}|, |v_i - v_{n-i}|)`, where the sum is a multiple of `p_k + p_{k+1}` and the
 //! difference one of `p_k - p_{k+1}`.
 
-use crate::Scheme;
-use crate::real::{Number, Real};
+use crate::number::Number;
+use crate::real::Real;
 use crate::scattering::Scattering;
 use crate::simd::{Level, Octet, Proven, Task};
 use crate::window::Window;
@@ -16,44 +16,13 @@ use core::f64::consts::FRAC_1_SQRT_2;
 use tigereye_core::Cell;
 
 use super::PulseDistribution;
+use super::sector_sums::SectorSums;
 
 /// How many cells ahead numbers are announced: they come from far away, and the processor's own foresight ends at the end of
 /// a page.
 const AHEAD: usize = 32;
 
-/// Two symmetric samples of a sector: `|v_i| + |v_{n-i}| = weight * max(|p_k + p_{k+1}|, ratio * |p_k - p_{k+1}|)`.
-#[derive(Clone, Copy, Debug)]
-struct Pair<T> {
-    weight: T,
-    ratio: T,
-}
-
-/// Samples of a sector, the same for all eight.
-#[derive(Clone, Debug)]
-pub(crate) struct SectorSums<T> {
-    pairs: Vec<Pair<T>>,
-    /// Of `|p_k + p_{k+1}|`: the sample in the middle, where there is one.
-    middle: T,
-    /// `1/L`.
-    scale: f64,
-}
-
 impl<T: Number> SectorSums<T> {
-    pub(crate) fn new(scheme: &Scheme) -> Self {
-        let directions = scheme.directions();
-        let n = directions.count() / 8;
-        let sine = |i: usize| directions.sin(i) / FRAC_1_SQRT_2;
-        let pair = |i: usize| {
-            let weight = sine(n - i) + sine(i);
-            Pair { weight: T::narrowed(weight), ratio: T::narrowed((sine(n - i) - sine(i)) / weight) }
-        };
-        Self {
-            pairs: (1..n.div_ceil(2)).map(pair).collect(),
-            middle: T::narrowed(if n.is_multiple_of(2) { sine(n / 2) } else { 0.0 }),
-            scale: 1.0 / scheme.lobe_integral(),
-        }
-    }
-
     /// `sum_cells sum_t |sum_j (a_j - b_j) c_j(t)|`, W/rad, over the cells of a window in a grid of `width` columns: each row
     /// alone, then rows in order. Dark cells add exactly 0, so windows that hold all light give the same bits.
     #[inline(always)]

@@ -5,7 +5,10 @@
 //! stopped, so the numbers are those of separate propagations, bit for bit.
 
 mod difference;
+mod memory;
 mod passage;
+mod run;
+mod sector_sums;
 mod solver;
 mod source;
 mod stationary;
@@ -17,8 +20,8 @@ mod walls;
 pub use difference::l1_difference;
 pub use solver::{LaneOutcome, PulseSolver};
 
-pub(crate) use difference::SectorSums;
 pub(crate) use passage::Passage;
+pub(crate) use sector_sums::SectorSums;
 pub(crate) use walls::Walls;
 
 use crate::Real;

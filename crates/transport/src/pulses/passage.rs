@@ -9,7 +9,7 @@
 //! over k four more.
 
 use crate::Scheme;
-use crate::real::Number;
+use crate::number::Number;
 use crate::simd::Vector;
 use core::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 

@@ -2,10 +2,12 @@
 
 use super::PulseDistribution;
 use super::difference::distance;
+use super::memory::Memory;
+use super::run::{Run, whole};
 use super::source::Source;
-use super::stationary::{Memory, Settled};
+use super::stationary::Settled;
 use super::stream::{MAX_FUSED, Medium, Stream};
-use crate::real::Number;
+use crate::number::Number;
 use crate::scattering::Scattering;
 use crate::simd::{Level, Proven, Task, Vector};
 use crate::stopping::{StepMeasures, Verdict};
@@ -103,16 +105,6 @@ fn run<T: Real, const N: usize>(
     let medium = Medium { cells: T::passages(field), walls: T::walls(field), source };
     let run = Run { field, level, medium, stream, stopping: *stopping, results };
     level.dispatch(run)[..samples.len()].to_vec()
-}
-
-/// One batch of pulses.
-pub(super) struct Run<'r, 'a, T, const N: usize> {
-    pub(super) field: &'r Scattering<'a>,
-    level: Level,
-    pub(super) medium: Medium<'r, T, N>,
-    pub(super) stream: &'r mut Stream<T, N>,
-    stopping: Stopping,
-    results: &'r mut [PulseDistribution<T>],
 }
 
 /// Where a run stands.
@@ -299,11 +291,6 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
             .collect();
         self.stream.copy_lanes(window, &asked, &mut to);
     }
-}
-
-/// The window of the whole grid.
-pub(super) const fn whole(grid: Grid) -> Window {
-    Window { x0: 0, x1: grid.width() - 1, y0: 0, y1: grid.height() - 1 }
 }
 
 /// The distributions of this step and of the one before, for rules that compare them.

@@ -1,8 +1,8 @@
 //! N delta pulses of one cell, one in each lane.
 
 use crate::Scheme;
+use crate::number::Number;
 use crate::pulses::passage::{Passage, sum_of_eight};
-use crate::real::Number;
 use crate::simd::Vector;
 use tigereye_core::Cell;
 

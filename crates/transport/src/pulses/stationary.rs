@@ -13,10 +13,11 @@
 //! Every lane decides for itself, by sums in a fixed order: its light depends neither on the other lanes nor on the
 //! processor.
 
-use super::solver::Run;
+use super::memory::{Lanes, Memory, Weights};
+use super::run::{Run, whole};
 use super::stream::{Lobes, Medium, Parity, Stream, load8, slot_mut};
 use crate::Real;
-use crate::real::Number;
+use crate::number::Number;
 use crate::simd::Vector;
 use tigereye_core::{Cell, Grid, Work};
 
@@ -24,16 +25,10 @@ use tigereye_core::{Cell, Grid, Work};
 const PAIRS: usize = 3;
 /// Rows that a sweep works on at once.
 const ROWS: usize = 4;
-/// Changes that are remembered.
-const DEPTH: usize = 3;
 /// Directions that a row-major sweep reads before it writes them.
 const READ: [usize; 4] = [1, 2, 3, 4];
 /// A mixed number below this part of the unmixed one rejects the mixing: light stays positive, and what is lit stays lit.
 const FLOOR: f64 = 1.0 / 16.0;
-/// A change so many times the smallest one so far empties the memory.
-const GROWTH: f64 = 4.0;
-/// A remembered change that depends on newer ones up to this part of its squared norm is not used.
-const DEPENDENT: f64 = 1e-12;
 /// By what part of it the light that leaves the grid or is absorbed in a step may differ from what the pulse injects. Light
 /// that is caught in a loop away from the pulse grows for ever, while its relative change falls below any tolerance, and below
 /// rounding. In a closed room nothing leaves, and the pulse injects less and less: there the difference itself must be below
@@ -57,29 +52,6 @@ pub(crate) enum Settled {
     /// Its light is caught, or the search took too long.
     Never,
 }
-
-/// One number for each lane.
-type Lanes<T, const N: usize> = [T; N];
-
-/// What is remembered of earlier mixings.
-#[derive(Debug)]
-pub(crate) struct Memory<T, const N: usize> {
-    /// Unmixed halves of the state, newest first; one more than are used, to write the next one to.
-    halves: [Vec<[Lanes<T, N>; 4]>; DEPTH + 1],
-    /// Differences of consecutive changes of the samples, newest first.
-    differences: [Vec<Lanes<T, N>>; DEPTH],
-    /// Samples before the sweeps, their change by them, and by those before.
-    before: Vec<Lanes<T, N>>,
-    change: Vec<Lanes<T, N>>,
-    last_change: Vec<Lanes<T, N>>,
-    /// How many changes in a row a lane may look back on.
-    remembered: [usize; N],
-    /// The smallest change of the samples so far.
-    smallest: [f64; N],
-}
-
-/// The weight of each remembered difference, newest first.
-type Weights<T, const N: usize> = [Lanes<T, N>; DEPTH];
 
 impl<T: Real, const N: usize> Run<'_, '_, T, N> {
     /// Brings every lane to its stationary state and writes its light. The stream is dark before, and in need of clearing
@@ -150,7 +122,7 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
         let stationary = |l: &usize| matches!(settled[*l], Some(Settled::Stationary(_)));
         let lanes: Vec<usize> = (0..N).filter(|&l| now[l]).filter(stationary).collect();
         if !lanes.is_empty() {
-            self.take(super::solver::whole(self.field.grid()), &lanes);
+            self.take(whole(self.field.grid()), &lanes);
         }
     }
 
@@ -319,135 +291,5 @@ impl<T: Number, const N: usize> Stream<T, N> {
                 }
             }
         }
-    }
-}
-
-impl<T: Number, const N: usize> Memory<T, N> {
-    /// Numbers it takes.
-    pub(crate) const fn numbers(cells: usize) -> usize {
-        cells * N * (4 * (DEPTH + 1) + DEPTH + 3)
-    }
-
-    pub(crate) fn new(cells: usize) -> Self {
-        let lanes = || vec![[T::default(); N]; cells];
-        Self {
-            halves: std::array::from_fn(|_| vec![[[T::default(); N]; 4]; cells]),
-            differences: std::array::from_fn(|_| lanes()),
-            before: lanes(),
-            change: lanes(),
-            last_change: lanes(),
-            remembered: [0; N],
-            smallest: [f64::INFINITY; N],
-        }
-    }
-
-    /// Forgets everything: weights that are 0 do not make what is not a number harmless.
-    pub(crate) fn clear(&mut self) {
-        self.halves.iter_mut().for_each(|half| half.fill([[T::default(); N]; 4]));
-        self.remembered = [0; N];
-        self.smallest = [f64::INFINITY; N];
-    }
-
-    /// Turns the samples after the sweeps into their change; the sum of the samples and of the absolute changes.
-    #[inline(always)]
-    fn compare(&mut self) -> ([f64; N], [f64; N]) {
-        let (mut lit, mut changed) = ([0.0; N], [0.0; N]);
-        for (change, before) in self.change.iter_mut().zip(&self.before) {
-            for l in 0..N {
-                lit[l] += change[l].widened();
-                change[l] = change[l] - before[l];
-                changed[l] += change[l].abs().widened();
-            }
-        }
-        (lit, changed)
-    }
-
-    /// The weights of the remembered differences that make the newest change least, which it takes in.
-    #[inline(always)]
-    fn weigh(&mut self, changed: &[f64; N]) -> Weights<T, N> {
-        self.differences.rotate_right(1);
-        for (difference, (now, before)) in
-            self.differences[0].iter_mut().zip(self.change.iter().zip(&self.last_change))
-        {
-            for l in 0..N {
-                difference[l] = now[l] - before[l];
-            }
-        }
-        // Sums of products of the differences with each other and with the change, each lane apart.
-        let mut products = [[[0.0; N]; DEPTH + 1]; DEPTH];
-        for (i, change) in self.change.iter().enumerate() {
-            for c in 0..DEPTH {
-                let d = &self.differences[c][i];
-                for r in c..DEPTH {
-                    let e = &self.differences[r][i];
-                    for l in 0..N {
-                        products[c][r][l] += d[l].widened() * e[l].widened();
-                    }
-                }
-                for l in 0..N {
-                    products[c][DEPTH][l] += d[l].widened() * change[l].widened();
-                }
-            }
-        }
-        core::mem::swap(&mut self.change, &mut self.last_change);
-        let mut weights = [[T::default(); N]; DEPTH];
-        for l in 0..N {
-            if changed[l] > GROWTH * self.smallest[l] {
-                (self.remembered[l], self.smallest[l]) = (0, f64::INFINITY);
-            }
-            self.smallest[l] = self.smallest[l].min(changed[l]);
-            let of_lane = products.map(|row| row.map(|p| p[l]));
-            let found = least_squares(of_lane, self.remembered[l].min(DEPTH));
-            self.remembered[l] += 1;
-            for (weight, found) in weights.iter_mut().zip(found) {
-                weight[l] = T::narrowed(found);
-            }
-        }
-        weights
-    }
-}
-
-/// Solves the normal equations of the first `n` unknowns, of which the upper triangle and the right-hand side are given.
-/// Unknowns that depend on those before them are 0, and all are where they are not finite.
-fn least_squares(mut m: [[f64; DEPTH + 1]; DEPTH], n: usize) -> [f64; DEPTH] {
-    let norms: [f64; DEPTH] = std::array::from_fn(|c| m[c][c]);
-    for r in 0..DEPTH {
-        for c in 0..r {
-            m[r][c] = m[c][r];
-        }
-    }
-    let mut used = [false; DEPTH];
-    for c in 0..n {
-        used[c] = norms[c] > 0.0 && m[c][c] > DEPENDENT * norms[c];
-        if used[c] {
-            for r in c + 1..n {
-                let q = m[r][c] / m[c][c];
-                for j in c + 1..=DEPTH {
-                    m[r][j] -= q * m[c][j];
-                }
-            }
-        }
-    }
-    let mut weights = [0.0; DEPTH];
-    for c in (0..n).rev().filter(|&c| used[c]) {
-        let known: f64 = (c + 1..n).map(|j| m[c][j] * weights[j]).sum();
-        weights[c] = (m[c][DEPTH] - known) / m[c][c];
-    }
-    if weights.iter().all(|w| w.is_finite()) { weights } else { [0.0; DEPTH] }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn least_squares_solve_and_leave_out_what_depends() {
-        // Differences (1, 0, 1), (0, 2, 0) and their sum; change 3 (1, 0, 1) - (0, 2, 0).
-        let m = [[2.0, 0.0, 2.0, 6.0], [0.0, 4.0, 4.0, -4.0], [0.0, 0.0, 6.0, 2.0]];
-        assert_eq!(least_squares(m, 3), [3.0, -1.0, 0.0]);
-        assert_eq!(least_squares(m, 1), [3.0, 0.0, 0.0]);
-        assert_eq!(least_squares(m, 0), [0.0; 3]);
-        assert_eq!(least_squares([[0.0; 4]; 3], 3), [0.0; 3]);
-        assert_eq!(least_squares([[f64::NAN; 4]; 3], 3), [0.0; 3]);
     }
 }

@@ -16,11 +16,11 @@
 //! depend on it: every cell's step is the same, and flux is summed along each row from left to right, then over the rows.
 
 use crate::aligned::Aligned;
+use crate::number::Number;
+use crate::pulses::memory::Memory;
 use crate::pulses::passage::Passage;
 use crate::pulses::source::Source;
-use crate::pulses::stationary::Memory;
 use crate::pulses::walls::Walls;
-use crate::real::Number;
 use crate::simd::Vector;
 use crate::window::Window;
 use core::ops::Range;

@@ -1,6 +1,6 @@
 //! Cells that send light back, in the form the pulse lanes compute them.
 
-use crate::real::Number;
+use crate::number::Number;
 use crate::simd::Vector;
 use tigereye_core::{Cell, Reflection, TransmissionField};
 

@@ -14,14 +14,17 @@
 #![allow(unsafe_code)]
 
 mod plain;
+mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use crate::real::Number;
+use crate::number::Number;
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::{__m256, __m256d, __m512, __m512d};
-use core::ops::{Add, Div, Mul, Sub};
 use plain::Plain;
+#[cfg(target_arch = "x86_64")]
+use vector::{HasAvx2, HasAvx512};
+pub(crate) use vector::{Octet, Vector};
 #[cfg(target_arch = "x86_64")]
 use x86::{Avx2, Avx512};
 
@@ -82,59 +85,6 @@ impl Level {
     }
 }
 
-/// Several numbers that are computed with at once.
-///
-/// Methods of the wide vectors become single instructions only when inlined into a function compiled for their level:
-/// everything between [`Level::dispatch`] and them is `#[inline(always)]`.
-pub(crate) trait Vector:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
-{
-    /// What it holds.
-    type Number: Number;
-    /// Evidence that the processor has the instructions.
-    type Proof: Copy;
-    /// How many it holds.
-    const WIDTH: usize;
-
-    /// The same number everywhere.
-    fn splat(proof: Self::Proof, value: Self::Number) -> Self;
-    /// Part `c` of an array that holds several vectors.
-    fn load<const N: usize>(proof: Self::Proof, from: &[Self::Number; N], c: usize) -> Self;
-    /// Back to an array.
-    fn store<const N: usize>(self, to: &mut [Self::Number; N], c: usize);
-    /// `self * factor + term`, rounded once.
-    fn mul_add(self, factor: Self, term: Self) -> Self;
-    /// Adds to part `c` of an array of sums in double precision.
-    fn add_to<const N: usize>(self, sums: &mut [f64; N], c: usize);
-}
-
-/// Eight numbers, one for each direction.
-pub(crate) trait Octet: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
-    /// What it holds.
-    type Number: Number;
-    /// Evidence that the processor has the instructions.
-    type Proof: Copy;
-
-    /// The same number eight times.
-    fn splat(proof: Self::Proof, value: Self::Number) -> Self;
-    /// The numbers of an array.
-    fn load(proof: Self::Proof, from: &[Self::Number; 8]) -> Self;
-    /// Back to an array.
-    fn store(self, to: &mut [Self::Number; 8]);
-    /// `self * factor + term`, rounded once.
-    fn mul_add(self, factor: Self, term: Self) -> Self;
-    /// Absolute values.
-    fn abs(self) -> Self;
-    /// The larger ones.
-    fn max(self, other: Self) -> Self;
-    /// Every number's successor; the first comes last.
-    fn next(self) -> Self;
-    /// Every number's predecessor; the last comes first.
-    fn previous(self) -> Self;
-    /// Announces that numbers will be read soon.
-    fn expect(_proof: Self::Proof, _soon: &[Self::Number; 8]) {}
-}
-
 /// Vectors and octets of a number type at every level.
 pub(crate) trait Vectors: Number {
     type Baseline: Vector<Number = Self, Proof = ()>;
@@ -173,23 +123,6 @@ impl Vectors for f32 {
     type Avx512 = Avx512<__m512>;
     #[cfg(target_arch = "x86_64")]
     type Avx512Octet = Avx2<__m256>;
-}
-
-/// Evidence of AVX2 and FMA.
-#[cfg(target_arch = "x86_64")]
-#[derive(Clone, Copy)]
-pub(crate) struct HasAvx2(());
-
-/// Evidence of AVX-512 (foundation), AVX2 and FMA.
-#[cfg(target_arch = "x86_64")]
-#[derive(Clone, Copy)]
-pub(crate) struct HasAvx512(());
-
-#[cfg(target_arch = "x86_64")]
-impl From<HasAvx512> for HasAvx2 {
-    fn from(_: HasAvx512) -> Self {
-        Self(())
-    }
 }
 
 /// A hot loop, written once for the vectors of every level.

@@ -1,7 +1,7 @@
 //! Vectors that every processor has: arrays.
 
-use super::{Octet, Vector};
-use crate::real::Number;
+use super::vector::{Octet, Vector};
+use crate::number::Number;
 use core::ops::{Add, Div, Mul, Sub};
 
 /// The vector of every processor.

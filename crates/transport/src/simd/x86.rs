@@ -1,6 +1,6 @@
 //! Vectors in the registers of AVX2 and AVX-512.
 
-use super::{HasAvx2, HasAvx512, Octet, Vector};
+use super::vector::{HasAvx2, HasAvx512, Octet, Vector};
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Sub};
 

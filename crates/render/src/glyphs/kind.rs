@@ -1,0 +1,119 @@
+//! What stands for a tensor, how large, and in which colour.
+
+use tigereye_core::{PrincipalAxes, Svd, Tensor2};
+
+/// What stands for a tensor. Zero tensors are small hollow dots and tensors that are not finite small crosses in every
+/// kind; half-axes are the singular values unless something else is said.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum GlyphKind {
+    /// The ellipse the tensor makes of the unit circle, with its major axis as a thin line. Totally anisotropic tensors are
+    /// segments.
+    #[default]
+    Ellipse,
+    /// The rectangle with the half-axes as half-sides; segments as for ellipses.
+    Box,
+    /// The superellipse `|x / s1|^(2/e) + |y / s2|^(2/e) = 1` along the half-axes with `e = (1 - c_l)^gamma` and
+    /// `c_l = (s1 - s2) / (s1 + s2)`: a circle where isotropic, boxier the more anisotropic, a segment in the end.
+    ///
+    /// Kindlmann ("Superquadric tensor glyphs", VisSym 2004) has two exponents, `(1 - c_p)^gamma` and `(1 - c_l)^gamma`. A
+    /// tensor of the plane has no planar part: with `c_p = 0` this is the section of his glyph through its longest axis, with
+    /// the `c_l` of two axes instead of three.
+    Superquadric {
+        /// Sharpness of edges, 0 (always an ellipse) to 100; [`GlyphKind::GAMMA`] is usual, and taken for a value that is
+        /// not a number.
+        gamma: f64,
+    },
+    /// The normal component in every direction, `r(n) = |n . T n|`, the section of Reynolds's glyph (Hashash, Yao and
+    /// Wotring 2003, "Glyph and hyperstreamline representation of stress and strain tensors and material constitutive
+    /// response"): filled lobes where it is positive (tension), hollow ones where it is negative (compression). It shows the
+    /// symmetric part alone; along its axes the lobes reach its eigenvalues.
+    Signed,
+    /// The axes of the symmetric part as a cross of arrows, as long as its eigenvalues: heads outwards for tension, inwards
+    /// for compression.
+    Arrows,
+    /// The ellipse `U S` of `A = U S V^T`, and what the tensor does apart from stretching, `Q = U V^T`.
+    ///
+    /// For `det A >= 0` that is a rotation ([`tigereye_core::OrthogonalFactor`]): two opposite sectors open from the line
+    /// `v1`, which becomes the major axis, to the major axis `u1`; their angle is that of the rotation, true whatever the
+    /// ellipse, their radius 0.6 of the larger half-axis. They are filled where it is counter-clockwise, hollow where it
+    /// is clockwise; half a turn counts as counter-clockwise. Where both half-axes are equal, +x takes the place of `u1`.
+    /// Symmetric tensors that are nowhere negative have no sectors. For `det A < 0`, a reflection, a dashed line shows the
+    /// direction that it keeps.
+    Asymmetric,
+}
+
+impl GlyphKind {
+    /// The usual sharpness of superquadrics (Kindlmann 2004).
+    pub const GAMMA: f64 = 3.0;
+
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Ellipse => "Ellipse",
+            Self::Box => "Box",
+            Self::Superquadric { .. } => "Superquadric",
+            Self::Signed => "Signed",
+            Self::Arrows => "Arrow",
+            Self::Asymmetric => "Ellipse and rotation",
+        }
+    }
+
+    /// Pixels between the smallest glyphs whose parts can be told apart.
+    pub(super) fn pitch_px(self) -> f64 {
+        match self {
+            Self::Ellipse | Self::Box | Self::Superquadric { .. } => 12.0,
+            Self::Signed => 18.0,
+            Self::Arrows | Self::Asymmetric => 24.0,
+        }
+    }
+
+    /// The largest half-axis by the distance between glyphs, such that neighbours never touch.
+    pub(super) fn radius(self) -> f64 {
+        match self {
+            // The corners of a square that stands on one.
+            Self::Box => 0.45 / core::f64::consts::SQRT_2,
+            Self::Superquadric { gamma } if gamma > Self::GAMMA => 0.45 / core::f64::consts::SQRT_2,
+            // Rounded corners of the usual sharpness lie within 1.05 half-axes.
+            _ => 0.45,
+        }
+    }
+
+    /// Whether it shows the symmetric part of a tensor only.
+    pub(super) const fn is_symmetric(self) -> bool {
+        matches!(self, Self::Signed | Self::Arrows)
+    }
+
+    /// The largest half-axis in the tensor's unit; not finite where the tensor cannot be drawn.
+    pub(super) fn size(self, t: &Tensor2) -> f64 {
+        match self {
+            _ if !t.is_finite() => f64::NAN,
+            Self::Signed | Self::Arrows => {
+                let [l1, l2] = PrincipalAxes::of(t).values;
+                l1.abs().max(l2.abs())
+            }
+            _ => Svd::of(t).s[0],
+        }
+    }
+}
+
+/// How glyphs are scaled against each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum GlyphScale {
+    /// The largest half-axis of the field fills a cell: sizes are comparable.
+    #[default]
+    Field,
+    /// Half-axes by the square root of the values, the largest filling a cell: fields with peaks stay legible.
+    SquareRoot,
+    /// Every glyph fills its cell: only shape and direction are shown.
+    Glyph,
+}
+
+/// What the colour of glyphs means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum GlyphColour {
+    /// Tension, compression or both, by the real parts of the eigenvalues; of [`GlyphKind::Asymmetric`], the sense of
+    /// rotation.
+    #[default]
+    AxisSign,
+    /// Linear anisotropy `(s1 - s2) / (s1 + s2)`.
+    Anisotropy,
+}

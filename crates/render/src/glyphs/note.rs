@@ -1,0 +1,20 @@
+//! What the marks of glyphs can mean.
+
+/// Something a legend must explain, in its order there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Note {
+    Tension,
+    Compression,
+    Mixed,
+    PositiveLobe,
+    NegativeLobe,
+    ArrowsOutwards,
+    ArrowsInwards,
+    TurnedLeft,
+    TurnedRight,
+    Mirrored,
+    SymmetricPart,
+    NoSymmetricPart,
+    Zero,
+    Broken,
+}

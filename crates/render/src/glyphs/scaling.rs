@@ -1,0 +1,32 @@
+//! From tensors to pixels.
+
+use super::kind::GlyphScale;
+use tigereye_core::Svd;
+
+/// From the tensor's unit to pixels.
+pub(super) struct Scaling {
+    pub(super) kind: GlyphScale,
+    /// Largest half-axis of the field, finite.
+    pub(super) largest: f64,
+    /// What it is drawn as, in pixels: less than half of the distance between glyphs.
+    pub(super) radius: f64,
+}
+
+impl Scaling {
+    /// Pixels for a length `value >= 0` of a glyph whose largest half-axis is `size`.
+    pub(super) fn length(&self, value: f64, size: f64) -> f64 {
+        let unit = if self.kind == GlyphScale::Glyph { size } else { self.largest };
+        let share = if unit > 0.0 { value / unit } else { 0.0 };
+        self.radius * if self.kind == GlyphScale::SquareRoot { share.sqrt() } else { share }
+    }
+
+    /// Half-axes in pixels.
+    pub(super) fn axes(&self, svd: &Svd) -> [f64; 2] {
+        svd.s.map(|s| self.length(s, svd.s[0]))
+    }
+}
+
+/// The point at `length` pixels from `centre` in the direction of `[x, y]`, y up.
+pub(super) fn towards(centre: [f64; 2], [x, y]: [f64; 2], length: f64) -> [f64; 2] {
+    [centre[0] + length * x, centre[1] - length * y]
+}

@@ -1,0 +1,39 @@
+//! The samples of a sector between two directions, two by two; [`super::difference`] says how they add up.
+
+use crate::Scheme;
+use crate::number::Number;
+use core::f64::consts::FRAC_1_SQRT_2;
+
+/// Two symmetric samples of a sector: `|v_i| + |v_{n-i}| = weight * max(|p_k + p_{k+1}|, ratio * |p_k - p_{k+1}|)`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair<T> {
+    pub(super) weight: T,
+    pub(super) ratio: T,
+}
+
+/// Samples of a sector, the same for all eight.
+#[derive(Clone, Debug)]
+pub(crate) struct SectorSums<T> {
+    pub(super) pairs: Vec<Pair<T>>,
+    /// Of `|p_k + p_{k+1}|`: the sample in the middle, where there is one.
+    pub(super) middle: T,
+    /// `1/L`.
+    pub(super) scale: f64,
+}
+
+impl<T: Number> SectorSums<T> {
+    pub(crate) fn new(scheme: &Scheme) -> Self {
+        let directions = scheme.directions();
+        let n = directions.count() / 8;
+        let sine = |i: usize| directions.sin(i) / FRAC_1_SQRT_2;
+        let pair = |i: usize| {
+            let weight = sine(n - i) + sine(i);
+            Pair { weight: T::narrowed(weight), ratio: T::narrowed((sine(n - i) - sine(i)) / weight) }
+        };
+        Self {
+            pairs: (1..n.div_ceil(2)).map(pair).collect(),
+            middle: T::narrowed(if n.is_multiple_of(2) { sine(n / 2) } else { 0.0 }),
+            scale: 1.0 / scheme.lobe_integral(),
+        }
+    }
+}

@@ -20,7 +20,7 @@ EXPERIMENT = """(
         (name: "still", caption: "One that stays.", panels: [Glyphs(field: "g", title: "tensors")]),
     ],
     checks: [
-        (name: "longest half-axis", quantity: LargestAxis(field: "f"), expect: AtMost(3.2), basis: "half-axes are roots"),
+        (name: "longest semi-axis", quantity: LargestAxis(field: "f"), expect: AtMost(3.2), basis: "semi-axes are roots"),
         (name: "energy at the end", quantity: TotalEnergy(run: "light"), expect: AtLeast(0), basis: "light is not negative"),
     ],
 )

@@ -22,7 +22,7 @@ pub struct Anisotropy {
     /// eigenvalues of the symmetric part: sqrt(1/2) for isotropic tensors, 1 for one vanishing axis, above 1 only where
     /// the signs differ, up to sqrt(3/2) for pure shear; not a number where the eigenvalues are not finite.
     pub fractional: f64,
-    /// Mean half-axis `(s1 + s2) / 2`, in the tensor's unit.
+    /// Mean semi-axis `(s1 + s2) / 2`, in the tensor's unit.
     pub mean: f64,
     /// Mode `(l1 + l2) / sqrt(2 (l1^2 + l2^2))` in [-1, 1] of the real parts of the eigenvalues: 1 isotropic tension,
     /// 0 pure shear, -1 isotropic compression (the 3D mode is constant in the plane; this is the planar isotropy

@@ -8,7 +8,7 @@ use nalgebra::{Matrix2, Vector2};
 
 /// `A = U diag(s1, s2) V^T` with `s1 >= s2 >= 0`, `U` a rotation, `V` a rotation (det A >= 0) or a reflection.
 ///
-/// The columns of `U` are the half-axes of the ellipse the tensor makes of the unit circle (thesis, section 2.3,
+/// The columns of `U` are the semi-axes of the ellipse the tensor makes of the unit circle (thesis, section 2.3,
 /// after Moler). Where `s1 = s2` the axes are arbitrary; a zero tensor has `U = V = I`. A tensor with a non-finite
 /// component has non-finite singular values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,13 +53,13 @@ impl Svd {
         }
     }
 
-    /// Direction of the major half-axis, radians in (-pi, pi]: `atan2(U[1][0], U[0][0])`.
+    /// Direction of the major semi-axis, radians in (-pi, pi]: `atan2(U[1][0], U[0][0])`.
     #[must_use]
     pub fn phi_rad(&self) -> f64 {
         math::atan2(self.u[(1, 0)], self.u[(0, 0)])
     }
 
-    /// Unit vector of the major half-axis (x right, y up); its sign is arbitrary.
+    /// Unit vector of the major semi-axis (x right, y up); its sign is arbitrary.
     #[must_use]
     pub fn major(&self) -> [f64; 2] {
         [self.u[(0, 0)], self.u[(1, 0)]]

@@ -41,7 +41,7 @@ impl Tensor2 {
         Self::new(value, 0.0, 0.0, value)
     }
 
-    /// A rotation by `phi_rad` times `diag(s1, s2)`: the major half-axis of length `s1` points to `phi_rad`.
+    /// A rotation by `phi_rad` times `diag(s1, s2)`: the major semi-axis of length `s1` points to `phi_rad`.
     ///
     /// Not symmetric in general; its left singular vectors are the columns of the rotation.
     #[must_use]
@@ -184,7 +184,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn axes_put_the_major_half_axis_first() {
+    fn axes_put_the_major_semi_axis_first() {
         let t = Tensor2::from_axes(math::FRAC_PI_2, 3.0, 0.5);
         assert!((t.yx() - 3.0).abs() < 1e-15 && (t.xy() + 0.5).abs() < 1e-15);
         assert!((t.determinant() - 1.5).abs() < 1e-15);

@@ -3,7 +3,7 @@
 use crate::reflection::Reflections;
 use crate::{Cell, CoreError, Directions, Field, Grid, PolarProfile, Reflection, Svd, Tensor2, math};
 
-/// Above this ratio of the half-axes (or with a vanishing one) a tensor counts as totally anisotropic and its profile
+/// Above this ratio of the semi-axes (or with a vanishing one) a tensor counts as totally anisotropic and its profile
 /// is a bidirectional pulse (thesis, section 4.3; the value is the published programme's).
 pub const TOTAL_ANISOTROPY_RATIO: f64 = 20.0;
 
@@ -34,7 +34,7 @@ pub enum Below {
     Global,
 }
 
-/// Shape of one tensor's transmission: `samples` relative to the major half-axis, and that half-axis.
+/// Shape of one tensor's transmission: `samples` relative to the major semi-axis, and that semi-axis.
 struct Shape {
     samples: Vec<f64>,
     s1: f64,
@@ -78,7 +78,7 @@ impl Shape {
         let [ux, uy] = svd.major();
         for i in 0..n / 2 {
             let [wx, wy] = directions.unit(i);
-            // Cosine and sine of the angle to the major half-axis.
+            // Cosine and sine of the angle to the major semi-axis.
             let along = wx * ux + wy * uy;
             let across = wy * ux - wx * uy;
             let r = q / (across * across + q * q * along * along).sqrt();
@@ -120,7 +120,7 @@ pub enum CellTransmission<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateScale {
     normalization: Normalization,
-    /// Binary exponent of the largest half-axis: means are taken relative to it, so that no product overflows or vanishes.
+    /// Binary exponent of the largest semi-axis: means are taken relative to it, so that no product overflows or vanishes.
     exponent: i32,
     /// Largest mean of the field's profiles, relative; 0 where the normalisation has no need of it.
     greatest_mean: f64,
@@ -348,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn ellipse_reaches_its_half_axes() {
+    fn ellipse_reaches_its_semi_axes() {
         let p = transmission_ellipse(&Tensor2::from_axes(math::FRAC_PI_4, 4.0, 0.5), directions(32));
         assert!((p.samples()[4] - 4.0).abs() < 1e-14 && (p.samples()[12] - 0.5).abs() < 1e-14);
         assert_eq!(p.samples()[4], p.samples()[20]);

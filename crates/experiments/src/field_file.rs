@@ -26,9 +26,9 @@ pub fn template(name: &str) -> String {
     title: "{name}",
     // Where it comes from: a paper with its equation, a measurement, or what it is to show.
     source: "",
-    // The ellipse of every cell: a half-axis of length s1 in direction phi, one of length s2 across it.
+    // The ellipse of every cell: a semi-axis of length s1 in direction phi, one of length s2 across it.
     //
-    // Such a tensor is a rotation times its half-axes, so it is not symmetric; light only sees the ellipse.
+    // Such a tensor is a rotation times its semi-axes, so it is not symmetric; light only sees the ellipse.
     //
     // Formulas know
     //     x, y       place, -1 to 1 from rim to rim, y up
@@ -38,7 +38,7 @@ pub fn template(name: &str) -> String {
     field: Axes(
         width: 51,
         height: 51,
-        // Direction of the first half-axis, radians counter-clockwise from the right.
+        // Direction of the first semi-axis, radians counter-clockwise from the right.
         phi: "-theta",
         // Equal lengths in the middle, where there is no direction; four to one further out. The product is 1 everywhere, so
         // no cell transmits more than another.
@@ -82,12 +82,12 @@ pub fn generator_template(generator: &Generator) -> String {
     head + &experiment(name, generator.source, &format!(r#"Generator(name: "{name}")"#), check)
 }
 
-/// A check of a field whose half-axes are each other's inverse; `NAME` stands for the field's name.
+/// A check of a field whose semi-axes are each other's inverse; `NAME` stands for the field's name.
 const UNIT_DETERMINANT: &str = r#"(
             name: "no cell transmits more than another",
             quantity: DeterminantError(field: "NAME"),
             expect: AtMost(1e-12),
-            basis: "both half-axes are each other's inverse",
+            basis: "both semi-axes are each other's inverse",
         )"#;
 
 /// A check that holds for any field.

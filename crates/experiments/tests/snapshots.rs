@@ -1,14 +1,17 @@
-//! One digest per experiment file, compared with its snapshot; every check must pass.
+//! One test an experiment file, by its name: its digest is that of its snapshot, and every check passes.
+//!
+//! `cargo test -p tigereye-experiments --test snapshots gyre` runs those with `gyre` in their names.
 //!
 //! `experiments/FOLDER/NAME.ron` has its snapshot in `snapshots/`. After a change that is meant to move numbers, run
 //! `cargo insta review` and note the change under "Numbers" in CHANGELOG.md.
 
+use libtest_mimic::{Arguments, Failed, Trial};
 use std::path::{Path, PathBuf};
 use tigereye_experiments::library::is_experiment;
-use tigereye_experiments::{Host, evaluate, load, plan};
+use tigereye_experiments::{Host, evaluate, load, plan, slug_of};
 
-/// Memory for gradients, bytes.
-const MEMORY: u64 = 4 << 30;
+/// Memory for the gradients of one experiment, bytes.
+const MEMORY: u64 = 1 << 30;
 
 /// Files beside the experiment and in its parent folders.
 struct Folder(PathBuf);
@@ -43,18 +46,39 @@ fn digest(path: &Path) -> Option<(String, tigereye_experiments::Digest, Vec<Stri
     Some((plan.slug, evaluation.digest, failed))
 }
 
-#[test]
-fn every_experiment_keeps_its_digest_and_passes_its_checks() {
-    let mut failed_checks = Vec::new();
-    insta::glob!("../../../experiments", "**/*.ron", |path| {
-        if !is_experiment(&path.to_string_lossy()) {
-            return;
-        }
-        let Some((slug, digest, failed)) = digest(path) else { return };
-        failed_checks.extend(failed);
-        insta::with_settings!({ snapshot_suffix => slug, prepend_module_to_snapshot => false, omit_expression => true }, {
-            insta::assert_ron_snapshot!("digest", digest);
-        });
+/// Compares an experiment with its snapshot and its checks with what they expect.
+fn judge(path: &Path) -> Result<(), Failed> {
+    let Some((slug, digest, failed)) = digest(path) else { return Ok(()) };
+    insta::with_settings!({
+        snapshot_suffix => slug,
+        input_file => path,
+        prepend_module_to_snapshot => false,
+        omit_expression => true,
+    }, {
+        insta::assert_ron_snapshot!("digest", digest);
     });
-    assert!(failed_checks.is_empty(), "failed checks:\n{}", failed_checks.join("\n"));
+    if failed.is_empty() { Ok(()) } else { Err(format!("failed checks:\n{}", failed.join("\n")).into()) }
+}
+
+/// The experiments below `folder`, in the order of their paths.
+fn experiments(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("a readable folder").map(|e| e.expect("an entry").path());
+    let mut found: Vec<PathBuf> = entries
+        .flat_map(|path| if path.is_dir() { experiments(&path) } else { vec![path] })
+        .filter(|path| is_experiment(&path.to_string_lossy()))
+        .collect();
+    found.sort();
+    found
+}
+
+fn main() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../experiments");
+    let folder = folder.canonicalize().expect("the experiments");
+    let trial = |path: PathBuf| {
+        let name = slug_of(&path.to_string_lossy());
+        Trial::test(name, move || judge(&path))
+    };
+    let trials: Vec<Trial> = experiments(&folder).into_iter().map(trial).collect();
+    assert!(!trials.is_empty(), "no experiments below {}", folder.display());
+    libtest_mimic::run(&Arguments::from_args(), trials).exit();
 }

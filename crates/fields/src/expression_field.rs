@@ -24,7 +24,7 @@ pub struct ExpressionField {
 /// The formulas of a tensor, as text; see [`crate::expression`] for what they may hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// A rotation by `phi` times `diag(s1, s2)`, as [`Tensor2::from_axes`]: a half-axis of length `s1` in direction
+    /// A rotation by `phi` times `diag(s1, s2)`, as [`Tensor2::from_axes`]: a semi-axis of length `s1` in direction
     /// `phi`, one of length `s2` across it.
     Axes {
         /// Direction, radians counter-clockwise from +x.

@@ -1,14 +1,12 @@
 //! From the bytes of a file to tensors, or numbers, on a lattice.
 
+use crate::error::InputError;
+use crate::foreign::unreadable;
+use crate::formats::{Format, Request, format_of, is_readable};
 use crate::provenance::hash_of_bytes;
-use crate::{Derivation, InputError, Reading};
-use tigereye_io::volume::{
-    Frame, Known, Lattice, PlaneChoice, TensorVolume, lattice_from_image, lattice_from_points,
-};
-use tigereye_io::{
-    ArrayChoice, IoError, Limits, ScalarType, Wanted, legacy, matrices, nifti, npy, nrrd, picture, table,
-    vti, vtp,
-};
+use crate::reading::{Derivation, Reading};
+use tigereye_io::volume::{Frame, Known, Lattice, PlaneChoice, TensorVolume};
+use tigereye_io::{ArrayChoice, Limits, ScalarType, Wanted};
 
 /// What a data file holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,34 +36,7 @@ pub enum Content {
     Numbers(Lattice),
 }
 
-/// Text matrices: their tensors are normalised cell by cell where nobody says otherwise.
-pub const TEXT_MATRICES: &str = "text matrices";
-
-/// A table, one point a line.
-const TABLE: &str = "table";
-
-/// Endings of text that can only be a table.
-const TABLES: [&str; 4] = ["csv", "dat", "vec", "jvc"];
-
-/// The ending that tells the format, in lower case: `nii.gz` or what stands behind the last dot; empty without a dot.
-#[must_use]
-pub fn format_of(name: &str) -> String {
-    let file = name.rsplit(['/', '\\']).next().unwrap_or(name).to_ascii_lowercase();
-    if file.ends_with(".nii.gz") {
-        return "nii.gz".to_owned();
-    }
-    file.rsplit_once('.').map_or_else(String::new, |(_, ending)| ending.to_owned())
-}
-
-/// Whether [`open`] knows what to do with a file of this name.
-#[must_use]
-pub fn is_readable(name: &str) -> bool {
-    let formats = ["txt", "npy", "npz", "vti", "vtp", "vtk", "nrrd", "nhdr", "nii", "nii.gz", "png"];
-    let format = format_of(name);
-    formats.contains(&format.as_str()) || TABLES.contains(&format.as_str())
-}
-
-/// Reads a file of any format by its ending. `bytes_of` gives the bytes of a file by its name: this one, the data file of
+/// Reads a file of any format by its extension. `bytes_of` gives the bytes of a file by its name: this one, the data file of
 /// an NRRD header (in the same folder) and the mask.
 ///
 /// # Errors
@@ -76,7 +47,7 @@ pub fn open(
     bytes_of: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
 ) -> Result<TensorFile, InputError> {
     if !is_readable(name) {
-        return Err(InputError::of_name(name));
+        return Err(unreadable(name));
     }
     reading.check()?;
     if format_of(name) == "png" && reading.derive.is_none() {
@@ -156,85 +127,25 @@ fn lattice_of(
     limits: Limits,
     read: &mut Read,
 ) -> Result<(&'static str, Lattice, Vec<u8>), InputError> {
+    let Some(format) = Format::of(name) else { return Err(unreadable(name)) };
     let option = match array {
         ArrayChoice::Usual => None,
         ArrayChoice::Named(_) => Some("--array"),
         ArrayChoice::Components(_) => Some("--components"),
     };
-    let nameless = |option| InputError::Needless { option, why: "the format has no names for arrays" };
-    if let Some(option) = option.filter(|_| !has_names(name)) {
-        return Err(nameless(option));
+    if let Some(option) = option.filter(|_| !format.has_names) {
+        return Err(InputError::nameless(option));
     }
-    let bytes = read(name)?;
-    let (kind, lattice) = match format_of(name).as_str() {
-        format if TABLES.contains(&format) => (TABLE, of_table(&bytes, array, wanted)?),
-        "txt" if is_table(&bytes, wanted) => (TABLE, of_table(&bytes, array, wanted)?),
-        "txt" if let Some(option) = option => return Err(nameless(option)),
-        "txt" if wanted == Wanted::Scalars => ("rows of numbers", table::read_numbers(&bytes)),
-        "txt" => (TEXT_MATRICES, matrices::read_lattice(&bytes)),
-        "npy" => ("NumPy array", npy::read_lattice(&bytes, wanted)),
-        "npz" => ("NumPy archive", npy::read_archive(&bytes, array, wanted)),
-        "vti" => (
-            "VTK image data",
-            vti::read_with_limits(&bytes, limits).and_then(|i| lattice_from_image(&i, array, wanted)),
-        ),
-        "vtp" => (
-            "VTK poly data",
-            vtp::read_with_limits(&bytes, limits).and_then(|d| lattice_from_points(d, array, wanted)),
-        ),
-        "vtk" => (
-            "legacy VTK",
-            legacy::read_with_limits(&bytes, limits).and_then(|i| lattice_from_image(&i, array, wanted)),
-        ),
-        "nii" | "nii.gz" => ("NIfTI-1", nifti::read_with_limits(&bytes, limits)),
-        "png" => ("PNG picture", picture::read_png(&bytes)),
-        "nrrd" | "nhdr" => {
-            let detached = nrrd::data_file(&bytes, limits)?;
-            let data = detached.as_ref().map(|data| read(&beside(name, data))).transpose()?;
-            let lattice = nrrd::read_with_limits(&bytes, data.as_deref(), wanted, limits);
-            let lattice = lattice.map_err(|source| InputError::File { source, detached })?;
-            return Ok(("NRRD", lattice, [bytes, data.unwrap_or_default()].concat()));
-        }
-        _ => return Err(InputError::Ending),
-    };
-    Ok((kind, lattice?, bytes))
-}
-
-/// Whether a text is a table. Images of single numbers may have columns that count.
-fn is_table(bytes: &[u8], wanted: Wanted) -> bool {
-    match (wanted, table::kind(bytes)) {
-        (Wanted::Vectors, _) | (_, table::Kind::Named | table::Kind::Positions) => true,
-        (Wanted::Scalars, _) | (_, table::Kind::Other) => false,
-        (Wanted::Tensors, table::Kind::Numbered) => true,
-    }
-}
-
-/// What a table holds: vectors by names or places, anything else by the names of its columns.
-fn of_table(
-    bytes: &[u8],
-    array: ArrayChoice,
-    wanted: Wanted,
-) -> Result<Result<Lattice, IoError>, InputError> {
-    if wanted == Wanted::Vectors && matches!(array, ArrayChoice::Usual) {
-        return Ok(table::read_vectors(bytes));
-    }
-    if wanted == Wanted::Scalars && !is_table(bytes, wanted) {
-        return Ok(table::read_numbers(bytes));
-    }
-    match table::read_columns(bytes, array, wanted) {
-        // Vectors are read without names, too; of tensors nobody knows which columns they are.
-        Err(IoError::TableHeader { .. }) if table::kind(bytes) != table::Kind::Named => {
-            Err(InputError::UnnamedTable)
-        }
-        Err(IoError::NoArray { .. }) if table::read_vectors(bytes).is_ok() => Err(InputError::VectorTable),
-        other => Ok(other),
-    }
-}
-
-/// Whether a file of this name may hold several arrays with names.
-fn has_names(name: &str) -> bool {
-    let format = format_of(name);
-    ["npz", "vti", "vtp", "vtk", "txt"].contains(&format.as_str()) || TABLES.contains(&format.as_str())
+    let mut bytes = read(name)?;
+    let detached = format.detached(&bytes, limits)?;
+    let data = detached.as_ref().map(|data| read(&beside(name, data))).transpose()?;
+    let request = Request { bytes: &bytes, detached: data.as_deref(), array, wanted, limits };
+    let (kind, lattice) = format.read(&request).map_err(|error| match error {
+        InputError::File { source, .. } => InputError::File { source, detached },
+        other => other,
+    })?;
+    bytes.extend(data.unwrap_or_default());
+    Ok((kind, lattice, bytes))
 }
 
 /// A file in the folder of another one.
@@ -251,7 +162,7 @@ fn mask_lattice(
 ) -> Result<(Lattice, Vec<u8>), InputError> {
     let fault = |words: String| InputError::Mask { mask: mask.to_owned(), words };
     if !is_readable(mask) {
-        return Err(fault(InputError::Ending.to_string()));
+        return Err(fault(unreadable(mask).to_string()));
     }
     let (_, lattice, bytes) = match lattice_of(mask, ArrayChoice::Usual, Wanted::Scalars, limits, read) {
         Err(e @ InputError::Unread { .. }) => return Err(e),

@@ -44,8 +44,7 @@ impl TensorFile {
 fn projected(volume: &TensorVolume, reading: &Reading) -> Result<PlaneField, InputError> {
     let slice = volume.slice(reading.choice)?;
     let mut story = volume.story();
-    let axis = ["first", "second", "third"][slice.cut.plane.normal() as usize];
-    story.push(slice.cut.story(&format!(", the {axis} row and column dropped")));
+    story.push(slice.cut.story(", the components along its normal dropped"));
     Ok(placed(slice.field, story, &slice.cut))
 }
 

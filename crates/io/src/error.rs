@@ -96,8 +96,10 @@ pub enum IoError {
         /// Mean step of the positions.
         step: f64,
     },
-    /// Two vectors at one position.
-    #[error("line {line}: a second vector at the position of line {before}")]
+    /// Two vectors at one position of the plane, or vectors of several planes.
+    #[error(
+        "line {line}: a second row at the x and y of line {before}: expected the vectors of one plane, one at each position"
+    )]
     SamePosition {
         /// Line, from 1.
         line: usize,

@@ -4,6 +4,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
+#[path = "files/support.rs"]
 mod support;
 
 use std::io::Write as _;

@@ -415,7 +415,7 @@ mod tests {
     }
 
     #[test]
-    fn half_axes_are_the_singular_vectors() {
+    fn semi_axes_are_the_singular_vectors() {
         for t in tensors() {
             let (frame, svd) = (Axes::HalfAxes.of(&t, 0.0).expect("axes"), Svd::of(&t));
             let tolerance = 1e-14 * svd.s[0] / (svd.s[0] - svd.s[1]);

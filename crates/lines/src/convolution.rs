@@ -62,7 +62,7 @@ pub fn convolved(
     Ok(stretched(smeared(&noise, &walk, &length)))
 }
 
-/// Noise smeared along both axes, along each as far as it is long: `half_length` along the longer half-axis (or eigenvalue, by
+/// Noise smeared along both axes, along each as far as it is long: `half_length` along the longer semi-axis (or eigenvalue, by
 /// size), its share of that along the other. Round tensors blur noise alike in every direction, flat ones draw it into lines
 /// (Zheng and Pang, HyperLIC, 2003, in two passes: along the minor axis, and what that gives along the major one). A tensor without
 /// axes takes x and y for them. Brightness as in [`convolved`].

@@ -264,7 +264,7 @@ mod tests {
         let plain = follow(&field, seed, Family::Major, &LineOptions::default());
         let options = LineOptions { inertia: Some(Inertia { puncture: 0.2 }), ..LineOptions::default() };
         let line = follow(&field, seed, Family::Major, &options);
-        // Tensors that differ by 0.02 rad mix to one with half-axes 1 : 0.0001.
+        // Tensors that differ by 0.02 rad mix to one with semi-axes 1 : 0.0001.
         let off = plain.points.iter().zip(&line.points).map(|(a, b)| distance(*a, *b)).fold(0.0, f64::max);
         assert!(plain.points.len() > 100 && off < 1e-4 * 40.0, "{off}");
     }

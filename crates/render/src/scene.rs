@@ -238,7 +238,7 @@ impl PathBuilder {
         }
     }
 
-    /// An ellipse about `centre` with conjugate half-axes `a` and `b` (vectors in pixels).
+    /// An ellipse about `centre` with conjugate semi-axes `a` and `b` (vectors in pixels).
     pub fn ellipse(&mut self, centre: [f64; 2], a: [f64; 2], b: [f64; 2]) {
         // Four cubics are within 0.03 % of a circle with this distance of the control points.
         const K: f64 = 0.552_284_749_830_793_4;

@@ -1,10 +1,14 @@
 //! The scheme as the thesis writes it, sample by sample: slow, readable, and the judge of every faster engine.
+//!
+//! It uses nothing that those use beyond the problem, its light and the stopping rule; a test holds that.
 
-use crate::kernel::NOTHING_PASSES;
 use crate::stopping::{StepMeasures, Verdict};
 use crate::{Emission, Engine, Observer, Outcome, Problem, StepView, TransportError};
 use std::ops::ControlFlow;
 use tigereye_core::{Cell, Field, LightDistribution, StopReason, Work};
+
+/// Below this part of what arrives nothing passes: `n_f` would be infinite, and what is left of the light is no number.
+const NOTHING_PASSES: f64 = 1e-290;
 
 /// Propagates whole profiles of S samples (eqs. 3.12 to 3.14).
 #[derive(Clone, Copy, Debug, Default)]
@@ -105,7 +109,7 @@ fn step(problem: &Problem<'_>, source: &Buffer, target: &mut Buffer) -> (f64, u6
 }
 
 /// `Phi_k = h sum_t w_k(t) n_f T(t) I(t)` with `n_f = Tbar mean(I) / mean(T I)` (eqs. 3.12 to 3.14), W.
-pub(crate) fn outgoing_flux(problem: &Problem<'_>, cell: Cell, intensity: &[f64]) -> [f64; 8] {
+fn outgoing_flux(problem: &Problem<'_>, cell: Cell, intensity: &[f64]) -> [f64; 8] {
     let scheme = problem.scheme;
     let s = scheme.directions().count();
     let h = scheme.directions().step_rad();

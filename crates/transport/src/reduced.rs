@@ -1,7 +1,6 @@
 //! The reduced eight-lobe engine: the same numbers as [`crate::SampleSpace`] from eight fluxes a cell.
 
-use crate::kernel::{Buffers, Lobes, normalized, scattered, sum_of_eight};
-use crate::oracle::outgoing_flux;
+use crate::kernel::{Buffers, Lobes, NOTHING_PASSES, normalized, scattered, sum_of_eight};
 use crate::scattering::Scattering;
 use crate::sectors::Sectors;
 use crate::stopping::{StepMeasures, Verdict};
@@ -264,10 +263,26 @@ impl StepView for Run<'_> {
     }
 }
 
+/// What a cell hands on of a profile that need not be made of lobes (eqs. 3.12 to 3.14), W.
+fn flux_of_profile(problem: &Problem<'_>, cell: Cell, profile: &[f64]) -> [f64; 8] {
+    let (directions, rate) = (problem.scheme.directions(), problem.transmission.rate(cell));
+    let (mut arriving, mut passing, mut parts) = (0.0, 0.0, [0.0; 8]);
+    for (t, (intensity, shape)) in profile.iter().zip(problem.transmission.shape(cell)).enumerate() {
+        let passed = rate * shape * intensity;
+        arriving += intensity;
+        passing += passed;
+        for (part, weight) in parts.iter_mut().zip(problem.scheme.weights(t)) {
+            *part += weight * passed;
+        }
+    }
+    let factor = if passing > rate * arriving * NOTHING_PASSES { rate * arriving / passing } else { 0.0 };
+    parts.map(|part| directions.step_rad() * factor * part)
+}
+
 fn prepare(problem: &Problem<'_>, light: &crate::Light) -> PreparedLight {
     let directions = problem.scheme.directions();
     let profile = light.initial_profile(directions).samples().to_vec();
-    let flux = outgoing_flux(problem, light.cell, &profile);
+    let flux = flux_of_profile(problem, light.cell, &profile);
     let kind = match light.emission {
         Emission::Continuous(_) => Kind::Continuous,
         Emission::Impulse(_) => Kind::Impulse,

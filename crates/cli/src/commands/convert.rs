@@ -7,10 +7,11 @@ use crate::input::{Input, Source, insert_reading};
 use crate::{files, interrupt};
 use serde_json::json;
 use tigereye_core::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
+use tigereye_input::formats::{Format, TensorWriter, writable_extensions};
 use tigereye_input::provenance::provenance;
-use tigereye_input::{Content, Reading, TensorFile, finite_volume, format_of, not_finite_words};
-use tigereye_io::volume::{Frame, Known, PlaneChoice, TensorVolume, image_from_volume, points_from_image};
-use tigereye_io::{DataArray, ImageData, IoError, ScalarType, legacy, matrices, nifti, npy, nrrd, vti, vtp};
+use tigereye_input::{Content, Reading, TensorFile, finite_volume, not_finite_words};
+use tigereye_io::volume::{Frame, Known, PlaneChoice, TensorVolume, image_from_volume};
+use tigereye_io::{DataArray, ImageData, IoError, ScalarType};
 
 /// Whether a volume is written as it is: no plane, part or size was asked for, and the file has axes of its own.
 fn is_whole(volume: &TensorVolume, reading: &Reading) -> bool {
@@ -19,62 +20,26 @@ fn is_whole(volume: &TensorVolume, reading: &Reading) -> bool {
     !plane && volume.lattice().frame.1 != Known::Convention
 }
 
-/// What can be written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
-    Matrices,
-    Numpy,
-    ImageData,
-    PolyData,
-    Legacy,
-    Nrrd,
-    Nifti,
-    NiftiPacked,
-}
-
-impl Format {
-    fn of(name: &str) -> Option<Self> {
-        Some(match format_of(name).as_str() {
-            "txt" => Self::Matrices,
-            "npy" => Self::Numpy,
-            "vti" => Self::ImageData,
-            "vtp" => Self::PolyData,
-            "vtk" => Self::Legacy,
-            "nrrd" => Self::Nrrd,
-            "nii" => Self::Nifti,
-            "nii.gz" => Self::NiftiPacked,
-            _ => return None,
-        })
-    }
-
-    /// Whether there is room for arrays beside the tensors.
-    const fn has_arrays(self) -> bool {
-        matches!(self, Self::ImageData | Self::PolyData | Self::Legacy)
-    }
-
-    /// Whether only a plane fits.
-    const fn is_flat(self) -> bool {
-        matches!(self, Self::Matrices | Self::Numpy)
-    }
-}
-
 pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
     let name = args.output.display().to_string();
-    let Some(format) = Format::of(&name) else {
-        let problem =
-            "the ending tells the format: expected .vti, .vtp, .vtk, .nrrd, .nii, .nii.gz, .npy or .txt";
-        return Err(CliError::input(&name, problem));
+    let Some(writer) = Format::of(&name).and_then(|format| format.tensors) else {
+        let expected = writable_extensions(|_| true);
+        return Err(CliError::input(&name, format!("the extension tells the format: expected {expected}")));
     };
+    let is_flat = matches!(writer, TensorWriter::Plane(_));
     files::check_writable(&args.output)?;
     if args.output.exists() && !args.force {
         return Err(CliError::input(&name, "exists already: expected another name, or --force"));
     }
     let reading = args.reading.reading();
-    if args.invariants && !format.has_arrays() {
-        return Err(CliError::input(&name, "has no place for --invariants: expected .vti, .vtp or .vtk"));
+    let no_place = |option: &str, has: fn(&TensorWriter) -> bool| {
+        CliError::input(&name, format!("has no place for {option}: expected {}", writable_extensions(has)))
+    };
+    if args.invariants && !writer.has_arrays() {
+        return Err(no_place("--invariants", TensorWriter::has_arrays));
     }
-    if args.write_order.is_some() && !matches!(format, Format::Nifti | Format::NiftiPacked) {
-        return Err(CliError::input(&name, "has no place for --write-order: expected .nii or .nii.gz"));
+    if args.write_order.is_some() && !writer.has_layouts() {
+        return Err(no_place("--write-order", TensorWriter::has_layouts));
     }
     let source = Source::open(&args.input, &args.reading)?;
     source.check_apart(std::slice::from_ref(&args.output))?;
@@ -84,7 +49,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
     };
     let bytes = match source {
         Source::File(TensorFile { content: Content::Tensors(volume), name, blake3, .. })
-            if !format.is_flat() && is_whole(&volume, &reading) =>
+            if !is_flat && is_whole(&volume, &reading) =>
         {
             remarks.iter().for_each(|line| eprintln!("{name}: {line}"));
             if reading.zero_not_finite
@@ -94,14 +59,14 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             }
             let volume = finite_volume(volume, &reading).map_err(|e| CliError::input(&name, e))?;
             let frame = if reading.frame == Some(Frame::Voxel) { Frame::Voxel } else { Frame::World };
-            if let Some(words) = unplaced(format, &volume, frame) {
+            if let Some(words) = unplaced(writer, &volume, frame) {
                 eprintln!("{name}: {words}");
             }
             if volume.lattice().size[2] > 1 && !volume.order().0.has(2, 2) {
                 eprintln!("{name}: the file has no components along the third axis: written as zero");
             }
             // What the file states about its components stands; the option says how they are written.
-            encoded(format, &volume.as_stated(), frame, args, &blake3)
+            encoded(writer, &volume.as_stated(), frame, args, &blake3)
         }
         source => {
             let (scalar, world) = match &source {
@@ -114,16 +79,15 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             }
             let input = Input::of(source, &args.reading)?;
             input.tell();
-            if format.is_flat() && input.geometry.is_placed() && input.geometry.is_oblique() {
+            if is_flat && input.geometry.is_placed() && input.geometry.is_oblique() {
                 eprintln!(
                     "{}: the plane is oblique, and the format has no place for its axes: components along those of the picture, x \
                      right, y up",
                     input.name
                 );
             }
-            match format {
-                Format::Numpy => Ok(npy::write_tensors(&input.field)),
-                Format::Matrices => matrices::write(&input.field),
+            match writer {
+                TensorWriter::Plane(write) => write(&input.field),
                 _ => {
                     let geometry = &input.geometry;
                     if geometry.is_placed() && !geometry.upright().is_placed() {
@@ -139,7 +103,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                         _ => volume,
                     };
                     // The plane's own axes, whatever the tensors were read along.
-                    encoded(format, &volume, Frame::World, args, &input.blake3)
+                    encoded(writer, &volume, Frame::World, args, &input.blake3)
                 }
             }
         }
@@ -151,10 +115,10 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
 }
 
 /// What is said where a volume is written along its own axes, without its place in the world.
-fn unplaced(format: Format, volume: &TensorVolume, frame: Frame) -> Option<&'static str> {
+fn unplaced(writer: TensorWriter, volume: &TensorVolume, frame: Frame) -> Option<&'static str> {
     let lattice = volume.lattice();
     let is_placed = lattice.origin != [0.0; 3] || lattice.has_turned_axes();
-    (format.has_arrays() && frame == Frame::Voxel && is_placed).then_some(
+    (writer.has_arrays() && frame == Frame::Voxel && is_placed).then_some(
         "components along the voxel axes, which are x, y and z of what is written: origin and directions are left out (--frame \
          world keeps them)",
     )
@@ -162,7 +126,7 @@ fn unplaced(format: Format, volume: &TensorVolume, frame: Frame) -> Option<&'sta
 
 /// A volume in one of the formats that hold volumes.
 fn encoded(
-    format: Format,
+    writer: TensorWriter,
     volume: &TensorVolume,
     frame: Frame,
     args: &ConvertArgs,
@@ -179,18 +143,15 @@ fn encoded(
         image.push_text(tigereye_io::PROVENANCE, &story);
         Ok(image)
     };
-    match format {
-        Format::PolyData => vtp::write(&points_from_image(image()?)),
-        Format::Legacy => {
-            let title = format!("tigereye {}, input blake3 {blake3}", env!("CARGO_PKG_VERSION"));
-            legacy::write(&image()?, &title)
+    let title = format!("tigereye {}, input blake3 {blake3}", env!("CARGO_PKG_VERSION"));
+    match writer {
+        TensorWriter::Image(write) => write(image()?, &title),
+        TensorWriter::Volume(write) => write(volume, frame, &story),
+        TensorWriter::Layouts(write) => {
+            write(volume, args.write_order.map(Into::into).unwrap_or_default(), &story)
         }
-        Format::Nrrd => nrrd::write(volume, frame, &story),
-        Format::Nifti => nifti::write(volume, args.write_order.map(Into::into).unwrap_or_default(), &story),
-        Format::NiftiPacked => {
-            nifti::write_packed(volume, args.write_order.map(Into::into).unwrap_or_default(), &story)
-        }
-        Format::ImageData | Format::Matrices | Format::Numpy => vti::write(&image()?),
+        // A volume of one layer; its plane, where a caller takes it for one.
+        TensorWriter::Plane(write) => write(&volume.slice(PlaneChoice::default())?.field),
     }
 }
 

@@ -132,7 +132,7 @@ pub(super) fn number_facts(file: &TensorFile, lattice: &Lattice) -> Value {
         story.push(format!("vectors along {} ({})", frame.words(), known.words()));
     }
     story.extend(lattice.warnings.iter().map(|w| format!("WARNING: {w}")));
-    story.push("no tensors; --derive makes some".to_owned());
+    story.push("no tensors; commands that take tensors need --derive".to_owned());
     let more = json!({ "assumptions": story, "range": range.json() });
     merge(&mut facts, more);
     facts

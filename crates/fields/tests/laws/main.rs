@@ -19,7 +19,7 @@ fn field(spec: &str) -> Field<Tensor2> {
     generate(&parsed.name, &parsed.arguments).unwrap_or_else(|e| panic!("{spec}: {e}"))
 }
 
-/// Direction of the major half-axis in degrees, 0 to 180.
+/// Direction of the major semi-axis in degrees, 0 to 180.
 fn major_deg(t: &Tensor2) -> f64 {
     Svd::of(t).phi_rad().to_degrees().rem_euclid(180.0)
 }

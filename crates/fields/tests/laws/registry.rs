@@ -36,7 +36,7 @@ fn faults_of_files(files: &Sources, registered: &[&str]) -> Vec<String> {
         let is_generator = text.contains("const GENERATOR: Generator");
         if !is_generator && name != "mod" && !list.contains(&format!("mod {name};")) {
             faults.push(format!(
-                "{path} has no constant `GENERATOR`: begin with a copy of the example in README.md, \"By one Rust file\""
+                "{path} has no constant `GENERATOR`: begin with a copy of the example in docs/guide/add-a-field.md, \"By one Rust file\""
             ));
         }
         if is_generator && !list.contains(&format!("    {name},\n")) {
@@ -146,7 +146,10 @@ fn a_file_without_its_line_is_told_which_line_to_add() {
 #[test]
 fn a_file_that_is_no_generator_is_told_where_an_example_is() {
     let files = made_up(&[("fan", "//! Fan.\n"), ("mod", "")]);
-    one_fault(&faults_of_files(&files, &[]), &["generators/fan.rs has no constant `GENERATOR`", "README.md"]);
+    one_fault(
+        &faults_of_files(&files, &[]),
+        &["generators/fan.rs has no constant `GENERATOR`", "docs/guide/add-a-field.md"],
+    );
 }
 
 #[test]

@@ -62,11 +62,11 @@ fn errors_name_the_expression_and_the_place() {
 }
 
 #[test]
-fn half_axes_are_lengths() {
+fn semi_axes_are_lengths() {
     let error = axes(3, 3, ["0", "1", "y"]).build().expect_err("negative");
     assert_eq!(
         error.to_string(),
-        "expression `s2` = `y` is -1 in cell (0, 2): a half-axis has a length of at least 0"
+        "expression `s2` = `y` is -1 in cell (0, 2): a semi-axis has a length of at least 0"
     );
     assert!(axes(3, 3, ["0", "0", "0"]).build().expect("zero tensors").values().iter().all(Tensor2::is_zero));
 }

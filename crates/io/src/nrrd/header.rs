@@ -430,9 +430,42 @@ impl Header {
         Some([min?, max?])
     }
 
-    /// Samples at both ends of the range; otherwise they lie in the middle of equal parts, as teem has it where nothing is said.
+    /// Whether samples lie at both ends of the range or in the middle of equal parts, as the file states it or as its spacing tells.
+    fn stated_node_centring(&self, axis: usize) -> Option<bool> {
+        match self.centerings.get(axis).map(|c| c.to_ascii_lowercase()).as_deref() {
+            Some("node") => return Some(true),
+            Some("cell") => return Some(false),
+            _ => {}
+        }
+        let [min, max] = self.range_of(axis)?;
+        let spacing = self.spacings.get(axis).filter(|s| s.is_finite() && **s != 0.0)?;
+        let (steps, samples) = (((max - min) / spacing).abs(), *self.sizes.get(axis)? as f64);
+        // Numbers of a header have few digits.
+        let is = |expected: f64| (steps - expected).abs() < 1e-3;
+        if is(samples - 1.0) { Some(true) } else { is(samples).then_some(false) }
+    }
+
+    /// Where nothing is said samples lie in the middle of equal parts, as teem has it.
     fn is_node_centred(&self, axis: usize) -> bool {
-        self.centerings.get(axis).is_some_and(|c| c.eq_ignore_ascii_case("node"))
+        self.stated_node_centring(axis).unwrap_or(false)
+    }
+
+    /// What is assumed of ranges whose ends may be samples or borders, in words.
+    pub(super) fn assumed_centring(&self, layout: &Layout) -> Option<String> {
+        let is_placed = |a: usize| self.directions.get(a).is_some_and(Option::is_some);
+        let is_open = |a: usize| {
+            let has_least = self.minima.get(a).is_some_and(|v| v.is_finite());
+            has_least && !is_placed(a) && self.stated_node_centring(a).is_none()
+        };
+        let open: Vec<String> =
+            layout.lattice.iter().filter(|&&a| is_open(a)).map(|a| (a + 1).to_string()).collect();
+        (!open.is_empty() && self.origin.is_none()).then(|| {
+            format!(
+                "no centerings: the ranges (axis mins, axis maxs) of axis {} are taken as the outer borders of cells, half a step outside of \
+                 their middles",
+                open.join(", ")
+            )
+        })
     }
 
     /// The first sample, where the file gives the least position along each axis.
@@ -523,7 +556,8 @@ fn data_file(fields: &Fields) -> Result<Option<String>, IoError> {
     let several =
         e.value.starts_with("LIST") || e.value.split_whitespace().count() > 1 && e.value.contains('%');
     if several || e.value.is_empty() {
-        return Err(e.fault("data file", "the name of one file"));
+        let expected = "the name of one file: `unu save -f nrrd -i NAME.nhdr -o NAME.nrrd` joins several";
+        return Err(e.fault("data file", expected));
     }
     if e.value.starts_with(['/', '\\'])
         || e.value.contains(':')

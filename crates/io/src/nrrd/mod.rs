@@ -88,7 +88,7 @@ pub fn read_with_limits(
         array: layout.kind.map_or("numbers", |k| k.name).to_owned(),
         component_names,
         notes,
-        remarks: Vec::new(),
+        remarks: header.assumed_centring(&layout).into_iter().collect(),
         warnings: (layout.kind.is_none() && layout.masked)
             .then(|| "seven numbers taken as a mask and xx,xy,xz,yy,yz,zz".to_owned())
             .into_iter()

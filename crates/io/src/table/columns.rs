@@ -188,6 +188,12 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
         let (taken, aside) = (taken.join(", "), aside.join(", "));
         lattice.warnings.push(format!("positions of the columns {taken} taken; {aside} left aside"));
     }
+    if let Some(name) =
+        names.iter().find(|name| ["mask", "valid", "flag", "flags"].contains(&name.to_lowercase().as_str()))
+    {
+        let said = format!("the column {name} is not used: tensors to leave out are written as nan");
+        lattice.warnings.push(said);
+    }
     let read =
         |name: &str| arrays.iter().find(|(n, _)| n == name).map(|(_, c)| c.clone()).unwrap_or_default();
     let of_array: Vec<usize> = lattice.array.split(", ").flat_map(read).collect();

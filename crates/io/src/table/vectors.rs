@@ -30,6 +30,10 @@ impl Role {
         let name = name.to_ascii_lowercase();
         let mut words = name.split([' ', '[', '(', '"']).filter(|w| !w.is_empty());
         let first = words.next()?;
+        // `vector type [-]` says what a vector is; `vector direction [degrees]` and the like say nothing of it.
+        if first == "vector" && words.clone().next().is_some_and(|second| second != "type") {
+            return None;
+        }
         let word = if ["velocity", "displacement"].contains(&first) { words.next()? } else { first };
         let word = word.replace(['_', ':', '-', '.'], "");
         match word.as_str() {
@@ -39,7 +43,7 @@ impl Role {
             "v" | "vy" | "uy" | "u1" | "vely" | "velocityy" | "velocity1" | "vvel" => Some(Self::V),
             "flags" | "flag" => Some(Self::Flags),
             "mask" => Some(Self::Mask),
-            "chc" | "vector" | "isvalid" => Some(Self::Choice),
+            "chc" | "vector" | "vectortype" | "isvalid" => Some(Self::Choice),
             _ => None,
         }
     }
@@ -318,6 +322,9 @@ mod tests {
         let pivlab = "PIVlab, ASCII chart output - 20-Oct-2023\nFRAME: 1, filenames: A: a.png, B: b.png\n\
                       x [px],y [px],u [px/frame],v [px/frame],Vector type [-]\n";
         is_read(&table(pivlab, |x, y| format!("{x},{y},{x},{},{}", ten(y), 1 - low(y))), 4);
+        let more = "x [px],y [px],u [px/frame],v [px/frame],vector direction [degrees],Vector length [px],Vector type [-]\n";
+        let line = |x: f64, y: f64| format!("{x},{y},{x},{},0.5,0,{}", ten(y), 1 - low(y));
+        is_read(&table(more, line), 4);
         let insight =
             "TITLE=\"run\" VARIABLES=\"X mm\", \"Y mm\", \"U m/s\", \"V m/s\", \"CHC\", ZONE I=4, J=3\n";
         is_read(
@@ -392,7 +399,10 @@ mod tests {
             "1 2 3\n",
             "line 1, column 6: found 3 numbers, expected 4: x, y, u, v and as many as in the first row",
         );
-        refused("1 2 3 4\n1 2 5 6\n", "line 2: a second vector at the position of line 1");
+        refused(
+            "1 2 3 4\n1 2 5 6\n",
+            "line 2: a second row at the x and y of line 1: expected the vectors of one plane, one at each position",
+        );
         refused(
             "0 0 3 4\n1 0 5 6\n2.5 0 1 1\n",
             "line 2: x = 1 is off the lattice: expected positions in equal steps, here of 1.25",

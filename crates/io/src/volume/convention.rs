@@ -348,9 +348,9 @@ pub fn documentation() -> String {
 }
 
 const INTRODUCTION: &str = "\
-# Conventions of component orders and frames
+# Component orders and frames
 
-<!-- Made from crates/io/src/volume/convention.rs by `TIGEREYE_BLESS=1 cargo test -p tigereye-io --test conventions`. -->
+<!-- Made from crates/io/src/volume/convention.rs by `TIGEREYE_BLESS=1 cargo test -p tigereye-io --test files`. -->
 
 A tensor file holds several numbers a point, and few formats say which is which. `tigereye` decides in this order:
 

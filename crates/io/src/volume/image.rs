@@ -91,7 +91,7 @@ pub fn lattice_from_image<'a>(
         world = World::Absent;
     }
     let kind = if association == Association::Points { "point" } else { "cell" };
-    let mut notes = vec![format!("a {kind} array of VTK image data")];
+    let mut notes = vec![format!("an array of the {kind}s")];
     let (mask, note) = mask_of(image, association);
     notes.extend(note);
     let (content, order) = meaning(image, association, &array);

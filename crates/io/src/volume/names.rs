@@ -181,7 +181,9 @@ fn is_strain(name: &str) -> bool {
             || word.ends_with("strain")
             || matches!(w, "eps" | "epsilon" | "gamma" | "ε" | "γ")
     };
-    let stem = if short.is_empty() { words.concat() } else { short };
+    // Abaqus repeats what is asked for: `LE.LE11`, `E:E11`.
+    let last = short.rsplit('_').next().unwrap_or_default();
+    let stem = if last.is_empty() { words.concat() } else { last.to_owned() };
     let is_code =
         ["e", "le", "ee", "pe", "ne", "the", "epto", "epel", "eppl", "epth"].contains(&stem.as_str());
     words.iter().any(|w| is(w)) || is(&stem) || is_code
@@ -360,6 +362,10 @@ mod tests {
             "E",
             "LE11, LE22, LE12",
             "EPTOXY",
+            "LE.LE11",
+            "LE-LE12",
+            "LE_LE22",
+            "E:E11, E:E22, E:E12",
         ] {
             assert!(names_strain(name), "{name}");
         }

@@ -3,16 +3,16 @@
 use tigereye_core::{PrincipalAxes, Svd, Tensor2};
 
 /// What stands for a tensor. Zero tensors are small hollow dots and tensors that are not finite small crosses in every
-/// kind; half-axes are the singular values unless something else is said.
+/// kind; semi-axes are the singular values unless something else is said.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum GlyphKind {
     /// The ellipse the tensor makes of the unit circle, with its major axis as a thin line. Totally anisotropic tensors are
     /// segments.
     #[default]
     Ellipse,
-    /// The rectangle with the half-axes as half-sides; segments as for ellipses.
+    /// The rectangle with the semi-axes as half-sides; segments as for ellipses.
     Box,
-    /// The superellipse `|x / s1|^(2/e) + |y / s2|^(2/e) = 1` along the half-axes with `e = (1 - c_l)^gamma` and
+    /// The superellipse `|x / s1|^(2/e) + |y / s2|^(2/e) = 1` along the semi-axes with `e = (1 - c_l)^gamma` and
     /// `c_l = (s1 - s2) / (s1 + s2)`: a circle where isotropic, boxier the more anisotropic, a segment in the end.
     ///
     /// Kindlmann ("Superquadric tensor glyphs", VisSym 2004) has two exponents, `(1 - c_p)^gamma` and `(1 - c_l)^gamma`. A
@@ -35,8 +35,8 @@ pub enum GlyphKind {
     ///
     /// For `det A >= 0` that is a rotation ([`tigereye_core::OrthogonalFactor`]): two opposite sectors open from the line
     /// `v1`, which becomes the major axis, to the major axis `u1`; their angle is that of the rotation, true whatever the
-    /// ellipse, their radius 0.6 of the larger half-axis. They are filled where it is counter-clockwise, hollow where it
-    /// is clockwise; half a turn counts as counter-clockwise. Where both half-axes are equal, +x takes the place of `u1`.
+    /// ellipse, their radius 0.6 of the larger semi-axis. They are filled where it is counter-clockwise, hollow where it
+    /// is clockwise; half a turn counts as counter-clockwise. Where both semi-axes are equal, +x takes the place of `u1`.
     /// Symmetric tensors that are nowhere negative have no sectors. For `det A < 0`, a reflection, a dashed line shows the
     /// direction that it keeps.
     Asymmetric,
@@ -66,13 +66,13 @@ impl GlyphKind {
         }
     }
 
-    /// The largest half-axis by the distance between glyphs, such that neighbours never touch.
+    /// The largest semi-axis by the distance between glyphs, such that neighbours never touch.
     pub(super) fn radius(self) -> f64 {
         match self {
             // The corners of a square that stands on one.
             Self::Box => 0.45 / core::f64::consts::SQRT_2,
             Self::Superquadric { gamma } if gamma > Self::GAMMA => 0.45 / core::f64::consts::SQRT_2,
-            // Rounded corners of the usual sharpness lie within 1.05 half-axes.
+            // Rounded corners of the usual sharpness lie within 1.05 semi-axes.
             _ => 0.45,
         }
     }
@@ -82,7 +82,7 @@ impl GlyphKind {
         matches!(self, Self::Signed | Self::Arrows)
     }
 
-    /// The largest half-axis in the tensor's unit; not finite where the tensor cannot be drawn.
+    /// The largest semi-axis in the tensor's unit; not finite where the tensor cannot be drawn.
     pub(super) fn size(self, t: &Tensor2) -> f64 {
         match self {
             _ if !t.is_finite() => f64::NAN,
@@ -98,10 +98,10 @@ impl GlyphKind {
 /// How glyphs are scaled against each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum GlyphScale {
-    /// The largest half-axis of the field fills a cell: sizes are comparable.
+    /// The largest semi-axis of the field fills a cell: sizes are comparable.
     #[default]
     Field,
-    /// Half-axes by the square root of the values, the largest filling a cell: fields with peaks stay legible.
+    /// Semi-axes by the square root of the values, the largest filling a cell: fields with peaks stay legible.
     SquareRoot,
     /// Every glyph fills its cell: only shape and direction are shown.
     Glyph,

@@ -92,7 +92,7 @@ pub fn glyphs(field: &Field<Tensor2>, options: &GlyphOptions) -> Scene {
     page.finish(&options.title, description, &legend)
 }
 
-/// The largest half-axis of a field that can be drawn.
+/// The largest semi-axis of a field that can be drawn.
 fn largest(field: &Field<Tensor2>, kind: GlyphKind) -> f64 {
     field.values().iter().map(|t| kind.size(t)).filter(|s| s.is_finite()).fold(0.0, f64::max)
 }

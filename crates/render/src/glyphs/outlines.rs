@@ -157,7 +157,7 @@ mod tests {
         assert_eq!((axis.part, axis.closed, axis.points.len()), (GlyphPart::Line, false, 2));
         assert!(found.iter().all(|o| o.cell == Cell::new(1, 0)));
         for p in &area.points {
-            // Half-axes 0.45 and 0.15 about (1, 0), y downwards, tilted up by 0.5.
+            // Semi-axes 0.45 and 0.15 about (1, 0), y downwards, tilted up by 0.5.
             let (x, y) = (p[0] - 1.0, -p[1]);
             let (c, s) = (tigereye_core::math::cos(0.5), tigereye_core::math::sin(0.5));
             let (u, v) = ((c * x + s * y) / 0.45, (c * y - s * x) / 0.15);

@@ -1,4 +1,4 @@
-//! Ellipses, boxes and superquadrics: outlines about the half-axes.
+//! Ellipses, boxes and superquadrics: outlines about the semi-axes.
 
 use super::kind::{GlyphColour, GlyphKind};
 use super::layers::{Layers, Tone};

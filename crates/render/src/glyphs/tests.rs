@@ -6,7 +6,7 @@ use super::{GlyphColour, GlyphKind, GlyphOptions, GlyphScale, Scaling, glyphs};
 use crate::scene::Segment;
 use tigereye_core::{Field, Grid, OrthogonalFactor, PrincipalAxes, Svd, Tensor2, math};
 
-/// Half-axis of every glyph here, pixels.
+/// Semi-axis of every glyph here, pixels.
 const REACH: f64 = 100.0;
 /// Rounding of coordinates of some hundred pixels, made of a few dozen operations; square roots of rounded zeros are the
 /// worst. Pixels.
@@ -89,7 +89,7 @@ fn samples() -> Vec<Tensor2> {
 }
 
 #[test]
-fn quadrics_reach_their_half_axes() {
+fn quadrics_reach_their_semi_axes() {
     let t = Tensor2::from_axes(0.4, 3.0, 2.0);
     let svd = Svd::of(&t);
     let major = svd.major();
@@ -157,7 +157,7 @@ fn isotropic_superquadrics_are_circles() {
 fn superquadrics_lie_between_ellipse_and_box_and_become_boxier() {
     let diagonal = |kind, ratio: f64| {
         let t = Tensor2::symmetric(1.0, 0.0, ratio);
-        // The corner of the box is (1, 1) in units of the half-axes.
+        // The corner of the box is (1, 1) in units of the semi-axes.
         let along = |p: &[f64; 2]| (p[0] + p[1] / ratio) / (2.0 * REACH);
         all_points(kind, &t).iter().map(along).fold(0.0, f64::max)
     };
@@ -166,7 +166,7 @@ fn superquadrics_lie_between_ellipse_and_box_and_become_boxier() {
     for ratio in [0.9, 0.7, 0.5, 0.3, 0.1] {
         let corner = diagonal(SUPERQUADRIC, ratio);
         assert!(corner > last && corner < 1.0, "{ratio}: {corner} after {last}");
-        // At equal shares of both half-axes each is 2^(-e/2).
+        // At equal shares of both semi-axes each is 2^(-e/2).
         let e = math::pow(2.0 * ratio / (1.0 + ratio), 3.0);
         assert!((corner - math::pow(2.0, -0.5 * e)).abs() < 1e-12);
         last = corner;

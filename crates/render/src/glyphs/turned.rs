@@ -9,7 +9,7 @@ use crate::colour::Rgba;
 use crate::scene::{PathBuilder, Scene, Segment};
 use tigereye_core::{OrthogonalFactor, Svd, Symmetry, Tensor2, math};
 
-/// Radius of sectors by the larger half-axis.
+/// Radius of sectors by the larger semi-axis.
 const SECTOR: f64 = 0.6;
 /// Smaller angles are rounding, radians: as much as [`Symmetry::ROUNDING`] makes of a tensor's own size. So is what is missing to half
 /// a turn.

@@ -10,7 +10,7 @@ const TERMS: [(&str, &str); 14] = [
     ),
     (
         "Singular values",
-        "The two half-axes s₁ ≥ s₂ ≥ 0 of the ellipse into which the tensor turns the unit circle.",
+        "The two semi-axes s₁ ≥ s₂ ≥ 0 of the ellipse into which the tensor turns the unit circle.",
     ),
     (
         "Transmission profile",
@@ -24,7 +24,7 @@ const TERMS: [(&str, &str); 14] = [
          direction in which it travels, so that eight numbers describe all the light in a cell.",
     ),
     ("Isotropic", "The same in all directions; the ellipse is a circle."),
-    ("Anisotropy", "How far the ellipse is from a circle, measured by the ratio s₁/s₂ of its half-axes."),
+    ("Anisotropy", "How far the ellipse is from a circle, measured by the ratio s₁/s₂ of its semi-axes."),
     (
         "Total anisotropy",
         "The limit in which the ellipse is a line (s₂ = 0, or s₁/s₂ above 20) and light passes in just two \

@@ -37,7 +37,7 @@ const RIDGES: &str = "\
     exponent (FTLE) does for flows.";
 
 const TENSOR_LINES: &str = "\
-    The figures of the test fields have them too: curves that follow the major half-axis of the tensors’ ellipses, \
+    The figures of the test fields have them too: curves that follow the major semi-axis of the tensors’ ellipses, \
     interpolated between the cells, evenly spaced and followed to the border. The thesis chose other seeds, so its curves \
     are others of the same family. Where it lays lines over light or over a gradient, this report has glyphs or a map of \
     the axis’ orientation beside them; the section on the classical methods has lines and gradients of the same fields.";
@@ -58,7 +58,7 @@ pub(super) fn introduction() -> Markup {
 }
 
 /// A cell, its eight neighbours, its cones and its ellipse. Arrow widths and circle areas are the fluxes that
-/// isotropic light has behind an ellipse with half-axes 1 and 0.22 at 30 degrees.
+/// isotropic light has behind an ellipse with semi-axes 1 and 0.22 at 30 degrees.
 fn diagram() -> Markup {
     html! {
         figure.diagram {

@@ -1,0 +1,150 @@
+//! What keeps a file from being a tensor field.
+
+use thiserror::Error;
+use tigereye_fields::FieldError;
+use tigereye_io::IoError;
+
+/// What keeps a file from being a tensor field.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum InputError {
+    /// The bytes of a file are not to be had; in the words of whoever reads them.
+    #[error("{words}")]
+    Unread {
+        /// What went wrong, with the file's name.
+        words: String,
+    },
+    /// An extension that tells no format.
+    #[error("unknown file extension: expected {expected}")]
+    Extension {
+        /// The extensions that are read, in words.
+        expected: String,
+    },
+    /// A format that another program converts.
+    #[error("{format} is not read: expected one of the readable formats; {help}")]
+    Foreign {
+        /// The format's name.
+        format: &'static str,
+        /// How to get there.
+        help: &'static str,
+    },
+    /// What the file's reader says.
+    #[error("{}{source}{}", detached.as_ref().map_or(String::new(), |d| format!("with its data in {d}: ")), hint(source))]
+    File {
+        /// The reader's words.
+        source: IoError,
+        /// The data file of a header.
+        detached: Option<String>,
+    },
+    /// Numbers or vectors where tensors are needed.
+    #[error(
+        "holds {components} a voxel: expected tensors, or --derive gradient, strain-rate, hessian, structure or orientation"
+    )]
+    NoTensors {
+        /// Words for what is there.
+        components: &'static str,
+    },
+    /// Text with vectors at positions, where tensors or numbers are needed.
+    #[error(
+        "is a table of vectors at positions (x, y, u, v), no 2x2 blocks: expected --derive gradient or strain-rate"
+    )]
+    VectorTable,
+    /// Text with points, one a line, whose columns have no names.
+    #[error(
+        "is a table without names of its columns, one point a line, no 2x2 blocks: expected a line above the numbers with names \
+         such as x,y,S11,S22,S12 (or --derive gradient for x, y, u, v)"
+    )]
+    UnnamedTable,
+    /// A picture, which holds brightness.
+    #[error("is a picture: expected --derive structure, orientation or hessian")]
+    Picture,
+    /// Tuples that cannot be differentiated as asked.
+    #[error("holds {components} numbers a voxel: expected {expected} for --derive {name}")]
+    Tuples {
+        /// Numbers a voxel.
+        components: usize,
+        /// How many there should be.
+        expected: &'static str,
+        /// What was to be derived.
+        name: &'static str,
+    },
+    /// A mask of another size.
+    #[error("mask {mask}: {} x {} x {} voxels: expected {} x {} x {}", found[0], found[1], found[2], expected[0], expected[1], expected[2])]
+    MaskSize {
+        /// Name of the mask's file.
+        mask: String,
+        /// Its voxels along each axis.
+        found: [usize; 3],
+        /// Those of the input.
+        expected: [usize; 3],
+    },
+    /// A mask that cannot be read, or is no image of single numbers.
+    #[error("mask {mask}: {words}")]
+    Mask {
+        /// Name of the mask's file.
+        mask: String,
+        /// What is wrong with it.
+        words: String,
+    },
+    /// A tensor with a component that is infinite or not a number.
+    #[error(
+        "the tensor of cell ({x}, {y}) is not finite ({count} such tensors): expected numbers, a --mask that leaves them out, or --not-finite zero"
+    )]
+    NotFinite {
+        /// Column of the first one.
+        x: usize,
+        /// Its row.
+        y: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// The same in a volume that is taken whole.
+    #[error(
+        "the tensor of voxel ({}, {}, {}) is not finite ({count} such tensors): expected numbers, a --mask that leaves them out, or --not-finite zero", voxel[0], voxel[1], voxel[2]
+    )]
+    NotFiniteVoxel {
+        /// Indices of the first one.
+        voxel: [usize; 3],
+        /// How many there are.
+        count: usize,
+    },
+    /// An option that would change nothing.
+    #[error("{option} has nothing to do: {why}")]
+    Needless {
+        /// The option.
+        option: &'static str,
+        /// Why.
+        why: &'static str,
+    },
+    /// A size that no field has.
+    #[error(transparent)]
+    Field(#[from] FieldError),
+}
+
+/// Which option helps.
+fn hint(source: &IoError) -> &'static str {
+    match source {
+        IoError::PlaneNeeded { .. } => " (option --slice AXIS=INDEX)",
+        IoError::SliceNeeded { .. } => " (option --slice)",
+        IoError::AmbiguousArray { candidates } if candidates.iter().any(|c| c.contains(", ")) => {
+            " (option --array, or --components for those of several arrays)"
+        }
+        IoError::AmbiguousArray { .. } => " (option --array)",
+        IoError::NoTensor { .. } => " (option --order)",
+        IoError::TooManyCells { .. } | IoError::TooManyValues { .. } => " (option --limit)",
+        IoError::NpyShape { .. } => " (option --derive for vectors and numbers)",
+        _ => "",
+    }
+}
+
+impl From<IoError> for InputError {
+    fn from(source: IoError) -> Self {
+        Self::File { source, detached: None }
+    }
+}
+
+impl InputError {
+    /// An option that chooses an array in a file that has no names for them.
+    pub(crate) const fn nameless(option: &'static str) -> Self {
+        Self::Needless { option, why: "the format has no names for arrays" }
+    }
+}

@@ -1,0 +1,731 @@
+//! What components mean: names, aliases, frames and what is assumed, read from bytes as programs write them.
+
+use std::io::Write as _;
+use tigereye_core::{Cell, Svd, Tensor2};
+use tigereye_io::volume::{
+    ALIASES, Axis, CONVENTIONS, ComponentArrays, Frame, Known, Lattice, Plane, PlaneChoice, Reading, Shear,
+    TensorOrder, documentation, lattice_from_image, lattice_from_points,
+};
+use tigereye_io::{ArrayChoice, DataArray, ImageData, IoError, ScalarType, Wanted, legacy, nifti, npy, nrrd};
+
+/// Components of one symmetric tensor by their names; no two alike.
+const ENTRIES: [(&str, f64); 6] =
+    [("xx", 5.0), ("yy", -1.0), ("zz", 3.0), ("xy", 2.0), ("xz", 0.4), ("yz", 0.3)];
+
+fn value(name: &str) -> f64 {
+    let mirrored: String = name.chars().rev().collect();
+    ENTRIES.iter().find(|(n, _)| *n == name || *n == mirrored).unwrap().1
+}
+
+/// An image of 3 x 2 x 1 points with one array of equal tuples.
+fn image(name: &str, tuple: &[f64], names: &[&str]) -> ImageData {
+    let mut image = ImageData::empty([3, 2, 1]);
+    let values = tuple.repeat(6);
+    image.point_arrays.push(DataArray::new(name, tuple.len(), values).with_component_names(names));
+    image
+}
+
+fn plane(lattice: Lattice, reading: Reading) -> Result<Tensor2, IoError> {
+    let choice = PlaneChoice { plane: Some(Plane::Xy), slice: None };
+    Ok(lattice.tensors(reading)?.slice(choice)?.field.values()[0])
+}
+
+const EXPECTED: Tensor2 = Tensor2::symmetric(5.0, 2.0, -1.0);
+
+/// The page of the documentation is made of the tables that decide; TIGEREYE_BLESS=1 writes it.
+#[test]
+fn the_documentation_is_made_of_the_tables() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/reference/component-orders.md");
+    if std::env::var_os("TIGEREYE_BLESS").is_some() {
+        std::fs::write(path, documentation()).unwrap();
+    }
+    let found = std::fs::read_to_string(path).unwrap();
+    assert!(found == documentation(), "{path} is stale: TIGEREYE_BLESS=1 makes it anew");
+}
+
+#[test]
+fn tables_have_one_row_for_every_case() {
+    for (i, row) in CONVENTIONS.iter().enumerate() {
+        let same =
+            |c: &&tigereye_io::volume::Convention| c.content == row.content && c.components == row.components;
+        assert_eq!(CONVENTIONS.iter().filter(same).count(), 1, "row {i}");
+        assert!(row.order.is_none_or(|(order, _)| order.components() == row.components), "row {i}");
+    }
+    for alias in &ALIASES {
+        for order in alias.orders {
+            assert_eq!(TensorOrder::parse(alias.name, order.components()), Ok(*order));
+        }
+        let others = (1..10).filter(|&n| alias.order(n).is_none());
+        for components in others {
+            let fault = TensorOrder::parse(&alias.name.to_uppercase(), components).unwrap_err().to_string();
+            assert!(fault.contains(&format!("{components}")) && fault.contains("expected"), "{fault}");
+        }
+    }
+}
+
+/// Whatever the spelling, the association and the order: names decide, and are called stated.
+#[test]
+fn names_beat_every_convention() {
+    let spelt = |style: &str, entry: &str| {
+        let digits = |first: u8| entry.bytes().map(|b| (b - b'x' + first).to_string()).collect::<String>();
+        match style {
+            "11" => digits(1),
+            "00" => digits(0),
+            "S11" => format!("S{}", digits(1)),
+            "XX" => entry.to_uppercase(),
+            "sigma_xx" => format!("sigma_{entry}"),
+            "stress-XX" => format!("stress-{}", entry.to_uppercase()),
+            _ => entry.to_owned(),
+        }
+    };
+    let orders = [
+        "xx,yy,zz,xy,yz,xz",
+        "xx,yy,zz,yz,xz,xy",
+        "xx,xy,xz,yy,yz,zz",
+        "xx,xy,yy,xz,yz,zz",
+        "zz,yy,xx,zy,zx,yx",
+        "xx,yy,zz,xy",
+        "xx,yy,xy",
+        "xy,xx,yy",
+        "xx,xy,xz,yx,yy,yz,zx,zy,zz",
+        "xx,xy,yx,yy",
+    ];
+    for order in orders {
+        let entries: Vec<&str> = order.split(',').collect();
+        let tuple: Vec<f64> = entries.iter().map(|e| value(e)).collect();
+        for style in ["xx", "XX", "11", "00", "S11", "sigma_xx", "stress-XX"] {
+            let names: Vec<String> = entries.iter().map(|e| spelt(style, e)).collect();
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            for active in [false, true] {
+                let mut image = image("t", &tuple, &names);
+                image.point_active.tensors = active.then(|| "t".to_owned());
+                let lattice = lattice_from_image(&image, None, Wanted::Tensors).unwrap();
+                assert_eq!(lattice.order.unwrap().1, Known::Stated, "{order} as {style}");
+                assert_eq!(plane(lattice, Reading::default()), Ok(EXPECTED), "{order} as {style}");
+            }
+        }
+    }
+    // What the user says comes first, and the contradiction is known.
+    let image = image("t", &[5.0, 2.0, -1.0], &["xx", "yy", "xy"]);
+    let lattice = lattice_from_image(&image, None, Wanted::Tensors).unwrap();
+    let reading = Reading { order: Some("xx,xy,yy"), ..Reading::default() };
+    let volume = lattice.clone().tensors(reading).unwrap();
+    assert_eq!(volume.contradicted_order(), Some(TensorOrder::VOIGT2));
+    assert_eq!(plane(lattice, reading), Ok(EXPECTED));
+}
+
+#[test]
+fn unnamed_numbers_are_assumed_or_said() {
+    for (components, known) in
+        [(9, Known::Convention), (6, Known::Assumed), (4, Known::Assumed), (3, Known::Assumed)]
+    {
+        let lattice =
+            lattice_from_image(&image("t", &vec![1.0; components], &[]), None, Wanted::Tensors).unwrap();
+        assert_eq!(lattice.order.unwrap().1, known, "{components}");
+    }
+    let strain = image("t", &[5.0, -1.0, 3.0, 2.0], &[]);
+    let strain = || lattice_from_image(&strain, None, Wanted::Tensors).unwrap();
+    let by = |order| plane(strain(), Reading { order: Some(order), ..Reading::default() });
+    assert_eq!(by("xx,yy,zz,xy"), Ok(EXPECTED));
+    assert_eq!(by("abaqus"), Ok(EXPECTED));
+    assert!(matches!(by("vtk"), Err(IoError::Order { .. })));
+}
+
+#[test]
+fn principal_values_are_no_tensor() {
+    let names = ["Min", "Mid", "Max", "Worst"];
+    for (name, names) in
+        [("S_Principal", &names[..]), ("t", &["Sigma 1", "Sigma 2", "Sigma 3"]), ("eigenvalues", &[])]
+    {
+        let image = image(name, &vec![1.0; names.len().max(3)], names);
+        for array in [None, Some(name)] {
+            let found =
+                lattice_from_image(&image, array, Wanted::Tensors).and_then(|l| plane(l, Reading::default()));
+            assert!(matches!(found, Err(IoError::Principal { .. })), "{name}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn the_tensor_is_taken_before_vectors_and_ids() {
+    let mut image = image("velocity", &[1.0, 2.0, 3.0], &[]);
+    image.point_arrays.push(DataArray::new("id", 1, vec![7.0; 6]));
+    image.point_arrays.push(DataArray::new("stress", 6, [5.0, -1.0, 3.0, 2.0, 0.3, 0.4].repeat(6)));
+    let found = lattice_from_image(&image, None, Wanted::Tensors).unwrap();
+    assert_eq!(found.array, "stress");
+    let vectors = lattice_from_image(&image, None, Wanted::Vectors).unwrap();
+    assert_eq!(vectors.array, "velocity");
+    // In the cells beside vectors of the points, too, and in arrays of their own.
+    let mut cells = image.clone();
+    let stress = cells.point_arrays.pop().unwrap();
+    cells.cell_arrays.push(DataArray::new("stress", 6, stress.values[..12].to_vec()));
+    assert_eq!(lattice_from_image(&cells, None, Wanted::Tensors).unwrap().array, "stress");
+    cells.cell_arrays = ["S_XX", "S_YY", "S_XY"].map(|n| DataArray::new(n, 1, vec![1.0; 2])).to_vec();
+    assert_eq!(lattice_from_image(&cells, None, Wanted::Tensors).unwrap().array, "S_XX, S_YY, S_XY");
+    image.point_arrays.push(DataArray::new("strain", 6, vec![0.0; 36]));
+    let several = lattice_from_image(&image, None, Wanted::Tensors).unwrap_err();
+    assert!(matches!(&several, IoError::AmbiguousArray { candidates } if candidates.len() == 2), "{several}");
+}
+
+#[test]
+fn separate_arrays_are_one_tensor() {
+    let mut parts = ImageData::empty([3, 2, 1]);
+    let add = |image: &mut ImageData, name: &str, tuple: &[f64]| {
+        image.point_arrays.push(DataArray::new(name, tuple.len(), tuple.repeat(6)));
+    };
+    for (name, v) in [("S_YY", -1.0), ("pressure", 9.0), ("S_XX", 5.0), ("S_XY", 2.0)] {
+        add(&mut parts, name, &[v]);
+    }
+    let found = lattice_from_image(&parts, None, Wanted::Tensors).unwrap();
+    assert_eq!((found.components, found.order.unwrap().1), (3, Known::Stated));
+    assert_eq!(plane(found, Reading::default()), Ok(EXPECTED));
+    // Two tensors are not guessed between; naming one helps.
+    for (name, v) in [("E_XX", 0.5), ("E_YY", 0.6), ("E_XY", 0.7)] {
+        add(&mut parts, name, &[v]);
+    }
+    let ambiguous = lattice_from_image(&parts, None, Wanted::Tensors);
+    assert!(matches!(ambiguous, Err(IoError::AmbiguousArray { .. })));
+    let arrays = ComponentArrays::parse("XX=S_XX,YY=S_YY,XY=S_XY").unwrap();
+    let found = lattice_from_image(&parts, ArrayChoice::Components(&arrays), Wanted::Tensors).unwrap();
+    assert_eq!(plane(found, Reading::default()), Ok(EXPECTED));
+    let absent = ComponentArrays::parse("XX=S_XX,YY=S_YY,XY=S_XZ").unwrap();
+    let fault = lattice_from_image(&parts, ArrayChoice::Components(&absent), Wanted::Tensors).unwrap_err();
+    assert!(fault.to_string().contains("`S_XZ`"), "{fault}");
+    // Rows.
+    let mut rows = ImageData::empty([3, 2, 1]);
+    for (name, row) in [("T_y", [2.0, -1.0, 0.3]), ("T_z", [0.4, 0.3, 3.0]), ("T_x", [5.0, 2.0, 0.4])] {
+        add(&mut rows, name, &row);
+    }
+    let found = lattice_from_image(&rows, None, Wanted::Tensors).unwrap();
+    assert_eq!(plane(found, Reading::default()), Ok(EXPECTED));
+    // Components of a velocity.
+    let mut flow = ImageData::empty([3, 2, 1]);
+    for (name, v) in [("x", 0.0), ("v", 2.0), ("u", 1.0)] {
+        add(&mut flow, name, &[v]);
+    }
+    let found = lattice_from_image(&flow, None, Wanted::Vectors).unwrap();
+    assert_eq!((found.components, &found.values[..2]), (2, &[1.0, 2.0][..]));
+}
+
+#[test]
+fn archives_give_the_tensor_or_its_components() {
+    let member = |name: &str, shape: &[usize], values: Vec<f64>| {
+        (name.to_owned(), npy::write_array(shape, &values).unwrap())
+    };
+    let members = [
+        member("x", &[2, 3], vec![0.0; 6]),
+        member("sxx", &[2, 3], vec![5.0; 6]),
+        member("syy", &[2, 3], vec![-1.0; 6]),
+        member("sxy", &[2, 3], vec![2.0; 6]),
+    ];
+    let found = npy::lattice_of_members(&members, ArrayChoice::Usual, Wanted::Tensors).unwrap();
+    assert_eq!(plane(found, Reading::default()), Ok(EXPECTED));
+    let tensor = member("stress", &[2, 3, 2, 2], [5.0, 2.0, 2.0, -1.0].repeat(6));
+    let members: Vec<_> = members.into_iter().chain([tensor]).collect();
+    let found = npy::lattice_of_members(&members, ArrayChoice::Usual, Wanted::Tensors).unwrap();
+    assert_eq!(found.array, "stress");
+    assert_eq!(plane(found, Reading::default()), Ok(EXPECTED));
+}
+
+/// Positions beside the data place it, whichever way they run; a picture whose y runs downwards in the file is turned.
+#[test]
+fn positions_of_archives_place_their_cells() {
+    let member = |name: &str, shape: &[usize], values: Vec<f64>| {
+        (name.to_owned(), npy::write_array(shape, &values).unwrap())
+    };
+    let (xs, ys) = ([10.0, 10.5, 11.0], [5.0, 7.0]);
+    // The tensor at (x, y) has xx = x, yy = y, so that each says where it belongs.
+    let stress =
+        |places: &[(f64, f64)]| places.iter().flat_map(|(x, y)| [*x, 0.25, *y]).collect::<Vec<f64>>();
+    let rows: Vec<(f64, f64)> = ys.iter().flat_map(|&y| xs.map(|x| (x, y))).collect();
+    let columns: Vec<(f64, f64)> = xs.iter().flat_map(|&x| ys.map(|y| (x, y))).collect();
+    let falling: Vec<(f64, f64)> = ys.iter().rev().flat_map(|&y| xs.map(|x| (x, y))).collect();
+    let (of_x, of_y) = (
+        |p: &[(f64, f64)]| p.iter().map(|p| p.0).collect(),
+        |p: &[(f64, f64)]| p.iter().map(|p| p.1).collect(),
+    );
+    let archives = [
+        [
+            member("x", &[3], xs.to_vec()),
+            member("y", &[2], ys.to_vec()),
+            member("s", &[2, 3, 3], stress(&rows)),
+        ],
+        [
+            member("X", &[2, 3], of_x(&rows)),
+            member("Y", &[2, 3], of_y(&rows)),
+            member("s", &[2, 3, 3], stress(&rows)),
+        ],
+        [
+            member("lon", &[2, 3], of_x(&falling)),
+            member("lat", &[2, 3], of_y(&falling)),
+            member("s", &[2, 3, 3], stress(&falling)),
+        ],
+        [
+            member("x", &[3], xs.to_vec()),
+            member("y", &[2], ys.to_vec()),
+            member("s", &[3, 2, 3], stress(&columns)),
+        ],
+        [
+            member("x", &[3, 2], of_x(&columns)),
+            member("y", &[3, 2], of_y(&columns)),
+            member("s", &[3, 2, 3], stress(&columns)),
+        ],
+    ];
+    for (which, members) in archives.iter().enumerate() {
+        let lattice = npy::lattice_of_members(members, ArrayChoice::Usual, Wanted::Tensors).unwrap();
+        let slice = lattice.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap();
+        let tensors: Vec<[f64; 4]> = slice.field.values().iter().map(Tensor2::components).collect();
+        let expected: Vec<[f64; 4]> = falling.iter().map(|&(x, y)| [x, 0.25, 0.25, y]).collect();
+        assert_eq!(tensors, expected, "archive {which}: row 0 is the one of the largest y");
+        let geometry = slice.cut.geometry;
+        assert_eq!(
+            (geometry.corner(), geometry.spacing()),
+            ([10.0, 5.0, 0.0], [0.5, 2.0]),
+            "archive {which}"
+        );
+    }
+    let mut uneven = archives[0].clone();
+    uneven[0] = member("x", &[3], vec![10.0, 10.5, 12.0]);
+    let fault = npy::lattice_of_members(&uneven, ArrayChoice::Usual, Wanted::Tensors);
+    assert!(matches!(fault, Err(IoError::NpzPositions { .. })), "{fault:?}");
+    // Positions of another size place nothing, and that is said.
+    let mut other = archives[0].clone();
+    other[0] = member("x", &[4], vec![0.0; 4]);
+    let lattice = npy::lattice_of_members(&other, ArrayChoice::Usual, Wanted::Tensors).unwrap();
+    assert!(
+        lattice.warnings.iter().any(|w| w.contains("positions x, y left aside")),
+        "{:?}",
+        lattice.warnings
+    );
+}
+
+/// Volumes with one array a component are told from volumes of tuples by the names, whatever the length of their last axis, and
+/// their components are along the axes of their positions.
+#[test]
+fn volumes_of_archives_have_one_array_a_component() {
+    let member = |name: &str, shape: &[usize], values: Vec<f64>| {
+        (name.to_owned(), npy::write_array(shape, &values).unwrap())
+    };
+    for layers in [2, 3, 4, 6, 7, 9] {
+        let shape = [3, 2, layers];
+        let of = |f: fn(f64, f64, f64) -> f64| -> Vec<f64> {
+            let at = |i: usize| (i / layers / 2, i / layers % 2, i % layers);
+            (0..6 * layers).map(at).map(|(x, y, z)| f(x as f64, 5.0 - y as f64, z as f64)).collect()
+        };
+        let members = [
+            member("x", &[3], vec![0.0, 1.0, 2.0]),
+            // Downwards: the voxel axis is not the axis of the components.
+            member("y", &[2], vec![5.0, 4.0]),
+            member("z", &[layers], (0..layers).map(|z| z as f64).collect()),
+            member("sxx", &shape, of(|x, _, z| x + 10.0 * z)),
+            member("syy", &shape, of(|_, y, _| y)),
+            member("szz", &shape, of(|_, _, z| z)),
+            member("sxy", &shape, of(|x, y, _| 0.1 * x * y)),
+            member("sxz", &shape, vec![0.0; 6 * layers]),
+            member("syz", &shape, vec![0.0; 6 * layers]),
+        ];
+        let arrays = ComponentArrays::parse("XX=sxx,YY=syy,ZZ=szz,XY=sxy,XZ=sxz,YZ=syz").unwrap();
+        for choice in [ArrayChoice::Usual, ArrayChoice::Components(&arrays)] {
+            let lattice = npy::lattice_of_members(&members, choice, Wanted::Tensors).unwrap();
+            assert_eq!((lattice.size, lattice.frame.0), (shape, Frame::World), "{layers} layers");
+            let choice = PlaneChoice { plane: Some(Plane::Xy), slice: Some((Axis::Z, 1)) };
+            let slice = lattice.tensors(Reading::default()).unwrap().slice(choice).unwrap();
+            // On top right: x = 2, y = 5.
+            let t = slice.field.at(Cell::new(2, 0));
+            assert_eq!(t.components(), [12.0, 1.0, 1.0, 5.0], "{layers} layers");
+        }
+    }
+}
+
+/// One array at points and one in cells are as ambiguous as two at points.
+#[test]
+fn points_and_cells_are_not_chosen_between() {
+    let mut both = ImageData::empty([4, 3, 1]);
+    both.point_arrays.push(DataArray::new("s", 4, [5.0, 2.0, 2.0, -1.0].repeat(12)));
+    both.cell_arrays.push(DataArray::new("s", 4, [9.0, 0.0, 0.0, 9.0].repeat(6)));
+    for choice in [None, Some("s")] {
+        let fault = lattice_from_image(&both, choice, Wanted::Tensors).unwrap_err().to_string();
+        assert!(fault.contains("`points:s`") && fault.contains("`cells:s`"), "{fault}");
+    }
+    let read = |name| lattice_from_image(&both, Some(name), Wanted::Tensors).map(|l| (l.size, l.values[0]));
+    assert_eq!(read("points:s"), Ok(([4, 3, 1], 5.0)));
+    assert_eq!(read("cells:s"), Ok(([3, 2, 1], 9.0)));
+    assert!(read("cells:t").is_err());
+    // The one that the file marks as its tensors is meant.
+    both.cell_active.tensors = Some("s".to_owned());
+    assert_eq!(lattice_from_image(&both, None, Wanted::Tensors).unwrap().size, [3, 2, 1]);
+    both.point_active.tensors = Some("s".to_owned());
+    assert!(lattice_from_image(&both, None, Wanted::Tensors).is_err());
+}
+
+/// Arrays whose first axis could be the components are said, and refused where the last is a mask and six numbers.
+#[test]
+fn arrays_that_could_have_their_components_first_are_said() {
+    let read = |shape: &[usize]| {
+        let array = npy::write_array(shape, &vec![1.0; shape.iter().product()]).unwrap();
+        npy::read_lattice(&array, Wanted::Tensors).map(|l| l.warnings.len())
+    };
+    assert_eq!(read(&[3, 40, 4]), Ok(1));
+    assert_eq!(read(&[20, 40, 4]), Ok(0));
+    assert!(matches!(read(&[3, 6, 7]), Err(IoError::NpyComponentsFirst { .. })));
+    assert_eq!(read(&[20, 6, 7]), Ok(0));
+}
+
+/// What VTK hides is no data, what it duplicates is.
+#[test]
+fn hidden_points_and_cells_are_masked() {
+    let mut grid = ImageData::empty([4, 3, 1]);
+    let tuple: Vec<f64> = (0..12).flat_map(|i| [f64::from(i) + 1.0, 0.0, 0.0, 1.0]).collect();
+    grid.point_arrays.push(DataArray::new("t", 4, tuple));
+    let mut ghosts = vec![0.0; 12];
+    (ghosts[5], ghosts[6], ghosts[0]) = (2.0, 1.0, 3.0);
+    grid.point_arrays.push(DataArray::new("vtkGhostType", 1, ghosts));
+    let masked = |image: &ImageData, array: &str| -> Vec<usize> {
+        let mask = lattice_from_image(image, Some(array), Wanted::Tensors).unwrap().mask.unwrap();
+        (0..mask.len()).filter(|&i| mask[i] == 0.0).collect()
+    };
+    assert_eq!(masked(&grid, "t"), [0, 5]);
+    // Cells with a hidden point are hidden.
+    grid.cell_arrays.push(DataArray::new("c", 4, vec![1.0; 24]));
+    assert_eq!(masked(&grid, "c"), [0, 1, 3, 4]);
+    // Points are, where all their cells are.
+    grid.point_arrays.pop();
+    grid.cell_arrays.push(DataArray::new("vtkGhostType", 1, vec![32.0, 32.0, 0.0, 1.0, 8.0, 0.0]));
+    assert_eq!(masked(&grid, "t"), [0, 1]);
+    assert_eq!(masked(&grid, "c"), [0, 1, 4]);
+}
+
+#[test]
+fn engineering_shears_are_halved_once() {
+    let order = |order| Reading { order: Some(order), shear: Some(Shear::Engineering), ..Reading::default() };
+    let six =
+        lattice_from_image(&image("strain", &[5.0, -1.0, 3.0, 4.0, 0.6, 0.8], &[]), None, Wanted::Tensors)
+            .unwrap();
+    let volume = six.tensors(order("vtk")).unwrap();
+    assert_eq!(volume.stored(0), [5.0, 2.0, 0.4, 2.0, -1.0, 0.3, 0.4, 0.3, 3.0]);
+    let plain = lattice_from_image(
+        &image("strain", &[5.0, -1.0, 4.0], &["xx", "yy", "gamma_xy"]),
+        None,
+        Wanted::Tensors,
+    );
+    let volume =
+        plain.unwrap().tensors(Reading { shear: Some(Shear::Engineering), ..Reading::default() }).unwrap();
+    assert_eq!(volume.stored(0)[..2], [5.0, 2.0]);
+    assert!(!volume.suggests_engineering_shears(), "said");
+    let strain = image("strain", &[5.0, -1.0, 3.0, 4.0, 0.6, 0.8], &[]);
+    let open = lattice_from_image(&strain, None, Wanted::Tensors).unwrap();
+    assert!(open.tensors(Reading::default()).unwrap().suggests_engineering_shears());
+    let nine = lattice_from_image(&image("strain", &[1.0; 9], &[]), None, Wanted::Tensors).unwrap();
+    assert!(matches!(nine.tensors(order("vtk")), Err(IoError::NoSharedShear { .. })));
+}
+
+fn legacy_bytes(kind: &str, body: &[u8]) -> Vec<u8> {
+    let head =
+        format!("# vtk DataFile Version 5.1\ntitle\n{kind}\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 1 1\n");
+    [head.as_bytes(), body].concat()
+}
+
+#[test]
+fn legacy_files_name_their_components() {
+    let body = "POINT_DATA 2\nTENSORS6 t double\n5 -1 3 0.3 0.4 2\n5 -1 3 0.3 0.4 2\nMETADATA\nCOMPONENT_NAMES\nXX\nYY\nZZ\nYZ\nXZ\nX%59\n\
+                INFORMATION 0\n\nFIELD FieldData 2\nother 2 2 double\n1 2 3 4\nMETADATA\nCOMPONENT_NAMES\na%20b\nc\n\nlast 1 2 int\n7 8\n";
+    // Keywords in any case, too.
+    for body in [
+        body.to_owned(),
+        body.replace("POINT_DATA", "point_data")
+            .replace("TENSORS6", "Tensors6")
+            .replace("METADATA", "metadata"),
+    ] {
+        let image = legacy::read(&legacy_bytes("ASCII", body.as_bytes())).unwrap();
+        let lattice = lattice_from_image(&image, None, Wanted::Tensors).unwrap();
+        assert_eq!(lattice.order.map(|o| o.1), Some(Known::Stated));
+        assert_eq!(plane(lattice, Reading::default()), Ok(EXPECTED));
+        assert_eq!(image.point_array("other").unwrap().component_names, ["a b", "c"]);
+        assert_eq!(image.point_array("last").unwrap().values, [7.0, 8.0]);
+    }
+}
+
+/// Arrays without numbers are stepped over to the byte, so that what follows is right.
+#[test]
+fn legacy_files_may_hold_what_nobody_asked_for() {
+    let text = "FIELD FieldData 2\nunits 1 1 string\nMPa of 2%20K\nflags 1 3 bit\n1 0 1\nPOINT_DATA 2\nSCALARS b bit\nLOOKUP_TABLE default\n1 0\n\
+                FIELD more 2\nnames 1 2 string\nalpha\nbeta gamma\nt 9 2 double\n5 2 0 2 -1 0 0 0 3 5 2 0 2 -1 0 0 0 3\n";
+    let image = legacy::read(&legacy_bytes("ASCII", text.as_bytes())).unwrap();
+    assert_eq!(
+        plane(lattice_from_image(&image, None, Wanted::Tensors).unwrap(), Reading::default()),
+        Ok(EXPECTED)
+    );
+    assert_eq!(image.skipped, ["`b` (bit, no numbers)", "`names` (string, no numbers)"]);
+    let mut body = b"POINT_DATA 2\nFIELD more 4\nids 1 2 vtkIdType\n".to_vec();
+    body.extend([0, 0, 0, 3, 0, 0, 0, 9, b'\n']);
+    body.extend(b"names 1 2 string\n\xc3abc");
+    // A string of 70 bytes has its length in two.
+    body.extend([0x80, 70]);
+    body.extend([b'x'; 70]);
+    body.extend(b"\nbits 9 2 bit\n");
+    body.extend([0xff, 0x00, 0x80, b'\n']);
+    body.extend(b"t 9 2 double\n");
+    let tuple = [5.0_f64, 2.0, 0.0, 2.0, -1.0, 0.0, 0.0, 0.0, 3.0];
+    body.extend(tuple.repeat(2).iter().flat_map(|v| v.to_be_bytes()));
+    let image = legacy::read(&legacy_bytes("BINARY", &body)).unwrap();
+    assert_eq!(image.point_array("ids").unwrap().values, [3.0, 9.0]);
+    assert_eq!(
+        plane(lattice_from_image(&image, None, Wanted::Tensors).unwrap(), Reading::default()),
+        Ok(EXPECTED)
+    );
+    // More strings than bytes are refused before anything is counted.
+    let huge = legacy_bytes("ASCII", b"FIELD f 1\ns 1 99999999999 string\nx\n");
+    assert!(matches!(legacy::read(&huge), Err(IoError::ArrayTruncated { .. })));
+}
+
+fn nrrd_text(fields: &str) -> Result<Lattice, IoError> {
+    let numbers = "5 2 0.4 -1 0.3 3 ".repeat(2);
+    let head = format!(
+        "NRRD0005\ntype: float\ndimension: 4\nsizes: 6 2 1 1\nencoding: ascii\n{fields}\n\n{numbers}"
+    );
+    nrrd::read(head.as_bytes(), None)
+}
+
+#[test]
+fn nrrd_axes_that_are_none_are_refused() {
+    let kind = "kinds: 3D-symmetric-matrix space space space\nspace dimension: 3\nspace directions: ";
+    assert!(nrrd_text(&format!("{kind}none (1,0,0) (0,1,0) (0,0,1)")).is_ok());
+    for (directions, words) in [
+        ("none (1,0,0) (2,0,0) (0,0,1)", "linearly independent"),
+        ("none (1,0,0) none (0,0,1)", "`none` for the axis of components only"),
+        ("(1,0,0) none (0,1,0) (0,0,1)", "`none` for the axis of components"),
+        ("none (1,0,0) (0,1,0) (0,0,1) none", "vectors"),
+        ("none (1,0,0) (0,1,0) (0,0,0)", "linearly independent"),
+    ] {
+        let fault = nrrd_text(&format!("{kind}{directions}")).unwrap_err().to_string();
+        assert!(fault.starts_with("line ") && fault.contains(words), "{directions}: {fault}");
+    }
+    let twice =
+        nrrd_text("kinds: 3D-symmetric-matrix space space space\nencoding: raw").unwrap_err().to_string();
+    assert!(twice.contains("every field once") && twice.contains("encoding"), "{twice}");
+}
+
+/// Seven gradients are not a mask and six components.
+#[test]
+fn nrrd_of_diffusion_weighted_images_is_refused() {
+    for key in ["modality:=DWMRI", "DWMRI_gradient_0000:=1 0 0"] {
+        let fault = nrrd_text(&format!("kinds: list domain domain domain\n{key}")).unwrap_err();
+        assert!(matches!(fault, IoError::NrrdWeighted { .. }), "{fault}");
+        assert!(nrrd_text(&format!("kinds: 3D-symmetric-matrix domain domain domain\n{key}")).is_ok());
+    }
+}
+
+#[test]
+fn nrrd_labels_name_components() {
+    let labels = "kinds: list domain domain domain\nlabels: \"XX;XY;XZ;YY;YZ;ZZ\" \"x\" \"y\" \"z\"";
+    let lattice = nrrd_text(labels).unwrap();
+    assert_eq!(lattice.order, Some((TensorOrder::UPPER, Known::Stated)));
+    let other = nrrd_text(&labels.replace("XX;XY;XZ;YY;YZ;ZZ", "xx yy zz xy yz xz")).unwrap();
+    assert_eq!(other.order, Some((TensorOrder::VTK, Known::Stated)));
+    for kind in ["list", "vector", "???"] {
+        let lattice = nrrd_text(&format!("kinds: {kind} domain domain domain")).unwrap();
+        assert_eq!(lattice.order, Some((TensorOrder::UPPER, Known::Assumed)), "{kind}: as ITK writes");
+    }
+}
+
+/// NIfTI of one voxel with the affine of the sform, and another qform where asked.
+fn nifti_voxel(
+    affine: [[f32; 4]; 3],
+    shape: [i16; 8],
+    intent: i16,
+    values: &[f64],
+    qform: Option<[f32; 3]>,
+) -> Vec<u8> {
+    let mut head = vec![0_u8; 352];
+    let mut put = |at: usize, bytes: &[u8]| head[at..at + bytes.len()].copy_from_slice(bytes);
+    put(0, &348_i32.to_le_bytes());
+    shape.iter().enumerate().for_each(|(i, n)| put(40 + 2 * i, &n.to_le_bytes()));
+    put(68, &intent.to_le_bytes());
+    put(70, &64_i16.to_le_bytes());
+    put(72, &64_i16.to_le_bytes());
+    [1.0_f32, 2.0, 2.0, 2.0].iter().enumerate().for_each(|(i, v)| put(76 + 4 * i, &v.to_le_bytes()));
+    put(108, &352_f32.to_le_bytes());
+    put(254, &1_i16.to_le_bytes());
+    affine.iter().flatten().enumerate().for_each(|(i, v)| put(280 + 4 * i, &v.to_le_bytes()));
+    if let Some(offset) = qform {
+        put(252, &1_i16.to_le_bytes());
+        offset.iter().enumerate().for_each(|(i, v)| put(268 + 4 * i, &v.to_le_bytes()));
+    }
+    put(344, b"n+1\0");
+    head.write_all(&ScalarType::Float64.encode(values)).unwrap();
+    head
+}
+
+const RAS: [[f32; 4]; 3] = [[2.0, 0.0, 0.0, 0.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, 2.0, 0.0]];
+const LAS: [[f32; 4]; 3] = [[-2.0, 0.0, 0.0, 0.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, 2.0, 0.0]];
+
+/// The angle of a tensor's major axis in the world, degrees from 0 to 180.
+fn world_angle(lattice: Lattice, reading: Reading) -> f64 {
+    let [xx, xy, _, _, yy, ..] = lattice.tensors(reading).unwrap().in_world().unwrap()[0];
+    Svd::of(&Tensor2::symmetric(xx, xy, yy)).phi_rad().to_degrees().rem_euclid(180.0)
+}
+
+/// One fibre at 30 degrees in the world, fitted with FSL's gradient tables, is at 150 degrees in its axes for images of either hand.
+#[test]
+fn fsl_tensors_are_along_its_gradient_tables() {
+    let t = Tensor2::from_eigen(150.0_f64.to_radians(), 3.0, 1.0);
+    let upper = [t.xx(), t.xy(), 0.0, t.yy(), 0.0, 1.0];
+    let fsl = Reading { order: Some("fsl"), ..Reading::default() };
+    for affine in [RAS, LAS] {
+        let file = nifti_voxel(affine, [4, 1, 1, 1, 6, 1, 1, 1], 0, &upper, None);
+        let lattice = nifti::read(&file).unwrap();
+        assert_eq!(lattice.reverses_x_for_fsl(), affine == RAS);
+        assert!((world_angle(lattice.clone(), fsl) - 30.0).abs() < 1e-9);
+        let volume = lattice.clone().tensors(fsl).unwrap();
+        assert_eq!(volume.frame(), (Frame::Fsl, Known::Convention));
+        // The user's frame comes first, whatever the order.
+        let voxel = Reading { frame: Some(Frame::Voxel), ..fsl };
+        let along_voxels = if affine == RAS { 150.0 } else { 30.0 };
+        assert!((world_angle(lattice, voxel) - along_voxels).abs() < 1e-9);
+        // Written as FSL reads it, it is what FSL wrote.
+        let back = nifti::read(&nifti::write(&volume, nifti::WrittenAs::Fsl, "").unwrap()).unwrap();
+        assert!(back.values.iter().zip(upper).all(|(a, b)| (a - b).abs() < 1e-15), "{:?}", back.values);
+        let mrtrix = nifti::read(&nifti::write(&volume, nifti::WrittenAs::Mrtrix, "").unwrap()).unwrap();
+        assert!(
+            (world_angle(mrtrix, Reading { order: Some("mrtrix"), ..Reading::default() }) - 30.0).abs()
+                < 1e-9
+        );
+    }
+    // A frame that the file states is not replaced by the program's.
+    let lattice = lattice_from_image(&image("t", &upper, &[]), None, Wanted::Tensors).unwrap();
+    assert_eq!(lattice.tensors(fsl).unwrap().frame().0, Frame::World);
+}
+
+#[test]
+fn nifti_vectors_of_an_intent_are_along_the_world() {
+    for intent in [1006, 1007] {
+        let two = nifti_voxel(LAS, [5, 1, 1, 1, 1, 2, 1, 1], intent, &[1.0, 2.0], None);
+        assert_eq!(nifti::read(&two).unwrap().frame.0, Frame::World);
+    }
+    for (intent, frame) in [(1007, Frame::World), (1006, Frame::World), (0, Frame::Voxel)] {
+        let file = nifti_voxel(LAS, [5, 1, 1, 1, 1, 3, 1, 1], intent, &[1.0, 2.0, 3.0], None);
+        assert_eq!(nifti::read(&file).unwrap().frame.0, frame, "intent {intent}");
+    }
+}
+
+#[test]
+fn transforms_that_disagree_are_said() {
+    let file = |qform| nifti_voxel(RAS, [4, 1, 1, 1, 6, 1, 1, 1], 0, &[0.0; 6], qform);
+    assert!(nifti::read(&file(None)).unwrap().warnings.is_empty());
+    assert!(nifti::read(&file(Some([0.0; 3]))).unwrap().warnings.is_empty());
+    let apart = nifti::read(&file(Some([0.0, 0.0, 5.0]))).unwrap().warnings;
+    assert!(apart[0].contains("disagree by up to 5.000"), "{apart:?}");
+}
+
+/// Half turns come with parts of single precision, whose squares do not add up to 1.
+#[test]
+fn half_turns_of_quaternions_are_exact() {
+    let half = (0.5_f32).sqrt();
+    let mut file = nifti_voxel(RAS, [4, 1, 1, 1, 6, 1, 1, 1], 0, &[0.0; 6], Some([0.0; 3]));
+    // No sform; half a turn about the diagonal of x and y swaps them and reverses z.
+    file[254..256].copy_from_slice(&0_i16.to_le_bytes());
+    for (i, part) in [half, half, 0.0].into_iter().enumerate() {
+        file[256 + 4 * i..260 + 4 * i].copy_from_slice(&part.to_le_bytes());
+    }
+    let axes = nifti::read(&file).unwrap().axes;
+    let expected = [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]];
+    for (found, expected) in axes.iter().flatten().zip(expected.iter().flatten()) {
+        assert!((found - expected).abs() < 1e-7, "{axes:?}");
+    }
+}
+
+/// Single precision stays single: teem's `tend` takes no double.
+#[test]
+fn files_are_written_in_the_precision_they_had() {
+    for scalar in [ScalarType::Float32, ScalarType::Float64, ScalarType::Int16] {
+        let mut image = image("t", &[5.0, -1.0, 3.0, 2.0, 0.0, 0.0], &[]);
+        image.point_arrays[0].scalar = scalar;
+        let volume =
+            lattice_from_image(&image, None, Wanted::Tensors).unwrap().tensors(Reading::default()).unwrap();
+        let expected = if scalar == ScalarType::Float64 { ScalarType::Float64 } else { ScalarType::Float32 };
+        let nrrd = nrrd::read(&nrrd::write(&volume, Frame::World, "").unwrap(), None).unwrap();
+        let nifti = nifti::read(&nifti::write(&volume, nifti::WrittenAs::Matrices, "").unwrap()).unwrap();
+        assert_eq!((nrrd.scalar, nifti.scalar), (expected, expected), "{scalar:?}");
+    }
+    let skew = image("t", &[1.0, 2.0, 3.0, 4.0], &[]);
+    let skew = lattice_from_image(&skew, None, Wanted::Tensors).unwrap().tensors(Reading::default()).unwrap();
+    assert_eq!(nifti::write(&skew, nifti::WrittenAs::Fsl, ""), Err(IoError::NotSymmetric));
+}
+
+/// A points file hides points like an image does.
+#[test]
+fn points_are_masked_like_images() {
+    let points = (0..4).map(|i| [f64::from(i % 2), f64::from(i / 2), 0.0]).collect();
+    let mut data = tigereye_io::PolyData { points, ..tigereye_io::PolyData::default() };
+    data.point_arrays.push(DataArray::new("t", 4, vec![1.0; 16]));
+    data.point_arrays.push(DataArray::new("vtkGhostType", 1, vec![0.0, 2.0, 0.0, 0.0]));
+    let lattice = lattice_from_points(data, None, Wanted::Tensors).unwrap();
+    assert_eq!(lattice.mask, Some(vec![1.0, 0.0, 1.0, 1.0]));
+    assert!(lattice.notes.iter().any(|n| n.contains("1 points hidden")), "{:?}", lattice.notes);
+}
+
+/// ITK writes images of vectors as it has them in memory: left, posterior and superior.
+#[test]
+fn vectors_of_itk_are_read_along_its_axes() {
+    let file = nifti_voxel(RAS, [5, 1, 1, 1, 1, 3, 1, 1], 1007, &[1.0, 2.0, 3.0], None);
+    let lattice = nifti::read(&file).unwrap();
+    let plane = PlaneChoice { plane: Some(Plane::Xy), slice: None };
+    let shown = |frame| lattice.vectors(plane, frame).unwrap().field.values()[0];
+    assert_eq!((shown(None), shown(Some(Frame::Lps))), ([1.0, 2.0], [-1.0, -2.0]));
+}
+
+/// FSL reverses nothing where nobody says how a volume lies.
+#[test]
+fn volumes_without_an_affine_are_not_reversed_for_fsl() {
+    let mut file = nifti_voxel(RAS, [4, 1, 1, 1, 6, 1, 1, 1], 0, &[0.0; 6], None);
+    assert!(nifti::read(&file).unwrap().reverses_x_for_fsl());
+    file[254..256].copy_from_slice(&0_i16.to_le_bytes());
+    assert!(!nifti::read(&file).unwrap().reverses_x_for_fsl());
+}
+
+/// What a plane does not have is refused, not shown as zero; two components of a model in a plane are along its axes.
+#[test]
+fn components_belong_to_the_plane_that_is_shown() {
+    let upright = |components: usize, names: &[&str]| {
+        let mut image = ImageData::empty([3, 1, 2]);
+        let tuple: Vec<f64> = (1..=components).map(|v| v as f64).collect();
+        image.point_arrays.push(DataArray::new("t", components, tuple.repeat(6)).with_component_names(names));
+        image
+    };
+    let image = upright(3, &["S11", "S22", "S12"]);
+    let tensors = |reading| {
+        let lattice = lattice_from_image(&image, None, Wanted::Tensors).unwrap();
+        lattice.tensors(reading).unwrap().slice(PlaneChoice::default()).map(|s| s.field.values()[0])
+    };
+    let fault = tensors(Reading::default()).unwrap_err().to_string();
+    assert!(fault.contains("xx,yy,xy") && fault.contains("--order xx,zz,xz"), "{fault}");
+    let by = |order| tensors(Reading { order: Some(order), ..Reading::default() });
+    assert_eq!(by("xx,zz,xz"), Ok(Tensor2::symmetric(1.0, 3.0, 2.0)));
+    let vectors = lattice_from_image(&upright(2, &[]), None, Wanted::Vectors).unwrap();
+    assert_eq!(vectors.vectors(PlaneChoice::default(), None).unwrap().field.values()[0], [1.0, 2.0]);
+}
+
+#[test]
+fn nrrd_axes_may_be_given_by_their_ranges() {
+    let head = |more: &str| {
+        let text = format!(
+            "NRRD0004\ntype: float\ndimension: 3\nsizes: 6 3 2\nkinds: 3D-symmetric-matrix domain domain\nencoding: ascii\n\
+             axis mins: nan 1 10\naxis maxs: nan 4 14\n{more}\n\n{}",
+            "1 0 0 1 0 1 ".repeat(6)
+        );
+        let lattice = nrrd::read(text.as_bytes(), None).unwrap();
+        ((lattice.axes[0][0], lattice.axes[1][1], lattice.origin), lattice.remarks)
+    };
+    let (node, cell) = ((1.5, 4.0, [1.0, 10.0, 0.0]), (1.0, 2.0, [1.5, 11.0, 0.0]));
+    assert_eq!(head("centerings: ??? node node"), (node, vec![]));
+    assert_eq!(head("centerings: ??? cell cell"), (cell, vec![]));
+    // Spacings tell, too.
+    assert_eq!(head("spacings: nan 1.5 4"), (node, vec![]));
+    assert_eq!(head("spacings: nan 1 2"), (cell, vec![]));
+    let (at, remarks) = head("content: field");
+    assert_eq!(at, cell);
+    assert!(
+        remarks.len() == 1 && remarks[0].contains("of axis 2, 3 are taken as the outer borders"),
+        "{remarks:?}"
+    );
+}

@@ -1,0 +1,5 @@
+//! The layering and the house rules, checked.
+
+mod architecture;
+mod modules;
+mod pages;

@@ -42,8 +42,8 @@ struct State {
 }
 
 impl Checkpoint {
-    /// Makes the folder where it is missing, and reads what an earlier run of the same sweep left in it. Nothing of another
-    /// sweep is touched.
+    /// Makes the folder where it is missing, and reads what an earlier run of the same sweep left in it. Nothing of
+    /// another sweep is touched.
     pub(crate) fn open(
         folder: &Path,
         command: String,
@@ -136,8 +136,9 @@ fn shard_name(shard: Shard) -> String {
     if shard == Shard::WHOLE { "none".to_owned() } else { shard.to_string() }
 }
 
-/// One run at a time: two would overwrite each other's file. The system gives the lock back, however this run ends; where it
-/// cannot lock files there is none. A file of its own, open for writing: network file systems lock nothing else.
+/// One run at a time: two would overwrite each other's file. The system gives the lock back, however this run ends;
+/// where it cannot lock files there is none. A file of its own, open for writing: network file systems lock nothing
+/// else.
 fn lock(folder: &Path, name: &str) -> Result<Option<File>, CliError> {
     let Ok(file) = File::options().create(true).truncate(false).write(true).open(folder.join(LOCK)) else {
         return Ok(None);

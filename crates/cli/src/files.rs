@@ -43,8 +43,8 @@ pub(crate) fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, CliError> {
 /// How the names of temporary files begin.
 const TEMPORARY: &str = ".tigereye-";
 
-/// Temporary files of this process, and folders made for them. Dropped, they are gone; where the process ends at once, [`abandon`]
-/// removes them.
+/// Temporary files of this process, and folders made for them. Dropped, they are gone; where the process ends at once,
+/// [`abandon`] removes them.
 static PENDING: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 fn pending() -> MutexGuard<'static, BTreeSet<PathBuf>> {
@@ -107,8 +107,8 @@ pub(crate) fn abandon() {
 
 /// A folder for files that belong together, which become visible all at once.
 ///
-/// Each waits under a temporary name until [`Self::finish`]; without it they are gone, and so is the folder where it was made for
-/// them. What was in the folder before stays until then.
+/// Each waits under a temporary name until [`Self::finish`]; without it they are gone, and so is the folder where it
+/// was made for them. What was in the folder before stays until then.
 pub(crate) struct Staging {
     folder: PathBuf,
     /// Whether the folder was made for the files.

@@ -18,7 +18,8 @@ pub(crate) fn install(clear: fn()) -> Result<(), CliError> {
     .map_err(|e| CliError::Input(format!("cannot watch for interrupts: {e}")))
 }
 
-/// From now on the first interrupt ends the program, because what it does does not ask. Files that are being written are removed.
+/// From now on the first interrupt ends the program, because what it does does not ask. Files that are being written
+/// are removed.
 pub(crate) fn end_at_once() {
     AT_ONCE.store(true, Ordering::SeqCst);
 }

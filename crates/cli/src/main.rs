@@ -28,7 +28,7 @@ fn main() -> ExitCode {
     if let Err(error) = interrupt::install(clear_away) {
         return report(&error);
     }
-    // A wrong name is told before anything runs, not ignored.
+    // An unknown instruction set is reported before anything runs, not ignored.
     match system::level().and_then(|_| dispatch(cli)) {
         Ok(code) => ExitCode::from(code),
         Err(error) => report(&error),

@@ -1,4 +1,5 @@
-//! The commands of the README and of the documentation work as they stand, and the reference of commands is the program's own help.
+//! The commands of the README and of the documentation work as they stand, and the reference of commands is the
+//! program's own help.
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
 use std::fmt::Write as _;

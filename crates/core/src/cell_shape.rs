@@ -2,11 +2,12 @@
 
 use crate::math;
 
-/// Sides that differ by less than this part are equal: spacings are kept in single precision, and as differences of positions.
+/// Sides that differ by less than this part are equal: spacings are kept in single precision, and as differences of
+/// positions.
 const SQUARE: f64 = 1e-6;
 
-/// The sides of a cell. Points are counted in cells along x and y; directions, lengths and areas are physical, in the unit of the smaller
-/// side. Where cells are square the two are the same, to the last bit.
+/// The sides of a cell. Points are counted in cells along x and y; directions, lengths and areas are physical, in the
+/// unit of the smaller side. Where cells are square the two are the same, to the last bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellShape {
     /// Along x and y, the smaller one 1.
@@ -23,8 +24,8 @@ impl CellShape {
     /// Cells as high as they are wide.
     pub const SQUARE: Self = Self { sides: [1.0; 2] };
 
-    /// Of cells at distances `spacing` along x and y, in any unit and of either sign. Distances that are none (zero, or not finite) make
-    /// squares.
+    /// Of cells at distances `spacing` along x and y, in any unit and of either sign. Distances that are none (zero, or
+    /// not finite) make squares.
     #[must_use]
     pub fn of(spacing: [f64; 2]) -> Self {
         let [dx, dy] = spacing.map(f64::abs);

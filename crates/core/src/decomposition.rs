@@ -139,11 +139,12 @@ impl Eigenvalues {
         }
     }
 
-    /// A real part up to this part of the larger one is zero: what single precision leaves of a vanishing eigenvalue has either sign.
+    /// A real part up to this part of the larger one is zero: what single precision leaves of a vanishing eigenvalue
+    /// has either sign.
     pub const ROUNDING: f64 = 1e-6;
 
-    /// What each axis does: the sign of the real parts (thesis, section 2.3), neutral where one is [`Self::ROUNDING`]. Colours glyphs,
-    /// never the propagation.
+    /// What each axis does: the sign of the real parts (thesis, section 2.3), neutral where one is [`Self::ROUNDING`].
+    /// Colours glyphs, never the propagation.
     #[must_use]
     pub fn axis_signs(&self) -> [AxisSign; 2] {
         let parts = self.real_parts();

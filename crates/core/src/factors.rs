@@ -24,8 +24,8 @@ pub enum OrthogonalFactor {
 }
 
 impl OrthogonalFactor {
-    /// The factor of `a`. Of a singular tensor it is the rotation that takes `v1` into `u1`, whatever sign rounding of the
-    /// components gives its determinant; of the zero tensor and of one that is not finite, the rotation by 0.
+    /// The factor of `a`. Of a singular tensor it is the rotation that takes `v1` into `u1`, whatever sign rounding of
+    /// the components gives its determinant; of the zero tensor and of one that is not finite, the rotation by 0.
     #[must_use]
     pub fn of(a: &Tensor2) -> Self {
         if !a.is_finite() {

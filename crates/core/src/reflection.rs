@@ -4,8 +4,9 @@ use crate::{Cell, CoreError};
 
 /// What a reflecting cell does to the light that arrives: an 8 x 8 matrix of shares from 0 to 1.
 ///
-/// A cell with a tensor passes its light on in a shape of its own and therefore normalises it (eq. 3.12). A wall does the same
-/// to whatever arrives: it is linear, its columns add up to its reflectance, and what is missing to 1 is absorbed.
+/// A cell with a tensor passes its light on in a shape of its own and therefore normalises it (eq. 3.12). A wall does
+/// the same to whatever arrives: it is linear, its columns add up to its reflectance, and what is missing to 1 is
+/// absorbed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reflection {
     shares: [[f64; 8]; 8],
@@ -15,8 +16,8 @@ impl Reflection {
     /// `shares[k][j]` of the flux that arrives in direction `j` leaves in direction `k`.
     ///
     /// # Errors
-    /// [`CoreError::ReflectionRange`] for a share that is negative or not a number, or a direction of which more than all is
-    /// reflected.
+    /// [`CoreError::ReflectionRange`] for a share that is negative or not a number, or a direction of which more than
+    /// all is reflected.
     pub fn new(shares: [[f64; 8]; 8]) -> Result<Self, CoreError> {
         for j in 0..8 {
             let sum: f64 = (0..8).map(|k| shares[k][j]).sum();

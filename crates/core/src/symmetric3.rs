@@ -56,8 +56,8 @@ fn rotate(a: &mut [[f64; 3]; 3], p: usize, q: usize) {
 }
 
 /// Fractional anisotropy of three eigenvalues, from 0 to 1 where none is negative: the norm of the deviator over the
-/// norm of the tensor, times sqrt(3/2) (Basser and Pierpaoli 1996). 0 for the zero tensor, not a number where an eigenvalue
-/// is infinite or none.
+/// norm of the tensor, times sqrt(3/2) (Basser and Pierpaoli 1996). 0 for the zero tensor, not a number where an
+/// eigenvalue is infinite or none.
 #[must_use]
 pub fn fractional_anisotropy3(l: [f64; 3]) -> f64 {
     if !l.iter().all(|v| v.is_finite()) {
@@ -72,9 +72,9 @@ pub fn fractional_anisotropy3(l: [f64; 3]) -> f64 {
     (0.5 * deviator / (a * a + b * b + c * c)).sqrt()
 }
 
-/// Mode of three eigenvalues, from -1 (one small, planar) over 0 (orthotropic) to 1 (one large, linear): the determinant of
-/// the deviator of norm 1, times 3 sqrt(6) (Criscione et al. 2000; Ennis and Kindlmann 2006). 0 for isotropic tensors, not a number
-/// where an eigenvalue is infinite or none.
+/// Mode of three eigenvalues, from -1 (one small, planar) over 0 (orthotropic) to 1 (one large, linear): the
+/// determinant of the deviator of norm 1, times 3 sqrt(6) (Criscione et al. 2000; Ennis and Kindlmann 2006). 0 for
+/// isotropic tensors, not a number where an eigenvalue is infinite or none.
 #[must_use]
 pub fn mode3(l: [f64; 3]) -> f64 {
     if !l.iter().all(|v| v.is_finite()) {

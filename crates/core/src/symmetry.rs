@@ -1,8 +1,9 @@
 //! Whether the tensors of a field are symmetric, up to what a file can hold.
 //!
-//! Files keep six digits or single precision, and what was averaged, turned or interpolated has lost more. Whether a field is
-//! symmetric is therefore asked of the field as a whole, with one number that the rounding of no cell moves; whether a tensor of it is,
-//! with a tolerance in the unit of the field, because rounding of a sum is as large where the sum is nearly zero.
+//! Files keep six digits or single precision, and what was averaged, turned or interpolated has lost more. Whether a
+//! field is symmetric is therefore asked of the field as a whole, with one number that the rounding of no cell moves;
+//! whether a tensor of it is, with a tolerance in the unit of the field, because rounding of a sum is as large where
+//! the sum is nearly zero.
 
 use crate::{Field, Tensor2};
 
@@ -14,11 +15,11 @@ pub struct Symmetry {
 }
 
 impl Symmetry {
-    /// A field is symmetric below this [`Symmetry::ratio`]. Single precision leaves 1e-7 and text of four digits 1e-4; the rotation of
-    /// a measured flow, or of a field made of rotations times axes, is some tenths.
+    /// A field is symmetric below this [`Symmetry::ratio`]. Single precision leaves 1e-7 and text of four digits 1e-4;
+    /// the rotation of a measured flow, or of a field made of rotations times axes, is some tenths.
     pub const SYMMETRIC_BELOW: f64 = 1e-3;
-    /// A tensor is symmetric where `|xy - yx|` is at most this part of the largest component of its field: a hundred times the
-    /// rounding of single precision.
+    /// A tensor is symmetric where `|xy - yx|` is at most this part of the largest component of its field: a hundred
+    /// times the rounding of single precision.
     pub const ROUNDING: f64 = 1e-5;
 
     /// Of all tensors that are finite; the others say nothing.
@@ -37,8 +38,8 @@ impl Symmetry {
         Self { ratio, largest }
     }
 
-    /// Root of the mean square of the antisymmetric parts over that of the tensors (Frobenius norms): 0 for symmetric tensors, 1 for
-    /// those that only turn.
+    /// Root of the mean square of the antisymmetric parts over that of the tensors (Frobenius norms): 0 for symmetric
+    /// tensors, 1 for those that only turn.
     #[must_use]
     pub const fn ratio(&self) -> f64 {
         self.ratio
@@ -58,8 +59,8 @@ impl Symmetry {
 }
 
 impl Field<Tensor2> {
-    /// The symmetric parts of a field that counts as symmetric ([`Symmetry::of`]), so that rounding has no axes and no complex
-    /// eigenvalues of its own; any other field as it is. Exactly symmetric tensors keep their bits.
+    /// The symmetric parts of a field that counts as symmetric ([`Symmetry::of`]), so that rounding has no axes and no
+    /// complex eigenvalues of its own; any other field as it is. Exactly symmetric tensors keep their bits.
     #[must_use]
     pub fn without_rounding(&self) -> Self {
         let is_exact = self.values().iter().all(|t| t.asymmetry() == 0.0);

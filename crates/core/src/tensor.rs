@@ -113,7 +113,8 @@ impl Tensor2 {
         (self.xy() - self.yx()).abs()
     }
 
-    /// Whether the shear components differ by at most `tolerance`, in the tensor's unit: [`crate::Symmetry`] knows that of a field.
+    /// Whether the shear components differ by at most `tolerance`, in the tensor's unit: [`crate::Symmetry`] knows that
+    /// of a field.
     #[must_use]
     pub fn is_symmetric_within(&self, tolerance: f64) -> bool {
         self.asymmetry() <= tolerance

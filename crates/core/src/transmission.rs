@@ -120,7 +120,8 @@ pub enum CellTransmission<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateScale {
     normalization: Normalization,
-    /// Binary exponent of the largest semi-axis: means are taken relative to it, so that no product overflows or vanishes.
+    /// Binary exponent of the largest semi-axis: means are taken relative to it, so that no product overflows or
+    /// vanishes.
     exponent: i32,
     /// Largest mean of the field's profiles, relative; 0 where the normalisation has no need of it.
     greatest_mean: f64,
@@ -318,7 +319,7 @@ impl TransmissionField {
     pub fn rates(&self) -> &[f64] {
         &self.rates
     }
-    /// What a reflecting cell does. Its rate and its shape are 0: it passes nothing on, and a light in it none either.
+    /// What a reflecting cell does. Its rate and its shape are 0: it transmits nothing, and nor does a light inside it.
     #[must_use]
     pub fn reflection(&self, cell: Cell) -> Option<&Reflection> {
         self.reflections.of(self.grid.index(cell))

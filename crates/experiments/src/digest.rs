@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 use tigereye_core::{Anisotropy, Field, Surface, Tensor2};
 use tigereye_report::ExperimentOutcome;
 
-/// Shapes, extrema, quantiles, counters and checks of an experiment. Numbers are rounded to nine digits; what is smaller
-/// than 1e-9 is rounding noise of the computation and kept as `~0`.
+/// Shapes, extrema, quantiles, counters and checks of an experiment. Numbers are rounded to nine digits; what is
+/// smaller than 1e-9 is rounding noise of the computation and kept as `~0`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Digest {
     slug: String,

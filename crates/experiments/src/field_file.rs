@@ -40,8 +40,8 @@ pub fn template(name: &str) -> String {
         height: 51,
         // Direction of the first semi-axis, radians counter-clockwise from the right.
         phi: "-theta",
-        // Equal lengths in the middle, where there is no direction; four to one further out. The product is 1 everywhere, so
-        // no cell transmits more than another.
+        // Equal lengths in the middle, where there is no direction; four to one further out. The product is 1
+        // everywhere, so no cell transmits more than another.
         s1: "1 + min(1, 4*r)",
         s2: "1/(1 + min(1, 4*r))",
     ),
@@ -62,7 +62,8 @@ pub fn experiment_template(name: &str) -> String {
     let head = format!(
         r#"// An experiment with the field of {name}{ENDING}. Run it with
 //     tigereye run {name}.ron --out {name}-results
-// In a folder below experiments/ of the project both files are found by `tigereye reproduce`, the tests and the gallery.
+// In a folder below experiments/ of the project both files are found by `tigereye reproduce`, the tests and the
+// gallery.
 "#
     );
     head + &experiment(name, "", &format!(r#"File(path: "{name}{ENDING}")"#), UNIT_DETERMINANT)

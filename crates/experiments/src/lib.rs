@@ -9,8 +9,9 @@
 //!                in the file)         expressions)
 //! ```
 //!
-//! [`runs`](crate::runs), [`panels`](crate::panels), [`quantities`](crate::quantities) and [`tables`](crate::tables) have a file for each
-//! kind. This crate opens no files and reads no clocks: the program hands it both through [`Host`].
+//! [`runs`](crate::runs), [`panels`](crate::panels), [`quantities`](crate::quantities) and [`tables`](crate::tables)
+//! have a file for each kind. This crate opens no files and reads no clocks: the program hands it both through
+//! [`Host`].
 
 mod digest;
 mod error;

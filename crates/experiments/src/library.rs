@@ -32,7 +32,8 @@ pub fn is_experiment(path: &str) -> bool {
     path.ends_with(".ron") && !path.ends_with(field_file::ENDING) && !scene::is_scene_file(path)
 }
 
-/// Bytes of a carried data file; `path` is `data/NAME` or `NAME`, or the name of a field, scene or picture beside any experiment.
+/// Bytes of a carried data file; `path` is `data/NAME` or `NAME`, or the name of a field, scene or picture beside any
+/// experiment.
 #[must_use]
 pub fn data(path: &str) -> Option<&'static [u8]> {
     let carried = DATA.get_file(path.strip_prefix("data/").unwrap_or(path));

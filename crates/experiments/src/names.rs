@@ -25,8 +25,8 @@ pub(crate) struct KnownRun {
 
 /// Hands out ids, and keeps what is asked for: faults, and what runs must keep of their steps.
 ///
-/// Figures, tables and checks are resolved one after the other ([`Self::item`]). One that needs a run of another scope is
-/// checked like any other and then left out.
+/// Figures, tables and checks are resolved one after the other ([`Self::item`]). One that needs a run of another scope
+/// is checked like any other and then left out.
 pub(crate) struct Names<'a, 'f> {
     media: &'a Media,
     runs: &'a [KnownRun],
@@ -67,7 +67,8 @@ impl<'a, 'f> Names<'a, 'f> {
         self.kept_for_all
     }
 
-    /// Resolves a figure's panel, a table's row or a check; `None` where it has faults, or needs a run that is not made.
+    /// Resolves a figure's panel, a table's row or a check; `None` where it has faults, or needs a run that is not
+    /// made.
     pub(crate) fn item<T>(
         &mut self,
         kind: &str,

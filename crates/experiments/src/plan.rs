@@ -1,5 +1,5 @@
-//! An experiment file to its plan: fields made, names looked up, cells, steps and directions checked, expressions parsed. After this
-//! nothing can be missing. All faults are reported at once.
+//! An experiment file to its plan: fields made, names looked up, cells, steps and directions checked, expressions
+//! parsed. After this nothing can be missing. All faults are reported at once.
 
 use crate::experiment::{Animation, Experiment, Figure};
 use crate::fault::{Faults, SpecError};

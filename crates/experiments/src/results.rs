@@ -7,7 +7,8 @@ use crate::unavailable::{OrUndefined, Unavailable};
 use std::ops::Index;
 use tigereye_core::{Field, LightDistribution};
 
-/// What figures, tables and checks are made of. A plan names only runs that were made, so that no id misses its outcome.
+/// What figures, tables and checks are made of. A plan names only runs that were made, so that no id misses its
+/// outcome.
 #[derive(Debug)]
 pub(crate) struct Results<'a> {
     media: &'a Media,

@@ -301,8 +301,8 @@ impl Reader<'_> {
         })
     }
 
-    /// Checks that lights can shine, in some directions at least, and stand in the open, as far as walls are known; what to report of
-    /// their profiles.
+    /// Checks that lights can shine, in some directions at least, and stand in the open, as far as walls are known;
+    /// what to report of their profiles.
     fn lights(&mut self, file: &SceneFile, grid: Grid, layout: Option<&Layout>) -> Vec<SpecError> {
         let in_wall = |(index, light): (usize, &Placed<LightSource>)| {
             let problem = light_fault(layout?, cell_of(light, grid))?;

@@ -61,7 +61,7 @@ pub enum SheetError {
     /// Tensors that cannot transmit.
     #[error(transparent)]
     Field(#[from] CoreError),
-    /// A size that is none.
+    /// An invalid size.
     #[error(transparent)]
     Size(#[from] FieldError),
     /// A light that cannot be.
@@ -74,7 +74,8 @@ pub enum SheetError {
 
 /// Angular samples of the light and the gradient.
 const SAMPLES: usize = 16;
-/// Longest side of the field that the gradient is computed of; larger ones are averaged to it, so that a sheet takes seconds.
+/// Longest side of the field that the gradient is computed of; larger ones are averaged to it, so that a sheet takes
+/// seconds.
 const LONGEST: usize = 31;
 /// The same for the light.
 const LONGEST_LIT: usize = 128;

@@ -120,7 +120,8 @@ pub(crate) fn beside(path: &str, name: &str, host: &dyn Host) -> String {
 /// A field that needs no reading, cropped and resampled.
 ///
 /// # Errors
-/// [`tigereye_input::InputError::Needless`] for what only data files have, and as [`PlaneField::cropped`] and [`PlaneField::resampled`].
+/// [`tigereye_input::InputError::Needless`] for what only data files have, and as [`PlaneField::cropped`] and
+/// [`PlaneField::resampled`].
 pub fn defined_plane(plane: PlaneField, reading: &Reading) -> Result<PlaneField, tigereye_input::InputError> {
     let grid = plane.field.grid();
     let choice = reading.choice.resolve([grid.width(), grid.height(), 1])?;

@@ -11,7 +11,7 @@ use tigereye_experiments::library::is_experiment;
 use tigereye_experiments::{Host, evaluate, load, plan, slug_of};
 
 /// Memory for the gradients of one experiment, bytes.
-const MEMORY: u64 = 1 << 30;
+const MEMORY: u64 = 4 << 30;
 
 /// Files beside the experiment and in its parent folders.
 struct Folder(PathBuf);

@@ -3,11 +3,11 @@
 use crate::splitmix::SplitMix64;
 use tigereye_core::{Field, Symmetry, Tensor2, math};
 
-/// Adds to every tensor a random one whose expected square is `share` squared times the square of the tensor itself (Frobenius
-/// norm), the same in every frame: independent normal components for tensors that are not symmetric, and the Gaussian orthogonal
-/// ensemble (the shear component has half of the variance of the others) for symmetric ones, which stay so; those of a symmetric field
-/// ([`Symmetry`]) are, whatever rounding made of them. Zero tensors stay zero.
-/// The same numbers for a seed everywhere.
+/// Adds to every tensor a random one whose expected square is `share` squared times the square of the tensor itself
+/// (Frobenius norm), the same in every frame: independent normal components for tensors that are not symmetric, and the
+/// Gaussian orthogonal ensemble (the shear component has half of the variance of the others) for symmetric ones, which
+/// stay so; those of a symmetric field ([`Symmetry`]) are, whatever rounding made of them. Zero tensors stay zero. The
+/// same numbers for a seed everywhere.
 #[must_use]
 pub fn with_noise(field: &Field<Tensor2>, share: f64, seed: u64) -> Field<Tensor2> {
     let mut random = Normal { uniform: SplitMix64::new(seed), second: None };
@@ -41,7 +41,7 @@ impl Normal {
         if let Some(number) = self.second.take() {
             return number;
         }
-        // In (0, 1]: the logarithm of 0 is none.
+        // In (0, 1]: ln 0 is not finite.
         let u = 0.5 * (1.0 - self.uniform.symmetric_unit());
         let angle = math::PI * self.uniform.symmetric_unit();
         let radius = (-2.0 * math::ln(u)).sqrt();
@@ -77,7 +77,8 @@ mod tests {
         }
     }
 
-    /// Turning the tensor changes no variance: that of the shear component is that of half the difference of the others.
+    /// Turning the tensor changes no variance: that of the shear component is that of half the difference of the
+    /// others.
     #[test]
     fn noise_prefers_no_direction() {
         let t = Tensor2::symmetric(1.0, 0.0, 1.0);

@@ -36,8 +36,8 @@ pub enum Content {
     Numbers(Lattice),
 }
 
-/// Reads a file of any format by its extension. `bytes_of` gives the bytes of a file by its name: this one, the data file of
-/// an NRRD header (in the same folder) and the mask.
+/// Reads a file of any format by its extension. `bytes_of` gives the bytes of a file by its name: this one, the data
+/// file of an NRRD header (in the same folder) and the mask.
 ///
 /// # Errors
 /// See [`InputError`].

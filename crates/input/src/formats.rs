@@ -230,7 +230,8 @@ impl TensorWriter {
     }
 }
 
-/// The extension that tells the format, in lower case: `nii.gz` or what stands behind the last dot; empty without a dot.
+/// The extension that tells the format, in lower case: `nii.gz` or what stands behind the last dot; empty without a
+/// dot.
 #[must_use]
 pub fn format_of(name: &str) -> String {
     let file = name.rsplit(['/', '\\']).next().unwrap_or(name).to_ascii_lowercase();

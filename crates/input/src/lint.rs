@@ -86,8 +86,8 @@ pub fn lint(field: &Field<Tensor2>) -> Vec<Oddity> {
     found.into_iter().flatten().collect()
 }
 
-/// Neighbours to the right and below that differ much, where most hardly do. Axes have no sign, and neither has a tensor that is
-/// a rotation times its axes: ellipses are compared, not components.
+/// Neighbours to the right and below that differ much, where most hardly do. Axes have no sign, and neither has a
+/// tensor that is a rotation times its axes: ellipses are compared, not components.
 fn jumps(field: &Field<Tensor2>) -> Option<Oddity> {
     let grid = field.grid();
     let ellipses = ellipse_tensors(field);

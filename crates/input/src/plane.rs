@@ -45,7 +45,15 @@ fn projected(volume: &TensorVolume, reading: &Reading) -> Result<PlaneField, Inp
     let slice = volume.slice(reading.choice)?;
     let mut story = volume.story();
     story.push(slice.cut.story(", the components along its normal dropped"));
-    Ok(placed(slice.field, story, &slice.cut))
+    let mut plane = placed(slice.field, story, &slice.cut);
+    plane.remarks.extend(volume.contradicted_frame().map(|stated| {
+        let taken = volume.frame().0.words();
+        format!(
+            "WARNING: the file states components along {}, taken along {taken} as given (--frame)",
+            stated.words()
+        )
+    }));
+    Ok(plane)
 }
 
 fn derived(lattice: &Lattice, reading: &Reading, how: Derivation) -> Result<PlaneField, InputError> {

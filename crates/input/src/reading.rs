@@ -42,8 +42,8 @@ pub struct Derivation {
     pub kind: Derived,
     /// Standard deviation of the Gaussian that derivatives are taken of, cells.
     pub sigma: f64,
-    /// Standard deviation of the window that structure tensors are averaged over, cells; [`Derived::USUAL_WINDOW`] where
-    /// nobody says another.
+    /// Standard deviation of the window that structure tensors are averaged over, cells; [`Derived::USUAL_WINDOW`]
+    /// where nobody says another.
     pub window: Option<f64>,
 }
 

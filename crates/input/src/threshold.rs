@@ -7,10 +7,10 @@ const BARS: usize = 256;
 /// Samples of the transmission profiles; their means hardly depend on it.
 const SAMPLES: usize = 64;
 
-/// The fraction of the largest mean transmission that best parts the cells into weak and strong ones: the threshold that
-/// maximises the variance between both classes (Otsu, A threshold selection method from gray-level histograms, IEEE
-/// Transactions on Systems, Man, and Cybernetics 9, 1979), over a histogram of the cells that transmit at all. `None`
-/// where all of them transmit alike.
+/// The fraction of the largest mean transmission that best parts the cells into weak and strong ones: the threshold
+/// that maximises the variance between both classes (Otsu, A threshold selection method from gray-level histograms,
+/// IEEE Transactions on Systems, Man, and Cybernetics 9, 1979), over a histogram of the cells that transmit at all.
+/// `None` where all of them transmit alike.
 #[must_use]
 pub fn suggested_local_above(field: &Field<Tensor2>) -> Option<f64> {
     let directions = Directions::new(SAMPLES).ok()?;
@@ -22,8 +22,8 @@ pub fn suggested_local_above(field: &Field<Tensor2>) -> Option<f64> {
     let centre = |bar: usize| (bar as f64 + 0.5) / BARS as f64;
     let total: f64 = bars.iter().sum();
     let moment: f64 = bars.iter().enumerate().map(|(bar, n)| n * centre(bar)).sum();
-    // The largest variance and the first and last bar before which it parts: where bars between are empty, the middle is
-    // taken.
+    // The largest variance and the first and last bar before which it parts: where bars between are empty, the middle
+    // is taken.
     let (mut best, mut weak, mut weak_moment) = ((0.0, 0, 0), 0.0, 0.0);
     for bar in 0..BARS - 1 {
         weak += bars[bar];

@@ -468,7 +468,7 @@ pub enum IoError {
         /// Bytes there, after decompression.
         present: u64,
     },
-    /// Compressed data that are none.
+    /// Corrupt compressed data.
     #[error("byte {byte}: expected gzip data: {problem}")]
     Gzip {
         /// Where they start.

@@ -23,7 +23,7 @@ pub struct ImageData {
     pub cell_active: ActiveArrays,
     /// What belongs to the whole data set.
     pub field_data: Vec<FieldEntry>,
-    /// Arrays that were passed over because they hold no numbers, name and type.
+    /// Arrays that were passed over because they hold something else than numbers: name and type.
     pub skipped: Vec<String>,
 }
 
@@ -141,7 +141,8 @@ impl DataArray {
         Self { name: name.to_owned(), components, component_names, values, scalar: ScalarType::Float64 }
     }
 
-    /// Puts the tuples into another order: the one at `i` comes from `order[i]`. Arrays of another number of tuples stay as they are.
+    /// Puts the tuples into another order: the one at `i` comes from `order[i]`. Arrays of another number of tuples
+    /// stay as they are.
     pub(crate) fn reorder(&mut self, order: &[usize]) {
         if self.values.len() == order.len() * self.components {
             let tuple = |&at: &usize| &self.values[at * self.components..(at + 1) * self.components];

@@ -9,9 +9,9 @@
 //! [`Limits`] where compression hides them, before anything is allocated; an array is read or refused by its name,
 //! never dropped; and an [`IoError`] says where it found what.
 //!
-//! Row order: a [`tigereye_core::Field`] has row 0 on top. Text matrices and `.npy` arrays have it there too. Files with a
-//! world are laid out by it ([`volume::Cut`]). VTK image data run upwards, and so do results on fields that lie somewhere;
-//! those of other fields keep row 0 first, as the published volumes do ([`Rows`]).
+//! Row order: a [`tigereye_core::Field`] has row 0 on top. Text matrices and `.npy` arrays have it there too. Files
+//! with a world are laid out by it ([`volume::Cut`]). VTK image data run upwards, and so do results on fields that lie
+//! somewhere; those of other fields keep row 0 first, as the published volumes do ([`Rows`]).
 
 mod convert;
 mod error;

@@ -1,7 +1,7 @@
 //! 2x2 matrices in plain text.
 //!
-//! 2H rows of 2W numbers separated by blanks. Cell (x, y) is the 2x2 block at rows 2y, 2y+1 and columns 2x, 2x+1, in the
-//! frame x right, y up; row 0 is the top row of cells:
+//! 2H rows of 2W numbers separated by blanks. Cell (x, y) is the 2x2 block at rows 2y, 2y+1 and columns 2x, 2x+1, in
+//! the frame x right, y up; row 0 is the top row of cells:
 //!
 //! ```text
 //! xx(0,0) xy(0,0)  xx(1,0) xy(1,0)  ...
@@ -9,8 +9,8 @@
 //! xx(0,1) xy(0,1)  ...
 //! ```
 //!
-//! Blanks at both ends of a row, blank lines at the end, CR LF and a UTF-8 byte order mark are accepted; `nan` and `inf`
-//! are not.
+//! Blanks at both ends of a row, blank lines at the end, CR LF and a UTF-8 byte order mark are accepted; `nan` and
+//! `inf` are not.
 
 use crate::IoError;
 use crate::error::shortened;

@@ -13,9 +13,9 @@
 //!          32 bytes  BLAKE3 of everything before
 //! ```
 //!
-//! Everything is little-endian and the file ends with the checksum. What the numbers mean belongs to the sweep: the values are sums of
-//! squared differences and the marks say for each set of directions and each inner cell whether its differences are in
-//! them. The header tells what determines both.
+//! Everything is little-endian and the file ends with the checksum. What the numbers mean belongs to the sweep: the
+//! values are sums of squared differences and the marks say for each set of directions and each inner cell whether its
+//! differences are in them. The header tells what determines both.
 
 use crate::IoError;
 

@@ -53,8 +53,8 @@ impl PointLattice {
         Ok(Self { size, axes, origin: first })
     }
 
-    /// The lattice of points whose numbers along the axes nobody tells: rows are as long as the first step repeats. Points
-    /// of a single row lie along the axis of the lattice that they follow most, so that a column stays one.
+    /// The lattice of points whose numbers along the axes nobody tells: rows are as long as the first step repeats.
+    /// Points of a single row lie along the axis of the lattice that they follow most, so that a column stays one.
     ///
     /// # Errors
     /// As [`Self::of`].
@@ -134,8 +134,8 @@ impl PointLattice {
     }
 }
 
-/// A unit vector at right angles to the axes that are known, for axis `a`: the one that makes a right-handed frame where
-/// two are known, else the nearest to a coordinate axis, its own first.
+/// A unit vector at right angles to the axes that are known, for axis `a`: the one that makes a right-handed frame
+/// where two are known, else the nearest to a coordinate axis, its own first.
 fn completing(units: [Option<[f64; 3]>; 3], a: usize) -> [f64; 3] {
     if let (Some(u), Some(v)) = (units[(a + 1) % 3], units[(a + 2) % 3]) {
         return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
@@ -152,8 +152,8 @@ fn length(v: [f64; 3]) -> f64 {
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 
-/// How many points, `stride` apart, follow the first in equal steps, the first among them: at least 1, even where it is no
-/// number.
+/// How many points, `stride` apart, follow the first in equal steps, the first among them: at least 1, even where it is
+/// no number.
 fn repeats(points: &[[f64; 3]], stride: usize) -> usize {
     let (Some(first), Some(second)) = (points.first(), points.get(stride)) else { return 1 };
     let step = [0, 1, 2].map(|i| second[i] - first[i]);

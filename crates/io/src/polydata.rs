@@ -25,7 +25,7 @@ pub struct PolyData {
     pub cell_active: ActiveArrays,
     /// What belongs to the whole data set.
     pub field_data: Vec<FieldEntry>,
-    /// Arrays that were passed over because they hold no numbers, name and type.
+    /// Arrays that were passed over because they hold something else than numbers: name and type.
     pub skipped: Vec<String>,
 }
 

@@ -3,7 +3,8 @@
 use crate::{NearestSegment, Polyline, Polylines, RidgeOptions, Threshold};
 use tigereye_core::{Field, Grid};
 
-/// Cells along the border that no ridge is compared in: gradients are 0 in the outermost ones, and ridges need others around them.
+/// Cells along the border that no ridge is compared in: gradients are 0 in the outermost ones, and ridges need others
+/// around them.
 pub const MARGIN: f64 = 4.0;
 /// Ridges are looked at in pieces of this length, cells.
 const PIECE: f64 = 0.25;
@@ -14,9 +15,9 @@ const LEAST_STRENGTH: f64 = 0.05;
 /// Neither are those below this part of the range of values.
 const LEAST_VALUE: f64 = 0.25;
 
-/// Which ridges are compared: at least a twentieth as strong as the strongest crest, in the upper three quarters of the values, and
-/// three cells long. The same for all scalars, all at the cells: between them exponents have the kinks of the interpolated
-/// tensors, which look like ridges.
+/// Which ridges are compared: at least a twentieth as strong as the strongest crest, in the upper three quarters of the
+/// values, and three cells long. The same for all scalars, all at the cells: between them exponents have the kinks of
+/// the interpolated tensors, which look like ridges.
 pub const COMPARED: RidgeOptions = RidgeOptions {
     least_strength: Threshold::Part(LEAST_STRENGTH),
     least_value: Threshold::Part(LEAST_VALUE),
@@ -43,8 +44,8 @@ pub struct Distances {
 }
 
 impl Distances {
-    /// Of the pieces of `of` that lie at least [`MARGIN`] cells inside of a grid, from the nearest point of `from`. Where there is
-    /// nothing to be near to, distances are infinite.
+    /// Of the pieces of `of` that lie at least [`MARGIN`] cells inside of a grid, from the nearest point of `from`.
+    /// Where there is nothing to be near to, distances are infinite.
     #[must_use]
     pub fn between(of: &Polylines, from: &Polylines, grid: Grid) -> Self {
         let near = NearestSegment::new(from);
@@ -102,8 +103,8 @@ impl Distances {
     }
 }
 
-/// Share of the places at least [`MARGIN`] cells inside of a grid that lie within a distance of lines: how much of anything would
-/// meet them by chance.
+/// Share of the places at least [`MARGIN`] cells inside of a grid that lie within a distance of lines: how much of
+/// anything would meet them by chance.
 #[must_use]
 pub fn chance(lines: &Polylines, grid: Grid, within: f64) -> f64 {
     let near = NearestSegment::new(lines);
@@ -114,8 +115,8 @@ pub fn chance(lines: &Polylines, grid: Grid, within: f64) -> f64 {
     met as f64 / (steps[0] * steps[1]) as f64
 }
 
-/// Pearson's correlation over the cells where both scalars are numbers; `None` for fields of different size, or where one of them is
-/// constant.
+/// Pearson's correlation over the cells where both scalars are numbers; `None` for fields of different size, or where
+/// one of them is constant.
 #[must_use]
 pub fn correlation(a: &Field<f64>, b: &Field<f64>) -> Option<f64> {
     if a.grid() != b.grid() {

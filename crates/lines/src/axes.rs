@@ -1,26 +1,28 @@
 //! Which two axes a tensor has.
 //!
-//! With the numbers `F = (xx - yy) + i (xy + yx)` and `E = (xx + yy) + i (yx - xy)` a tensor stretches by `|F| / 2` along
-//! `arg F / 2`, turns by `Im E / 2` and scales by `Re E / 2`. Its semi-axes, eigenvectors and dual eigenvectors are closed
-//! formulas of the two (Zheng and Pang, 2D asymmetric tensor analysis, 2005; Zhang, Yeh, Lin and Laramee, Asymmetric tensor
-//! analysis for flow visualization, 2009).
+//! With the numbers `F = (xx - yy) + i (xy + yx)` and `E = (xx + yy) + i (yx - xy)` a tensor stretches by `|F| / 2`
+//! along `arg F / 2`, turns by `Im E / 2` and scales by `Re E / 2`. Its semi-axes, eigenvectors and dual eigenvectors
+//! are closed formulas of the two (Zheng and Pang, 2D asymmetric tensor analysis, 2005; Zhang, Yeh, Lin and Laramee,
+//! Asymmetric tensor analysis for flow visualization, 2009).
 //!
 //! # Which axis is major
 //!
 //! Where an axis is stretched and the other squeezed there are two answers, and [`Major`] names the one that is meant:
 //!
-//! - **By value**, as in mechanics: of eigenvectors the one with the algebraically larger eigenvalue (its real part), of semi-axes
-//!   the one along which `u . T u` is larger. Both agree for symmetric tensors: tension is major, whatever its size. With
-//!   `u . T u = (Re E +- |F| Re E / |E|) / 2` along the longer and the shorter semi-axis, the longer one is major where the trace is
-//!   positive and the shorter one where it is negative.
-//! - **By magnitude**, as light sees it: the longer semi-axis, or the eigenvector whose eigenvalue is larger without its sign.
+//! - **By value**, as in mechanics: of eigenvectors the one with the algebraically larger eigenvalue (its real part),
+//!   of semi-axes the one along which `u . T u` is larger. Both agree for symmetric tensors: tension is major, whatever
+//!   its size. With `u . T u = (Re E +- |F| Re E / |E|) / 2` along the longer and the shorter semi-axis, the longer one
+//!   is major where the trace is positive and the shorter one where it is negative.
+//! - **By magnitude**, as light sees it: the longer semi-axis, or the eigenvector whose eigenvalue is larger without
+//!   its sign.
 //!
-//! Unless something else is said, eigenvectors are ordered by value and semi-axes by magnitude ([`Axes::by`]). Where both
-//! eigenvalues are positive the orders agree.
+//! Unless something else is said, eigenvectors are ordered by value and semi-axes by magnitude ([`Axes::by`]). Where
+//! both eigenvalues are positive the orders agree.
 //!
-//! What tells the axes apart ([`Frame::contrast`]) depends on the order. Symmetric tensors by value have axes wherever `F` is not
-//! zero, pure shear (2, -2) included; by magnitude pure shear has none, because both semi-axes are equally long. Eigenvectors by
-//! magnitude, and semi-axes of tensors that are not symmetric by value, change places where the trace is zero: their lines end there.
+//! What tells the axes apart ([`Frame::contrast`]) depends on the order. Symmetric tensors by value have axes wherever
+//! `F` is not zero, pure shear (2, -2) included; by magnitude pure shear has none, because both semi-axes are equally
+//! long. Eigenvectors by magnitude, and semi-axes of tensors that are not symmetric by value, change places where the
+//! trace is zero: their lines end there.
 
 use tigereye_core::{Tensor2, math};
 
@@ -47,15 +49,17 @@ impl Family {
 /// The axes that lines follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Axes {
-    /// The semi-axes of the ellipse that a tensor makes of the unit circle: its left singular vectors, which is what light
-    /// sees.
+    /// The semi-axes of the ellipse that a tensor makes of the unit circle: its left singular vectors, which is what
+    /// light sees.
     #[default]
     HalfAxes,
-    /// Eigenvectors, the axes of classical tensor lines. Where eigenvalues are complex (the turning is stronger than the stretching) the pseudo-eigenvectors: the diagonals of the
-    /// smallest rectangle around the ellipses along which the linear flow of the tensor turns.
+    /// Eigenvectors, the axes of classical tensor lines. Where eigenvalues are complex (the turning is stronger than
+    /// the stretching) the pseudo-eigenvectors: the diagonals of the smallest rectangle around the ellipses along which
+    /// the linear flow of the tensor turns.
     Eigenvectors,
-    /// Dual eigenvectors: the directions halfway between the eigenvectors, and the axes of the ellipses along which the linear
-    /// flow turns where eigenvalues are complex, the longer one major. Symmetric tensors have none, as they turn nothing.
+    /// Dual eigenvectors: the directions halfway between the eigenvectors, and the axes of the ellipses along which the
+    /// linear flow turns where eigenvalues are complex, the longer one major. Symmetric tensors have none, as they turn
+    /// nothing.
     DualEigenvectors,
 }
 
@@ -159,12 +163,14 @@ impl Decomposition {
 pub struct Frame {
     /// Unit vectors, major first, in the tensor's frame (y up), each with either sign.
     pub axes: [[f64; 2]; 2],
-    /// Their lengths, never negative, in the order of the axes; for [`Axes::Eigenvectors`] the eigenvalues with their signs, or their
-    /// real part where they are complex; for dual eigenvectors the semi-axes of the stretching and turning part.
+    /// Their lengths, never negative, in the order of the axes; for [`Axes::Eigenvectors`] the eigenvalues with their
+    /// signs, or their real part where they are complex; for dual eigenvectors the semi-axes of the stretching and
+    /// turning part.
     pub values: [f64; 2],
-    /// What tells the axes apart, in the unit of the tensor: the difference of the semi-axes, or of `u . T u` along them where they
-    /// are ordered by value; for eigenvectors that of the stretching (by magnitude the trace, where it is smaller), for dual ones the
-    /// turning where it is smaller. It grows in proportion to the distance from where the axes cannot be told apart.
+    /// What tells the axes apart, in the unit of the tensor: the difference of the semi-axes, or of `u . T u` along
+    /// them where they are ordered by value; for eigenvectors that of the stretching (by magnitude the trace, where it
+    /// is smaller), for dual ones the turning where it is smaller. It grows in proportion to the distance from where
+    /// the axes cannot be told apart.
     pub contrast: f64,
 }
 
@@ -178,8 +184,8 @@ impl Numbers {
         Self { f: [t.xx() - t.yy(), t.xy() + t.yx()], e: [t.xx() + t.yy(), t.yx() - t.xy()] }
     }
 
-    /// The numbers of a tensor times a power of two, which is the second result, so that squares stay in range; most tensors need
-    /// none. `None` where the tensor is zero or not finite.
+    /// The numbers of a tensor times a power of two, which is the second result, so that squares stay in range; most
+    /// tensors need none. `None` where the tensor is zero or not finite.
     fn scaled(t: &Tensor2) -> Option<(Self, f64)> {
         let largest = t.max_abs();
         let scale = match largest {
@@ -236,8 +242,8 @@ impl OrderedAxes {
         self.major
     }
 
-    /// The axes of a tensor. `None` where it is not finite, and where it has none: its [`Frame::contrast`] is not more than the part
-    /// `least` of the larger semi-axis.
+    /// The axes of a tensor. `None` where it is not finite, and where it has none: its [`Frame::contrast`] is not more
+    /// than the part `least` of the larger semi-axis.
     #[must_use]
     pub fn of(self, t: &Tensor2, least: f64) -> Option<Frame> {
         let (numbers, scale) = Numbers::scaled(t)?;
@@ -250,7 +256,8 @@ impl OrderedAxes {
         Some(Frame { axes, values: values.map(|v| v / scale), contrast: contrast / scale })
     }
 
-    /// The [`Frame::values`] of a tensor, which there are without axes, too: both of the same size then. `None` where it is not finite.
+    /// The [`Frame::values`] of a tensor, which there are without axes, too: both of the same size then. `None` where
+    /// it is not finite.
     #[must_use]
     pub fn values(self, t: &Tensor2) -> Option<[f64; 2]> {
         if t.is_zero() {
@@ -275,7 +282,8 @@ impl OrderedAxes {
         }
     }
 
-    /// Whether the order is other than the usual one of the axes: both orders agree as long as the trace is not negative.
+    /// Whether the order is other than the usual one of the axes: both orders agree as long as the trace is not
+    /// negative.
     fn is_turned(self, Numbers { e, .. }: &Numbers) -> bool {
         e[0] < 0.0 && self.major != self.axes.usual_major()
     }
@@ -305,8 +313,8 @@ fn semi_axes(numbers: &Numbers, by: Major, least: f64) -> Option<AxesAndContrast
     Some(([major, quarter_turned(major)], contrast))
 }
 
-/// E with the sign that makes the axis of the larger `u . T u` major, and the difference of the two. Where E vanishes the
-/// tensor is symmetric as far as anybody can tell, and has eigenvectors.
+/// E with the sign that makes the axis of the larger `u . T u` major, and the difference of the two. Where E vanishes
+/// the tensor is symmetric as far as anybody can tell, and has eigenvectors.
 fn by_value(e: [f64; 2], stretch: f64, rest: f64) -> ([f64; 2], f64) {
     if rest <= f64::EPSILON * stretch {
         return ([1.0, 0.0], stretch);

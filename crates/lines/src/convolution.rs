@@ -24,7 +24,8 @@ impl Default for ConvolutionOptions {
 }
 
 impl ConvolutionOptions {
-    /// Samples a cell along x and y: as many along its smaller side as are asked for, and about as far apart along the other, at most
+    /// Samples a cell along x and y: as many along its smaller side as are asked for, and about as far apart along the
+    /// other, at most
     /// 64. Noise has no direction of its own then.
     #[must_use]
     pub fn samples_a_cell(&self, cell: CellShape) -> [usize; 2] {
@@ -42,11 +43,11 @@ const CONTRAST: f64 = 0.2;
 /// Cosine of the largest turn within a step, 60 degrees.
 const LARGEST_TURN: f64 = 0.5;
 
-/// White noise, uniform in [0, 1), smeared along an axis with Hann's window (Cabral and Leedom, Imaging vector fields using line
-/// integral convolution, 1993), in samples finer than the cells ([`fine_grid`]). Lines end at the border and where there is no
-/// axis; what is left of the window counts whole. Brightness is stretched to a mean of 1/2 and a standard deviation of
-/// 0.2 over the field and clipped to [0, 1]. Round tensors keep their noise; zero tensors, and those that are no numbers, have no
-/// brightness (not a number).
+/// White noise, uniform in [0, 1), smeared along an axis with Hann's window (Cabral and Leedom, Imaging vector fields
+/// using line integral convolution, 1993), in samples finer than the cells ([`fine_grid`]). Lines end at the border and
+/// where there is no axis; what is left of the window counts whole. Brightness is stretched to a mean of 1/2 and a
+/// standard deviation of 0.2 over the field and clipped to [0, 1]. Round tensors keep their noise; zero tensors, and
+/// those that are not finite, have no brightness (not a number).
 ///
 /// # Errors
 /// See [`SamplingError`].
@@ -62,10 +63,10 @@ pub fn convolved(
     Ok(stretched(smeared(&noise, &walk, &length)))
 }
 
-/// Noise smeared along both axes, along each as far as it is long: `half_length` along the longer semi-axis (or eigenvalue, by
-/// size), its share of that along the other. Round tensors blur noise alike in every direction, flat ones draw it into lines
-/// (Zheng and Pang, HyperLIC, 2003, in two passes: along the minor axis, and what that gives along the major one). A tensor without
-/// axes takes x and y for them. Brightness as in [`convolved`].
+/// Noise smeared along both axes, along each as far as it is long: `half_length` along the longer semi-axis (or
+/// eigenvalue, by size), its share of that along the other. Round tensors blur noise alike in every direction, flat
+/// ones draw it into lines (Zheng and Pang, HyperLIC, 2003, in two passes: along the minor axis, and what that gives
+/// along the major one). A tensor without axes takes x and y for them. Brightness as in [`convolved`].
 ///
 /// # Errors
 /// See [`SamplingError`].
@@ -100,8 +101,8 @@ fn per_cell(field: &Interpolated<'_>, options: &ConvolutionOptions) -> [f64; 2] 
     options.samples_a_cell(field.cell()).map(|n| n as f64)
 }
 
-/// The same noise for a seed everywhere: every sample's number is a hash of its place (the finisher of SplitMix64, Steele, Lea and
-/// Flood 2014).
+/// The same noise for a seed everywhere: every sample's number is a hash of its place (the finisher of SplitMix64,
+/// Steele, Lea and Flood 2014).
 fn noise(grid: Grid, seed: u64) -> Field<f64> {
     Field::from_fn(grid, |c| {
         let place = ((c.y as u64) << 32 | c.x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);

@@ -1,9 +1,9 @@
 //! Points where both semi-axes are equally long, by how the axes turn around them.
 //!
-//! A tensor is the sum of a conformal and an anticonformal map: with `F = (xx - yy) + i (xy + yx)` and
-//! `E = (xx + yy) + i (yx - xy)` the semi-axes are `(|E| + |F|) / 2` and `||E| - |F|| / 2`, and the longer one lies at
-//! `(arg E + arg F) / 2`. It has no direction where `F` or `E` is zero; going round such a point once turns it by half of the
-//! winding of that number. Symmetric tensors have a real `E`, so theirs are the zeros of `F`, the classical degenerate points
+//! A tensor is the sum of a conformal and an anticonformal map: with `F = (xx - yy) + i (xy + yx)` and `E = (xx + yy) +
+//! i (yx - xy)` the semi-axes are `(|E| + |F|) / 2` and `||E| - |F|| / 2`, and the longer one lies at `(arg E + arg F)
+//! / 2`. It has no direction where `F` or `E` is zero; going round such a point once turns it by half of the winding of
+//! that number. Symmetric tensors have a real `E`, so theirs are the zeros of `F`, the classical degenerate points
 //! (Delmarcelle and Hesselink 1994).
 
 use core::f64::consts::TAU;
@@ -44,9 +44,10 @@ impl DegeneratePoint {
 /// Numbers below this part of their tensor's largest component are zero: what rounding leaves.
 const ROUNDING: f64 = 1e-12;
 
-/// All degenerate points between the centres of cells, row by row, of tensors interpolated component by component. Where
-/// whole cells are isotropic, connected ones are one point in their middle, with the index of the way around them; those at
-/// the border, whose way leaves the field, are left out, and so are points and lines around which the axes do not turn.
+/// All degenerate points between the centres of cells, row by row, of tensors interpolated component by component.
+/// Where whole cells are isotropic, connected ones are one point in their middle, with the index of the way around
+/// them; those at the border, whose way leaves the field, are left out, and so are points and lines around which the
+/// axes do not turn.
 #[must_use]
 pub fn degenerate_points(field: &Field<Tensor2>) -> Vec<DegeneratePoint> {
     zeros(field, &[field.map(anticonformal), field.map(conformal)])
@@ -86,8 +87,8 @@ struct Plane<'a> {
     zero: Vec<bool>,
 }
 
-/// The corners of a quad counter-clockwise (y downwards: left bottom, right bottom, right top, left top), relative to its
-/// upper left cell.
+/// The corners of a quad counter-clockwise (y downwards: left bottom, right bottom, right top, left top), relative to
+/// its upper left cell.
 const CORNERS: [(usize, usize); 4] = [(0, 1), (1, 1), (1, 0), (0, 0)];
 
 impl<'a> Plane<'a> {
@@ -165,7 +166,7 @@ impl<'a> Plane<'a> {
                     continue;
                 }
                 let (a, b) = (self.size(from), self.size(to));
-                // Nothing is known of a way around cells that are no numbers.
+                // Paths around cells that are not finite are undefined.
                 leaves |= !(a + b).is_finite();
                 let t = if a + b > 0.0 { a / (a + b) } else { 0.5 };
                 middle[0] += (1.0 - t) * from.x as f64 + t * to.x as f64;

@@ -1,12 +1,12 @@
-//! How far neighbours part: the finite-time Lyapunov exponent of a map.
+//! Separation of neighbouring points: the finite-time Lyapunov exponent of a map.
 
 use tigereye_core::{Cell, Field, Grid, math};
 
-/// The exponent `ln(sqrt(lambda)) / duration` in every sample, where lambda is the larger eigenvalue of the Cauchy-Green tensor
-/// `F^T F` of the flow map and F its gradient (Shadden, Lekien and Marsden, 2005). `ends` says where the samples lead, in the unit
-/// of `spacing`, the distance of samples along x and y; `None` where they lead nowhere. Differences are central, one-sided beside
-/// samples that lead nowhere and at the border; where a sample has no neighbour along an axis, or leads nowhere, the exponent is not
-/// a number.
+/// The exponent `ln(sqrt(lambda)) / duration` in every sample, where lambda is the larger eigenvalue of the
+/// Cauchy-Green tensor `F^T F` of the flow map and F its gradient (Shadden, Lekien and Marsden, 2005). `ends` says
+/// where the samples lead, in the unit of `spacing`, the distance of samples along x and y; `None` where they lead
+/// nowhere. Differences are central, one-sided beside samples that lead nowhere and at the border; where a sample has
+/// no neighbour along an axis, or leads nowhere, the exponent is not a number.
 #[must_use]
 pub fn exponents(ends: &Field<Option<[f64; 2]>>, spacing: [f64; 2], duration: f64) -> Field<f64> {
     Field::from_fn(ends.grid(), |cell| {
@@ -50,8 +50,8 @@ pub(crate) fn exponent_of(f: [[f64; 2]; 2], duration: f64) -> f64 {
     math::ln(0.5 * (stretch + rest)) / duration
 }
 
-/// Where a particle is after moving with a velocity from time `from` to `to`: classical Runge-Kutta in `steps` steps of equal
-/// length.
+/// Where a particle is after moving with a velocity from time `from` to `to`: classical Runge-Kutta in `steps` steps of
+/// equal length.
 #[must_use]
 pub fn advected(
     velocity: &dyn Fn(f64, [f64; 2]) -> [f64; 2],
@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn turning_parts_nobody() {
+    fn a_rigid_rotation_has_exponent_zero() {
         let velocity = |_: f64, p: [f64; 2]| [-p[1], p[0]];
         let ends = field([5, 4], |p| Some(advected(&velocity, p, [1.0, 4.0], 100)));
         assert!(exponents(&ends, [0.1, 0.2], 3.0).values().iter().all(|v| v.abs() < 1e-7));

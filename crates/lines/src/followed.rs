@@ -9,10 +9,12 @@ pub fn usual_axes(field: &Field<Tensor2>) -> Axes {
     if Symmetry::of(field).is_symmetric() { Axes::Eigenvectors } else { Axes::HalfAxes }
 }
 
-/// The part of the stretching by which the turning exceeds it at least: in simple shear both are equal but for rounding.
+/// The part of the stretching by which the turning exceeds it at least: in simple shear both are equal but for
+/// rounding.
 const COMPLEX_ABOVE: f64 = 1e-6;
 
-/// Whether the eigenvalues of a tensor are complex: it turns more than it stretches. Ask it of [`Field::without_rounding`].
+/// Whether the eigenvalues of a tensor are complex: it turns more than it stretches. Ask it of
+/// [`Field::without_rounding`].
 #[must_use]
 pub fn is_complex(t: &Tensor2) -> bool {
     let Decomposition { rotation, stretching, .. } = Decomposition::of(t);
@@ -36,8 +38,9 @@ impl Following {
     }
 }
 
-/// A field whose axes are followed between its cells. Semi-axes are those of the ellipses, because the components of tensors that
-/// are not symmetric may cancel between cells whose ellipses agree. What rounding made asymmetric is symmetric.
+/// A field whose axes are followed between its cells. Semi-axes are those of the ellipses, because the components of
+/// tensors that are not symmetric may cancel between cells whose ellipses agree. What rounding made asymmetric is
+/// symmetric.
 #[derive(Clone, Debug)]
 pub struct Followed {
     tensors: Field<Tensor2>,

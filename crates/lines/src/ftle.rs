@@ -77,8 +77,8 @@ pub struct Ftle {
     pub samples: usize,
     /// The shape of a cell, whose smaller side is the unit of length.
     pub cell: CellShape,
-    /// The larger exponent of the two directions of the line, per unit of length ([`tigereye_core::CellShape`]); not a number where there is no line, or where it
-    /// leaves.
+    /// The larger exponent of the two directions of the line, per unit of length ([`tigereye_core::CellShape`]); not a
+    /// number where there is no line, or where it leaves.
     pub larger: Field<f64>,
     /// The smaller one.
     pub smaller: Field<f64>,
@@ -94,7 +94,8 @@ const MAX_STEPS: f64 = 1e5;
 /// Most steps of all lines together: an hour and more.
 const MAX_WORK: f64 = 1e11;
 
-/// The grid of samples finer than the cells of a grid: `m (W - 1) + 1` by `n (H - 1) + 1` for m samples a cell along x and n along y.
+/// The grid of samples finer than the cells of a grid: `m (W - 1) + 1` by `n (H - 1) + 1` for m samples a cell along x
+/// and n along y.
 ///
 /// # Errors
 /// [`SamplingError::Samples`] and [`SamplingError::TooManySamples`].
@@ -125,13 +126,14 @@ pub(crate) fn check_work(samples: Grid, length: f64, step: f64) -> Result<(), Sa
     Err(SamplingError::Work { samples: samples.cells(), steps: (length / step).ceil(), limit: MAX_WORK })
 }
 
-/// The exponent of the map that takes a point along its line by a length, after Hlawatsch, Vollrath, Sadlo and Weiskopf (Coherent
-/// structures of characteristic curves in symmetric second order tensor fields, 2011), with the flow map of both directions of the
-/// line. A line has no first direction, so the neighbours of a sample are taken in the directions nearer to its own, and of the
-/// two exponents that this gives, both are kept. A line that ends at a degenerate point stays there, while its neighbours go on to
-/// either side: they part. One that leaves the field, or meets cells without numbers, says nothing of how far neighbours part: beside
-/// it differences are one-sided, and its own sample has no exponent. (The one of the other direction alone would be smaller than
-/// that of the samples next to it, an edge that looks like a ridge.)
+/// The exponent of the map that takes a point along its line by a length, after Hlawatsch, Vollrath, Sadlo and Weiskopf
+/// (Coherent structures of characteristic curves in symmetric second order tensor fields, 2011), with the flow map of
+/// both directions of the line. A line has no first direction, so the neighbours of a sample are taken in the
+/// directions nearer to its own, and of the two exponents that this gives, both are kept. A line that ends at a
+/// degenerate point stays there, while its neighbours go on to either side: they part. One that leaves the field, or
+/// meets cells without numbers, says nothing of how far neighbours part: beside it differences are one-sided, and its
+/// own sample has no exponent. (The one of the other direction alone would be smaller than that of the samples next to
+/// it, an edge that looks like a ridge.)
 ///
 /// # Errors
 /// See [`SamplingError`].

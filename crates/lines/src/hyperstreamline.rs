@@ -2,10 +2,10 @@
 
 use crate::{Family, Interpolated, TensorLine};
 
-/// Half of a hyperstreamline's width at every point of its line, in the unit of [`tigereye_core::CellShape`]: `scale` times the half-length of the other axis, or the
-/// magnitude of the other eigenvalue (Delmarcelle and Hesselink, Visualizing second-order tensor fields with hyperstreamlines,
-/// 1993, where the line is a tube with the two other ones as its cross section). 0 where the tensor is zero, not a number where it
-/// is none.
+/// Half of a hyperstreamline's width at every point of its line, in the unit of [`tigereye_core::CellShape`]: `scale`
+/// times the half-length of the other axis, or the magnitude of the other eigenvalue (Delmarcelle and Hesselink,
+/// Visualizing second-order tensor fields with hyperstreamlines, 1993, where the line is a tube with the two other ones
+/// as its cross section). 0 where the tensor is zero, not a number where it is none.
 #[must_use]
 pub fn half_widths(field: &Interpolated<'_>, line: &TensorLine, family: Family, scale: f64) -> Vec<f64> {
     let width = |p: &[f64; 2]| {

@@ -3,9 +3,9 @@
 use crate::{Axes, Family, Frame, OrderedAxes};
 use tigereye_core::{Cell, CellShape, Field, Svd, Tensor2};
 
-/// The symmetric tensor with the same ellipse in every cell: `U S U^T` for a tensor `U S V^T`, its left stretch tensor. The ellipse
-/// is all that light sees. Where tensors are not symmetric this is what to interpolate: their own components may cancel
-/// between cells whose ellipses agree.
+/// The symmetric tensor with the same ellipse in every cell: `U S U^T` for a tensor `U S V^T`, its left stretch tensor.
+/// The ellipse is all that light sees. Where tensors are not symmetric this is what to interpolate: their own
+/// components may cancel between cells whose ellipses agree.
 #[must_use]
 pub fn ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     field.map(|t| {
@@ -14,9 +14,9 @@ pub fn ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     })
 }
 
-/// The same with the signs of what the tensor does along its semi-axes: an axis `u` counts as negative where `u . T u` is. That is
-/// the tensor itself where it is symmetric, and what to interpolate for semi-axes by value ([`crate::Major`]): in pure shear both are
-/// equally long, but one is stretched and the other squeezed.
+/// The same with the signs of what the tensor does along its semi-axes: an axis `u` counts as negative where `u . T u`
+/// is. That is the tensor itself where it is symmetric, and what to interpolate for semi-axes by value
+/// ([`crate::Major`]): in pure shear both are equally long, but one is stretched and the other squeezed.
 #[must_use]
 pub fn signed_ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     field.map(|t| {
@@ -24,15 +24,16 @@ pub fn signed_ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
             return *t;
         }
         let svd = Svd::of(t);
-        // Along the longer axis u . T u has the sign of the trace, along the other that of the trace times the determinant.
+        // Along the longer axis u . T u has the sign of the trace, along the other that of the trace times the
+        // determinant.
         let longer = if t.trace() < 0.0 { -svd.s[0] } else { svd.s[0] };
         let shorter = if (t.trace() < 0.0) == (t.determinant() < 0.0) { svd.s[1] } else { -svd.s[1] };
         Tensor2::from_eigen(svd.phi_rad(), longer, shorter)
     })
 }
 
-/// How far outside a point still counts as one of the border, cells: a line along the border leaves it by the rounding of its
-/// steps, which is some 1e-16 of the coordinate each.
+/// How far outside a point still counts as one of the border, cells: a line along the border leaves it by the rounding
+/// of its steps, which is some 1e-16 of the coordinate each.
 const ROUNDING: f64 = 1e-9;
 
 /// A field between its cells.
@@ -94,8 +95,8 @@ impl<'a> Interpolated<'a> {
         [(grid.width() - 1) as f64, (grid.height() - 1) as f64]
     }
 
-    /// The tensor at a point, bilinear in every component; `None` outside of the centres of the outermost cells (by more than
-    /// rounding, a billionth of a cell), and where one of the four cells is not finite.
+    /// The tensor at a point, bilinear in every component; `None` outside of the centres of the outermost cells (by
+    /// more than rounding, a billionth of a cell), and where one of the four cells is not finite.
     #[must_use]
     pub fn at(&self, [x, y]: [f64; 2]) -> Option<Tensor2> {
         let [right, bottom] = self.extent();
@@ -127,7 +128,8 @@ impl<'a> Interpolated<'a> {
         self.axes.of(&self.at(point)?, least)
     }
 
-    /// Direction (physical unit vector, y downwards) of an axis at a point, with either sign; `None` as [`Self::frame`].
+    /// Direction (physical unit vector, y downwards) of an axis at a point, with either sign; `None` as
+    /// [`Self::frame`].
     #[must_use]
     pub fn direction(&self, point: [f64; 2], family: Family, least: f64) -> Option<[f64; 2]> {
         let [x, y] = self.frame(point, least)?.axes[family as usize];

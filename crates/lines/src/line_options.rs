@@ -5,8 +5,8 @@
 pub enum Method {
     /// The classical Runge-Kutta method of fourth order, every step of the same length.
     RungeKutta4,
-    /// The pair of orders five and four of Dormand and Prince (A family of embedded Runge-Kutta formulae, 1980), with steps as
-    /// long as the error allows.
+    /// The pair of orders five and four of Dormand and Prince (A family of embedded Runge-Kutta formulae, 1980), with
+    /// steps as long as the error allows.
     DormandPrince {
         /// Largest difference of the two orders within a step, in the unit of [`tigereye_core::CellShape`].
         tolerance: f64,
@@ -18,22 +18,22 @@ pub enum Method {
 pub struct LineOptions {
     /// How steps are made.
     pub method: Method,
-    /// Length of a step; the longest one of [`Method::DormandPrince`]. Steps are shorter before degenerate points, borders and sharp
-    /// turns; those of more than a cell may lead across a degenerate point.
+    /// Length of a step; the longest one of [`Method::DormandPrince`]. Steps are shorter before degenerate points,
+    /// borders and sharp turns; those of more than a cell may lead across a degenerate point.
     pub step: f64,
     /// Longest line in each direction.
     pub length: f64,
     /// Lines end where the axes differ by less, see [`crate::Axes::of`].
     pub least_anisotropy: f64,
-    /// Inertia of tensorlines (Weinstein, Kindlmann and Lundberg, Tensorlines, 1999), which keeps them straight where the
-    /// tensor is round. `None` follows the axes alone.
+    /// Inertia of tensorlines (Weinstein, Kindlmann and Lundberg, Tensorlines, 1999), which keeps them straight where
+    /// the tensor is round. `None` follows the axes alone.
     pub inertia: Option<Inertia>,
 }
 
-/// What a line does where the tensor says little: with the anisotropy `c = 1 - |v2| / |v1|` of the half-lengths it goes on along
-/// `c e + (1 - c) ((1 - w) i + w D i)`, where e is the axis, i the direction it comes from, and D i that direction turned
-/// towards the axis by the tensor. As in the paper this happens once a step, so that shorter steps turn a line to the axis on a shorter
-/// way.
+/// What a line does where the tensor says little: with the anisotropy `c = 1 - |v2| / |v1|` of the half-lengths it goes
+/// on along `c e + (1 - c) ((1 - w) i + w D i)`, where e is the axis, i the direction it comes from, and D i that
+/// direction turned towards the axis by the tensor. As in the paper this happens once a step, so that shorter steps
+/// turn a line to the axis on a shorter way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inertia {
     /// The weight w of the tensor's turning (the paper's puncture weight), 0 to 1; 0 is pure inertia.

@@ -12,10 +12,11 @@ const SHORTEST: f64 = 0.5;
 /// So many points of lines are enough: drawn, written and held in memory they are gigabytes.
 pub const MAX_POINTS: usize = 1 << 24;
 
-/// Lines about `separation` apart (in the unit of [`tigereye_core::CellShape`], at least 0.1), in an order that only depends on the field: seeds are tried beside the
-/// lines that are there, then all over the field (Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density,
-/// 1997). A line keeps away from the others, not from itself: one that winds inwards does so to its longest length. Fields
-/// without axes give no lines. After the line that makes them more than [`MAX_POINTS`] points together no further one follows.
+/// Lines about `separation` apart (in the unit of [`tigereye_core::CellShape`], at least 0.1), in an order that only
+/// depends on the field: seeds are tried beside the lines that are there, then all over the field (Jobard and Lefer,
+/// Creating evenly-spaced streamlines of arbitrary density, 1997). A line keeps away from the others, not from itself:
+/// one that winds inwards does so to its longest length. Fields without axes give no lines. After the line that makes
+/// them more than [`MAX_POINTS`] points together no further one follows.
 #[must_use]
 pub fn evenly_spaced(
     field: &Interpolated<'_>,

@@ -14,7 +14,8 @@ pub struct TensorLine {
     pub seed: usize,
     /// Why it ends at its first and at its last point.
     pub ends: [LineEnd; 2],
-    /// How far a closed line passes its seed by, in the unit of [`CellShape`]; 0 for others. The last point of a closed line is its seed again.
+    /// How far a closed line passes its seed by, in the unit of [`CellShape`]; 0 for others. The last point of a closed
+    /// line is its seed again.
     pub gap: f64,
 }
 
@@ -34,9 +35,9 @@ impl TensorLine {
 /// [`CellShape`].
 const CLOSING: f64 = 0.05;
 
-/// The line through `seed`, followed in both directions. A step that is not positive, or a length of more than [`LineOptions::MAX_STEPS`],
-/// gives a line of one point. A seed outside of the field, or where the tensor has no axis, is a line of one point. Lines end
-/// where `keep` says no to their next point.
+/// The line through `seed`, followed in both directions. A step that is not positive, or a length of more than
+/// [`LineOptions::MAX_STEPS`], gives a line of one point. A seed outside of the field, or where the tensor has no axis,
+/// is a line of one point. Lines end where `keep` says no to their next point.
 #[must_use]
 pub fn tensor_line(
     field: &Interpolated<'_>,
@@ -67,9 +68,8 @@ pub fn tensor_line(
     TensorLine { points, seed: seed_at, ends: [back.end, forth.end], gap: 0.0 }
 }
 
-/// The line from `start` in one direction: along the axis there, with the sign that is nearer to `towards` (physical, of any length but
-/// 0).
-/// Its first point is `start`; the second of its ends says why it ends.
+/// The line from `start` in one direction: along the axis there, with the sign that is nearer to `towards` (physical,
+/// of any length but 0). Its first point is `start`; the second of its ends says why it ends.
 #[must_use]
 pub fn half_line(
     field: &Interpolated<'_>,
@@ -150,7 +150,8 @@ fn follow(walk: &Walk<'_>, seed: [f64; 2], towards: [f64; 2], keep: &mut dyn FnM
     }
 }
 
-/// At which distance the way from `a` to `b` passes the seed in the direction in which the line began, if it is a small one.
+/// At which distance the way from `a` to `b` passes the seed in the direction in which the line began, if it is a small
+/// one.
 fn passes(cell: CellShape, points: [[f64; 2]; 3], start: [f64; 2]) -> Option<f64> {
     let [seed, a, b] = points.map(|p| cell.physical(p));
     let ahead = |p: [f64; 2]| (p[0] - seed[0]) * start[0] + (p[1] - seed[1]) * start[1];

@@ -28,14 +28,14 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// Points and separatrices of the field and its axes. Closed lines that separate regions without a point are not looked
-    /// for.
+    /// Points and separatrices of the field and its axes. Closed lines that separate regions without a point are not
+    /// looked for.
     #[must_use]
     pub fn of(field: &Interpolated<'_>, families: &[Family], options: &LineOptions) -> Self {
         let points = match (field.axes().axes(), field.axes().major()) {
             (Axes::HalfAxes, Major::Magnitude) => degenerate_points(field.field()),
-            // Eigenvectors and their bisectors have no direction where nothing stretches. By value semi-axes change places along the
-            // lines of zero trace, on which the other points lie.
+            // Eigenvectors and their bisectors have no direction where nothing stretches. By value semi-axes change
+            // places along the lines of zero trace, on which the other points lie.
             (Axes::HalfAxes, Major::Value) | (Axes::Eigenvectors | Axes::DualEigenvectors, _) => {
                 points_of_stretching(field.field())
             }
@@ -50,8 +50,9 @@ impl Topology {
     }
 }
 
-/// Distances from a degenerate point at which its surroundings are looked at, in the unit of [`tigereye_core::CellShape`], the nearest first. Points of one quad have
-/// their pattern at any of them; points merged of several need more.
+/// Distances from a degenerate point at which its surroundings are looked at, in the unit of
+/// [`tigereye_core::CellShape`], the nearest first. Points of one quad have their pattern at any of them; points merged
+/// of several need more.
 const RADII: [f64; 6] = [0.02, 0.1, 0.3, 0.7, 1.2, 2.0];
 /// Directions that are looked at.
 const AROUND: usize = 360;
@@ -114,8 +115,8 @@ impl Ring {
 
     /// Angles at which the axis is radial and bounds a hyperbolic sector.
     fn separating(&self) -> Vec<f64> {
-        // (angle, multiple of pi): going from root to root the axis falls behind by pi in a hyperbolic sector, stays in a
-        // parabolic one, and gains pi in an elliptic one.
+        // (angle, multiple of pi): going from root to root the axis falls behind by pi in a hyperbolic sector, stays in
+        // a parabolic one, and gains pi in an elliptic one.
         let mut roots: Vec<(f64, i64)> = Vec::new();
         for i in 0..AROUND {
             let (a, b) = (self.ahead[i] / PI, self.ahead[i + 1] / PI);
@@ -179,9 +180,9 @@ mod tests {
         }
     }
 
-    /// Around [[x, b y], [b y, -x]] a direction t is radial where cos t sin 2t = b sin t cos 2t (the cubic of Delmarcelle and
-    /// Hesselink, 1994): t = 0, and cos^2 t = b / (2 b - 2) from b = 2 on. Where there are three, the middle one lies within the
-    /// parabolic sector and separates nothing.
+    /// Around [[x, b y], [b y, -x]] a direction t is radial where cos t sin 2t = b sin t cos 2t (the cubic of
+    /// Delmarcelle and Hesselink, 1994): t = 0, and cos^2 t = b / (2 b - 2) from b = 2 on. Where there are three, the
+    /// middle one lies within the parabolic sector and separates nothing.
     #[test]
     fn wedges_have_one_or_two() {
         let plain = topology(&linear(|x, y| [x, y]), Axes::HalfAxes);

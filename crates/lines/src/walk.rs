@@ -5,13 +5,13 @@ use crate::{Family, Interpolated, LineEnd, LineOptions, Method};
 
 /// Cosine of the largest turn from one stage of a step to the next, 30 degrees, which fourth order follows well.
 const LARGEST_TURN: f64 = 0.866;
-/// Least part of the contrast that is left after a step. It grows in proportion to the distance from a degenerate point, so that a step
-/// of a cell or less which leaves half of it does not lead across.
+/// Least part of the contrast that is left after a step. It grows in proportion to the distance from a degenerate
+/// point, so that a step of a cell or less which leaves half of it does not lead across.
 const LEAST_LEFT: f64 = 0.5;
-/// A step that would leave the field, is not exact enough or too near to a degenerate point, is halved down to this part of the longest
-/// one.
+/// A step that would leave the field, is not exact enough or too near to a degenerate point, is halved down to this
+/// part of the longest one.
 const SHORTEST: f64 = 1.0 / 65536.0;
-/// Steps of a fixed length are tried at most this often for every whole one, and so many times more.
+/// Most trial steps per full step of a fixed length, and this many more in all.
 const TRIES: [f64; 2] = [8.0, 1000.0];
 
 /// How lines of one family go on.
@@ -122,8 +122,8 @@ impl Walk<'_> {
         self.options.step * SHORTEST
     }
 
-    /// The step to try next: by the error of the last one, relative to the tolerance. One of a fixed length becomes longer again, but not
-    /// right after it had to be shortened: before an end every second one would be.
+    /// The step to try next: by the error of the last one, relative to the tolerance. One of a fixed length becomes
+    /// longer again, but not right after it had to be shortened: before an end every second one would be.
     fn next(&self, length: f64, error: f64, shortened: bool) -> f64 {
         match self.options.method {
             Method::RungeKutta4 if shortened => length,

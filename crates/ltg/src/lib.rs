@@ -1,13 +1,13 @@
 //! The light transport gradient: how much the light of a pulse changes when the pulse moves or turns.
 //!
-//! For a pulse at (x, y) in sample t let `b(x, y, t)` be the light it leaves everywhere. The gradient is
-//! `sqrt(g_x^2 + g_y^2 + g_w^2)` with `g_x = 1/2 sum |b(x+1, y, t) - b(x-1, y, t)|` over all cells and samples, and likewise in
-//! y and in the direction (eqs. 3.17 to 3.20). It is an L1 distance of light distributions, not an exponent as the FTLE is;
+//! For a pulse at (x, y) in sample t let `b(x, y, t)` be the light it leaves everywhere. The gradient is `sqrt(g_x^2 +
+//! g_y^2 + g_w^2)` with `g_x = 1/2 sum |b(x+1, y, t) - b(x-1, y, t)|` over all cells and samples, and likewise in y and
+//! in the direction (eqs. 3.17 to 3.20). It is an L1 distance of light distributions, not an exponent as the FTLE is;
 //! divide by the source spacing to compare resolutions.
 //!
-//! Every pulse is compared with all its partners while it is in memory. What is finished is a [`PartialVolume`]: a sweep can
-//! stop anywhere and go on from there, and shards of it can be computed apart and merged. This crate neither draws nor
-//! parses nor reads clocks.
+//! Every pulse is compared with all its partners while it is in memory. What is finished is a [`PartialVolume`]: a
+//! sweep can stop anywhere and go on from there, and shards of it can be computed apart and merged. This crate neither
+//! draws nor parses nor reads clocks.
 
 /// Counts the changes that moved a bit of a gradient: what one count left half-finished, another must not go on with.
 pub const NUMERICS: u32 = 2;

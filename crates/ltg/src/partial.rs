@@ -1,8 +1,9 @@
 //! What is finished of a gradient.
 //!
 //! The x and y differences of a slice and its angular difference may belong to different sets of directions, which are
-//! swept one after the other. A value is therefore kept as the sum of the squared differences that are finished: 0, then
-//! `g_x^2 + g_y^2` or `g_w^2`, then both. Addition of two numbers does not know their order, so neither do the bits.
+//! swept one after the other. A value is therefore kept as the sum of the squared differences that are finished: 0,
+//! then `g_x^2 + g_y^2` or `g_w^2`, then both. Addition of two numbers does not know their order, so neither do the
+//! bits.
 
 use crate::pass::Pass;
 use crate::row::RowResults;
@@ -66,7 +67,8 @@ impl PartialVolume {
     /// What an earlier run finished. Nothing is allocated for sizes that do not fit.
     ///
     /// # Errors
-    /// As [`Self::empty`], and [`LtgError::Length`] for lists of other lengths than this gradient's, [`LtgError::Value`] for values it cannot have.
+    /// As [`Self::empty`], and [`LtgError::Length`] for lists of other lengths than this gradient's,
+    /// [`LtgError::Value`] for values it cannot have.
     pub fn restored(
         grid: Grid,
         directions: Directions,
@@ -136,7 +138,7 @@ impl PartialVolume {
         shards
     }
 
-    /// Both together. The order does not matter, not even for the last bit.
+    /// Merges two partial volumes, in either order with the same bits.
     ///
     /// # Errors
     /// [`LtgError::Unlike`] for parts of different gradients, [`LtgError::DoneTwice`].

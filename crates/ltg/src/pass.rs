@@ -74,8 +74,8 @@ impl<'a> Pass<'a> {
         let any = |test: &dyn Fn(Cell) -> bool| neighbours.iter().flatten().any(|&n| test(n));
         let own = self.is_target(cell.x, cell.y);
         Wanted {
-            // A slice's pulse takes part in differences of the cells beside it only. Where none of them is wanted here, it is
-            // still this cell's to count.
+            // A slice's pulse takes part in differences of the cells beside it only. Where none of them is wanted here,
+            // it is still this cell's to count.
             slices: any(&|n| self.is_target(n.x, n.y)) || own && any(&|n| !self.grid.is_border(n)),
             partners: own,
             counted: self

@@ -67,7 +67,7 @@ pub(crate) fn strips<T: Real>(
     let of_set = |set: &DirectionSet| {
         let fits = |&columns: &usize| needed(columns + 2, set) <= u128::from(bound);
         let widest = (1..=interior).rev().find(fits).unwrap_or(1);
-        // Strips of equal width rather than one thin rest.
+        // Strips of equal width rather than a thin remainder.
         let width = interior.div_ceil(interior.div_ceil(widest));
         (0..interior).step_by(width).map(|start| 1 + start..1 + (start + width).min(interior)).collect()
     };

@@ -51,7 +51,7 @@ impl Differences {
     }
 }
 
-/// Counters that threads add to; whole numbers do not mind the order.
+/// Counters that threads add to; integer addition does not depend on the order.
 #[derive(Default)]
 pub(crate) struct WorkCounter {
     sources: AtomicU64,

@@ -1,13 +1,14 @@
 //! Directions that are swept together.
 //!
-//! The angular difference at t compares t-K with t+K, so directions that differ by 2K belong together; the differences in
-//! x and y stay within one direction. A slice's own direction and its two partners may therefore lie in different sets.
-//! The sets depend on S, the slices and K only: what one run finished, another can go on with, on any machine.
+//! The angular difference at t compares t-K with t+K, so directions that differ by 2K belong together; the differences
+//! in x and y stay within one direction. A slice's own direction and its two partners may therefore lie in different
+//! sets. The sets depend on S, the slices and K only: what one run finished, another can go on with, on any machine.
 
 use std::collections::BTreeMap;
 use tigereye_core::Directions;
 
-/// Sets are merged until they have so many directions: enough to sort them into batches that stop at about the same step.
+/// Sets are merged until they have so many directions: enough to sort them into batches that stop at about the same
+/// step.
 const LEAST: usize = 32;
 
 /// A set of directions closed under the angular comparison.

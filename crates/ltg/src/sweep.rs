@@ -1,9 +1,9 @@
 //! The sweep itself.
 //!
-//! For each set of directions and each strip of columns it goes down the grid. A pulse of row y is compared with that of
-//! row y-2, whose place it then takes; of the two pulses of a difference in x or in direction, whichever is ready last is
-//! compared with the other. So every pulse is compared while it is still at hand, and each difference has one place:
-//! neither the number of threads nor the tiles show in the result.
+//! For each set of directions and each strip of columns it goes down the grid. A pulse of row y is compared with that
+//! of row y-2, whose place it then takes; of the two pulses of a difference in x or in direction, whichever is ready
+//! last is compared with the other. So every pulse is compared while it is still at hand, and each difference has one
+//! place: neither the number of threads nor the tiles show in the result.
 //!
 //! Pulses that are propagated side by side keep each other waiting until the last one stops. So a cell's directions are
 //! ordered by the steps they took one row above, and cut into batches in that order.
@@ -22,8 +22,8 @@ use std::sync::{Mutex, PoisonError};
 use tigereye_core::{Cell, Directions, Grid};
 use tigereye_transport::{PulseDistribution, PulseSolver, Real, Scattering, l1_difference};
 
-/// Computes the gradient for every cell and the slices of `settings`. Border cells are 0. Runs on rayon's current thread
-/// pool; the result does not depend on the number of threads, on the memory bound or on the instruction set.
+/// Computes the gradient for every cell and the slices of `settings`. Border cells are 0. Runs on rayon's current
+/// thread pool; the result does not depend on the number of threads, on the memory bound or on the instruction set.
 ///
 /// # Errors
 /// [`LtgError`], before any work except for [`LtgError::Interrupted`].
@@ -35,11 +35,12 @@ pub fn sweep(
     sweep_part(field, settings, Shard::WHOLE, None, observer)?.into_outcome()
 }
 
-/// Computes what `shard` has of the gradient and `start`, left by an earlier run, lacks. The values and counters are those of
-/// a sweep in one piece, however often it was interrupted and however it was cut.
+/// Computes what `shard` has of the gradient and `start`, left by an earlier run, lacks. The values and counters are
+/// those of a sweep in one piece, however often it was interrupted and however it was cut.
 ///
 /// # Errors
-/// [`LtgError`], before any work except for [`LtgError::Interrupted`]; the observer has seen what was finished until then.
+/// [`LtgError`], before any work except for [`LtgError::Interrupted`]; the observer has seen what was finished until
+/// then.
 pub fn sweep_part(
     field: &Scattering<'_>,
     settings: &LtgSettings,
@@ -64,8 +65,8 @@ pub fn sweep_part(
     }
 }
 
-/// Whether a sweep with these settings can run on rayon's current thread pool, asked before anything large is made. `walls` is how
-/// many cells send light back.
+/// Whether a sweep with these settings can run on rayon's current thread pool, asked before anything large is made.
+/// `walls` is how many cells send light back.
 ///
 /// # Errors
 /// What [`sweep`] would refuse.
@@ -233,8 +234,8 @@ impl<'a, T: Real> Sweep<'a, T> {
         }
     }
 
-    /// Solves one batch at one cell, puts the pulses in the place of those two rows above, and takes every difference whose
-    /// other pulse is ready.
+    /// Solves one batch at one cell, puts the pulses in the place of those two rows above, and takes every difference
+    /// whose other pulse is ready.
     fn run_batch(&self, row: &Row<'_, T>, x: usize, places: &[usize]) {
         if self.interrupted.load(Ordering::Relaxed) {
             self.skipped.store(true, Ordering::Relaxed);

@@ -22,11 +22,11 @@ impl Default for Pace {
 /// Most pixels of all frames together: some seconds of work.
 pub const MAX_ANIMATED_PIXELS: u64 = 1 << 30;
 
-/// `count` frames as an animated PNG that never ends, on white and as large as the larger of the first and the last. Programs that
-/// know no animations show the first. The same frames give the same bytes.
+/// `count` frames as an animated PNG that never ends, on white and as large as the larger of the first and the last.
+/// Programs that know no animations show the first. The same frames give the same bytes.
 ///
-/// Behind the first, a frame holds the rectangle that changes only. They are drawn one after the other, so that no more than two are
-/// there at a time; the last one once more for its size.
+/// Behind the first, a frame holds the rectangle that changes only. They are drawn one after the other, so that no more
+/// than two are there at a time; the last one once more for its size.
 ///
 /// # Errors
 /// As [`Scene::to_png`]; [`RenderError::Frames`] for none, or more pixels than [`MAX_ANIMATED_PIXELS`].

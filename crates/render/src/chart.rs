@@ -41,8 +41,8 @@ pub struct Series {
     pub markers: bool,
     /// Colour; by default the next of [`SERIES_PALETTE`].
     pub colour: Option<Rgba>,
-    /// Dashes and gaps in pixels, empty for a solid line; by default solid for the first series, dashed for the next ones
-    /// that have no markers.
+    /// Dashes and gaps in pixels, empty for a solid line; by default solid for the first series, dashed for the next
+    /// ones that have no markers.
     pub dash_px: Option<Vec<f64>>,
 }
 

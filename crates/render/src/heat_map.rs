@@ -43,12 +43,12 @@ pub struct HeatOptions {
     /// Fixed lower and upper end, to compare pictures; by default that of the values. A diverging scale uses the larger
     /// magnitude. A logarithmic one uses both ends where they are positive and ignores its decades then.
     pub range: Option<(f64, f64)>,
-    /// Samples along the side of a cell, usually 1: a value per cell. With n, a map of W x H cells needs a field of
-    /// n (W - 1) + 1 by n (H - 1) + 1 values, of which (i, j) lies at (i/n, j/n) cells; axes, sources and overlays stay in
-    /// cells. 0 counts as 1, more than there are as all of them.
+    /// Samples along the side of a cell, usually 1: a value per cell. With n, a map of W x H cells needs a field of n
+    /// (W - 1) + 1 by n (H - 1) + 1 values, of which (i, j) lies at (i/n, j/n) cells; axes, sources and overlays stay
+    /// in cells. 0 counts as 1, more than there are as all of them.
     pub samples_a_cell: usize,
-    /// Walls of a scene over the map. What they hide counts for neither colours nor legend. With several samples a cell they
-    /// are not drawn.
+    /// Walls of a scene over the map. What they hide counts for neither colours nor legend. With several samples a cell
+    /// they are not drawn.
     pub walls: Option<Field<Option<Surface>>>,
     /// Light sources, marked with stars.
     pub sources: Vec<Cell>,
@@ -87,8 +87,8 @@ impl Default for HeatOptions {
     }
 }
 
-/// The field as a heat map. Values that are not finite are grey and hatched and named in the legend; a field without any
-/// finite value is drawn and described as such.
+/// The field as a heat map. Values that are not finite are grey and hatched and named in the legend; a field without
+/// any finite value is drawn and described as such.
 #[must_use]
 pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     let sampling = Sampling::of(field.grid(), [options.samples_a_cell; 2]);

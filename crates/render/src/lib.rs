@@ -1,8 +1,8 @@
 //! Pictures of tensor fields, light distributions and gradients: data in, a [`Scene`] out, exported as PNG or SVG.
 //!
 //! Every function here is pure. Nothing is written, nothing is asked of the system, and the same data gives the same
-//! bytes. Values that cannot be drawn (not finite, or not positive on a logarithmic scale) are never silently turned into
-//! others: the picture's legend names them.
+//! bytes. Values that cannot be drawn (not finite, or not positive on a logarithmic scale) are never silently turned
+//! into others: the picture's legend names them.
 
 mod animation;
 mod axis;

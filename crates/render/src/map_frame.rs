@@ -166,8 +166,9 @@ impl MapFrame {
     }
 }
 
-/// Width and height of a cell in pixels. Its smaller side has those asked for, or such that the longer side of the map stays within
-/// `target_px`: a whole number up to `most`, or one over a whole number where cells are smaller than pixels.
+/// Width and height of a cell in pixels. Its smaller side has those asked for, or such that the longer side of the map
+/// stays within `target_px`: a whole number up to `most`, or one over a whole number where cells are smaller than
+/// pixels.
 pub(crate) fn cell_px(
     grid: Grid,
     shape: CellShape,

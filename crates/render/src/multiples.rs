@@ -9,7 +9,8 @@ const LABEL_PX: f64 = 13.0;
 const LABEL_LINE_PX: f64 = 18.0;
 const GAP_PX: f64 = 10.0;
 
-/// Panels row by row in `columns` columns (at least 1), each under its letter (a), (b), (c) and title; `title` above all.
+/// Panels row by row in `columns` columns (at least 1), each under its letter (a), (b), (c) and title; `title` above
+/// all.
 ///
 /// Give the panels no title of their own: their maps then share one upper edge.
 #[must_use]

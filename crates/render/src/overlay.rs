@@ -12,8 +12,8 @@ use tigereye_core::Cell;
 pub struct Overlay {
     /// Meaning, for the legend; without one the overlay does not appear there.
     pub label: String,
-    /// Points (x, y) in cells. One that is not finite or not on the map interrupts the line, so that one overlay holds many
-    /// lines.
+    /// Points (x, y) in cells. One that is not finite or not on the map interrupts the line, so that one overlay holds
+    /// many lines.
     pub points: Vec<[f64; 2]>,
     /// Marker of every point; a line through the points where there is none.
     pub marker: Option<Marker>,

@@ -11,8 +11,8 @@ use tiny_skia::{
 };
 
 impl Scene {
-    /// The scene as a PNG of `ceil(width * scale) x ceil(height * scale)` pixels on white. The same scene gives the same
-    /// bytes.
+    /// The scene as a PNG of `ceil(width * scale) x ceil(height * scale)` pixels on white. The same scene gives the
+    /// same bytes.
     ///
     /// # Errors
     /// [`RenderError::Scale`]; [`RenderError::PictureSize`] where a side is not within 1 to [`Self::MAX_SIDE_PX`];

@@ -16,13 +16,14 @@ use tigereye_core::{
 pub enum IntensityScale {
     /// Radius proportional to intensity; the brightest sample of the field fills its cell.
     Linear {
-        /// Leaves the cells of [`PolarOptions::sources`] out of the comparison; they are drawn at most as large as a cell.
+        /// Leaves the cells of [`PolarOptions::sources`] out of the comparison; they are drawn at most as large as a
+        /// cell.
         exclude_sources: bool,
     },
     /// Every cell's own maximum fills it: shapes only.
     PerCell,
-    /// The longest radius of a cell falls linearly with the logarithm of its mean intensity, from the brightest cell down
-    /// to nothing at `decades` below; the shape is kept. Light falls with distance, and this keeps it visible.
+    /// The longest radius of a cell falls linearly with the logarithm of its mean intensity, from the brightest cell
+    /// down to nothing at `decades` below; the shape is kept. Light falls with distance, and this keeps it visible.
     Logarithmic {
         /// Decades shown, positive.
         decades: f64,
@@ -35,8 +36,8 @@ pub enum TransmissionScale {
     /// Every cell's own maximum fills it: shapes only.
     #[default]
     PerCell,
-    /// The longest radius is proportional to the cell's mean transmission, relative to the largest mean of the field: cells
-    /// that absorb are small. The shape is kept.
+    /// The longest radius is proportional to the cell's mean transmission, relative to the largest mean of the field:
+    /// cells that absorb are small. The shape is kept.
     Rate,
 }
 
@@ -87,8 +88,8 @@ const SOURCE_FILL: Rgba = Rgba::hex(0xffefb8);
 const SOURCE_LINE: Rgba = Rgba::hex(0xe69f00);
 const ABSORBING: Rgba = Rgba::hex(0xdedede);
 
-/// In every cell the transmission profile in red and the intensity profile in blue, 90 degrees pointing up. With neither,
-/// or with two different grids (the light's counts), what is there is drawn.
+/// In every cell the transmission profile in red and the intensity profile in blue, 90 degrees pointing up. With
+/// neither, or with two different grids (the light's counts), what is there is drawn.
 #[must_use]
 pub fn polar_overlay(
     transmission: Option<&TransmissionField>,

@@ -12,8 +12,8 @@ use tigereye_core::math;
 pub struct Ribbon {
     /// Meaning, for the legend; without one the ribbon does not appear there.
     pub label: String,
-    /// Points (x, y) of the middle line in cells. One that is not finite, or lies several maps away, interrupts the band, so
-    /// that one ribbon holds many.
+    /// Points (x, y) of the middle line in cells. One that is not finite, or lies several maps away, interrupts the
+    /// band, so that one ribbon holds many.
     pub points: Vec<[f64; 2]>,
     /// Half the width at every point, measured across the line. One that is missing, negative or not finite
     /// interrupts the band.

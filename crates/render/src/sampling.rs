@@ -23,8 +23,8 @@ pub(crate) struct Sampling {
 }
 
 impl Sampling {
-    /// The cells that `samples` reach; 0 a cell counts as 1, and more than there are as all of them. Where their number does
-    /// not fit, the last cell is reached in part.
+    /// The cells that `samples` reach; 0 a cell counts as 1, and more than there are as all of them. Where their number
+    /// does not fit, the last cell is reached in part.
     pub(crate) fn of(samples: Grid, per_cell: [usize; 2]) -> Self {
         let steps = [samples.width() - 1, samples.height() - 1];
         let per_cell = per_cell.map(|n| n.clamp(1, steps[0].max(steps[1]).max(1)));
@@ -33,8 +33,8 @@ impl Sampling {
         Self { per_cell, cells: Grid::new(width, height).unwrap_or(samples), samples }
     }
 
-    /// Width and height of a cell in pixels: those asked for its smaller side, or such that samples along it have whole pixels as long as
-    /// they are not smaller.
+    /// Width and height of a cell in pixels: those asked for its smaller side, or such that samples along it have whole
+    /// pixels as long as they are not smaller.
     pub(crate) fn cell_px(&self, shape: CellShape, fixed: Option<usize>) -> [f64; 2] {
         if fixed.is_some() || self.per_cell == [1; 2] {
             return map_frame::cell_px(self.cells, shape, fixed, 480, 40);

@@ -35,7 +35,8 @@ pub struct TextureOptions {
     pub samples_a_cell: [usize; 2],
     /// Colour by another quantity.
     pub tint: Option<Tint>,
-    /// Pixels of a cell's smaller side; by default such that samples have whole pixels and the longer side has about 480.
+    /// Pixels of a cell's smaller side; by default such that samples have whole pixels and the longer side has about
+    /// 480.
     pub cell_px: Option<usize>,
     /// The shape of a cell.
     pub cell: CellShape,
@@ -70,8 +71,8 @@ const TINT_CONTRAST: f64 = 0.75;
 /// Samples whose tint is not a number keep their grey; this one stands for them in the legend.
 const MIDDLE_GREY: Rgba = Rgba::hex(0x808080);
 
-/// A texture with values from 0 (dark) to 1 (light), those beyond drawn as the ends, with axes in cells. A tint shows its own
-/// colour at 0.5. Samples that are not finite are white and named in the legend.
+/// A texture with values from 0 (dark) to 1 (light), those beyond drawn as the ends, with axes in cells. A tint shows
+/// its own colour at 0.5. Samples that are not finite are white and named in the legend.
 ///
 /// # Errors
 /// [`RenderError::GridMismatch`] where a tint does not have the samples of the texture.

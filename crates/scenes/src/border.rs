@@ -32,8 +32,8 @@ impl Nearest {
         nearest
     }
 
-    /// Direction along the border, degrees from 0 to 180; `None` where normals of all directions cancel, as in the middle of a
-    /// disc.
+    /// Direction along the border, degrees from 0 to 180; `None` where normals of all directions cancel, as in the
+    /// middle of a disc.
     pub(crate) fn along_deg(self) -> Option<f64> {
         let (mut across, [c, s]) = (self.across, self.doubled);
         if math::hypot(across[0], across[1]) < ROUNDING {
@@ -78,8 +78,8 @@ fn foot(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
 
 /// Of a closed polygon.
 ///
-/// Beside a side that is the side's normal, off a corner the direction from the corner, and on a corner, or where two sides are
-/// equally far, their mean.
+/// Beside a side that is the side's normal, off a corner the direction from the corner, and on a corner, or where two
+/// sides are equally far, their mean.
 pub(crate) fn to_polygon(p: [f64; 2], corners: &[[f64; 2]]) -> Nearest {
     let mut nearest = Nearest::NONE;
     let mut feet: Option<([f64; 2], [f64; 2])> = None;

@@ -3,8 +3,8 @@
 use crate::Layout;
 use tigereye_core::Cell;
 
-/// Pairs of walls' cells that touch at a corner only: light passes between them, as the eight neighbours of a cell include the
-/// diagonal ones. Row-major by the upper cell.
+/// Pairs of walls' cells that touch at a corner only: light passes between them, as the eight neighbours of a cell
+/// include the diagonal ones. Row-major by the upper cell.
 #[must_use]
 pub fn leaks(layout: &Layout) -> Vec<[Cell; 2]> {
     let grid = layout.surfaces.grid();

@@ -37,10 +37,10 @@ impl Mask {
         cell.x < self.width && cell.y < self.height() && self.marked[cell.y * self.width + cell.x]
     }
 
-    /// The direction of the surface in a cell of a scene that has the mask's upper left one at `at`, degrees from 0 to 180: at right
-    /// angles to the free cells about it, a diagonal one counting where both beside it are free. `None` where they have no
-    /// direction: a single cell, or one with no free cell beside it. The wall is what is marked, or else everything else. Beyond the
-    /// rim of the scene, where a bitmap cannot go on, lies what lies at the rim.
+    /// The direction of the surface in a cell of a scene that has the mask's upper left one at `at`, degrees from 0 to
+    /// 180: at right angles to the free cells about it, a diagonal one counting where both beside it are free. `None`
+    /// where they have no direction: a single cell, or one with no free cell beside it. The wall is what is marked, or
+    /// else everything else. Beyond the rim of the scene, where a bitmap cannot go on, lies what lies at the rim.
     pub(crate) fn surface_deg(&self, grid: Grid, at: Cell, cell: Cell, marked: bool) -> Option<f64> {
         let free = |k: usize| {
             let (dx, dy) = tigereye_core::NEIGHBOUR_OFFSETS[k];
@@ -53,7 +53,8 @@ impl Mask {
             is_marked != marked
         };
         let one = |yes: bool| f64::from(u8::from(yes));
-        // Twice the angles of the normals, so that opposite ones agree: 0 and 180 degrees for the sides, 90 and 270 for diagonals.
+        // Twice the angles of the normals, so that opposite ones agree: 0 and 180 degrees for the sides, 90 and 270 for
+        // diagonals.
         let sides = one(free(0)) + one(free(4)) - one(free(2)) - one(free(6));
         let diagonals: f64 = BESIDE
             .iter()

@@ -3,7 +3,8 @@
 use std::collections::VecDeque;
 use tigereye_core::{Cell, Field};
 
-/// Cells from a start to an end, both included, each one of the eight neighbours of the one before: light knows no others.
+/// Cells from a start to an end, both included, each one of the eight neighbours of the one before: light knows no
+/// others.
 pub type Path = Vec<Cell>;
 
 /// The eight directions, those along rows and columns first.
@@ -52,9 +53,9 @@ pub fn shortest_path(open: &Field<bool>, start: Cell, end: Cell) -> Option<Path>
     Some(path)
 }
 
-/// The steepest ascent of brightness: the way from `start` that always goes on to the brightest open neighbour, against the light to
-/// its source, turned round: from the light to `start`. `None` where it does not come to `light`: in the dark, or on a summit of
-/// its own.
+/// The steepest ascent of brightness: the way from `start` that always goes on to the brightest open neighbour, against
+/// the light to its source, turned round: from the light to `start`. `None` where it does not come to `light`: in the
+/// dark, or on a summit of its own.
 #[must_use]
 pub fn brightest_path(energy: &Field<f64>, open: &Field<bool>, start: Cell, light: Cell) -> Option<Path> {
     let grid = energy.grid();

@@ -10,8 +10,8 @@ use tigereye_core::{
 /// What a part of a scene is made of.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Material {
-    /// Passes this part of the light on, in all directions alike: 1 for empty space, with which a part cuts a door into those
-    /// before it.
+    /// Passes this part of the light on, in all directions alike: 1 for empty space, with which a part cuts a door into
+    /// those before it.
     Clear {
         /// The part, 0 to 1.
         transmittance: f64,
@@ -22,16 +22,16 @@ pub enum Material {
     Mirror {
         /// The part of the light that is sent back, 0 to 1.
         reflectance: f64,
-        /// Direction of the mirror's line, degrees. `None`: along the surface of the shape, and where that has no direction the
-        /// cell faces whatever light arrives.
+        /// Direction of the mirror's line, degrees. `None`: along the surface of the shape, and where that has no
+        /// direction the cell faces whatever light arrives.
         angle_deg: Option<f64>,
     },
     /// Reflects like a diffuse wall, on both sides.
     Diffuse {
         /// The part of the light that is sent back, 0 to 1.
         reflectance: f64,
-        /// Direction of the wall's line, degrees. `None`: along the surface of the shape, and where that has no direction the
-        /// cell faces whatever light arrives.
+        /// Direction of the wall's line, degrees. `None`: along the surface of the shape, and where that has no
+        /// direction the cell faces whatever light arrives.
         angle_deg: Option<f64>,
     },
     /// Passes light on as the tensors of a field do.
@@ -45,8 +45,8 @@ pub enum Material {
     },
 }
 
-/// A shape of one material. The surface is the whole shape's, whatever later parts cut out of it: the sides of a door in a thick
-/// mirror reflect in the direction of the mirror's nearest border, unless an angle is given.
+/// A shape of one material. The surface is the whole shape's, whatever later parts cut out of it: the sides of a door
+/// in a thick mirror reflect in the direction of the mirror's nearest border, unless an angle is given.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// Where it is.
@@ -153,8 +153,8 @@ impl Scene {
     /// What each cell does to light, in `directions`.
     ///
     /// # Errors
-    /// [`SceneError`] for a crystal with a tensor that is not finite, or one that is normalised by a fraction outside 0 to 1; for
-    /// more samples than [`TransmissionField::MAX_SAMPLES`].
+    /// [`SceneError`] for a crystal with a tensor that is not finite, or one that is normalised by a fraction outside 0
+    /// to 1; for more samples than [`TransmissionField::MAX_SAMPLES`].
     ///
     /// # Panics
     /// For the layout of another scene.

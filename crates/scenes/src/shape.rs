@@ -24,7 +24,8 @@ pub enum Shape {
     /// All points within half a thickness of a line.
     ///
     /// With a thickness of 1 upright and level walls are closed. Light passes diagonally between two cells that touch
-    /// at a corner; a slanted wall is closed from a thickness of the square root of 2 on ([`crate::leaks`] finds the gaps).
+    /// at a corner; a slanted wall is closed from a thickness of the square root of 2 on ([`crate::leaks`] finds the
+    /// gaps).
     Segment {
         /// One end.
         from: [f64; 2],
@@ -116,8 +117,8 @@ impl Shape {
         }
     }
 
-    /// The direction of the shape's surface nearest to a cell, degrees from 0 to 180; `None` where it has none: a single cell, the
-    /// middle of a disc or a square. `grid` is the scene's: bitmaps go on beyond its rim.
+    /// The direction of the shape's surface nearest to a cell, degrees from 0 to 180; `None` where it has none: a
+    /// single cell, the middle of a disc or a square. `grid` is the scene's: bitmaps go on beyond its rim.
     #[must_use]
     pub fn surface_deg(&self, grid: Grid, cell: Cell) -> Option<f64> {
         match self {

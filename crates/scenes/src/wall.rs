@@ -1,16 +1,17 @@
 //! Where walls send light: specular and diffuse reflection on eight directions.
 //!
-//! Light that travels at 45 j degrees leaves a mirror whose line lies at angle a in the direction 2 a - 45 j. That is one
-//! of the eight directions again where a is a multiple of 22.5 degrees. For other angles the light is split between those of
-//! the two nearest such mirrors, so that its mean turns with the mirror; a part that would leave on the mirror's other side
-//! goes to the other of the two.
+//! Light that travels at 45 j degrees leaves a mirror whose line lies at angle a in the direction 2 a - 45 j. That is
+//! one of the eight directions again where a is a multiple of 22.5 degrees. For other angles the light is split between
+//! those of the two nearest such mirrors, so that its mean turns with the mirror; a part that would leave on the
+//! mirror's other side goes to the other of the two.
 
 use tigereye_core::math;
 
 /// Cosines below this are rounding: the light runs along the wall.
 const ALONG: f64 = 1e-9;
 
-/// Shares of the light that leave in each direction, for each direction it arrives in: `[k][j]`, columns add up to exactly 1.
+/// Shares of the light that leave in each direction, for each direction it arrives in: `[k][j]`, columns add up to
+/// exactly 1.
 pub(crate) type Matrix = [[f64; 8]; 8];
 
 /// A mirror whose line lies at `angle_deg`, the same on both sides. Light that runs along it passes.
@@ -40,8 +41,9 @@ pub(crate) fn specular(angle_deg: Option<f64>) -> Matrix {
     matrix
 }
 
-/// A diffuse wall whose line lies at `angle_deg`, the same on both sides: light leaves to the side it came from in shares that
-/// go with the cosine of the angle to the normal (Lambert's law). Light that runs along the wall leaves to both sides.
+/// A diffuse wall whose line lies at `angle_deg`, the same on both sides: light leaves to the side it came from in
+/// shares that go with the cosine of the angle to the normal (Lambert's law). Light that runs along the wall leaves to
+/// both sides.
 ///
 /// Without a direction it faces the light.
 pub(crate) fn diffuse(angle_deg: Option<f64>) -> Matrix {
@@ -69,8 +71,8 @@ fn facing(j: usize) -> f64 {
 
 /// Sets a column, rounded so that its shares add up to exactly 1 in any order.
 ///
-/// Between closed walls light is reflected thousands of times, and a sum beside 1 by a single unit in the last place is a
-/// growth or a loss each time. Multiples of 2^-53 up to 1 are added without rounding.
+/// Between closed walls light is reflected thousands of times, and a sum beside 1 by a single unit in the last place is
+/// a growth or a loss each time. Multiples of 2^-53 up to 1 are added without rounding.
 fn set_column(matrix: &mut Matrix, j: usize, shares: [f64; 8]) {
     const UNIT: f64 = f64::EPSILON / 2.0;
     let mut shares = shares.map(|share| math::round_ties_even(share / UNIT) * UNIT);
@@ -99,11 +101,11 @@ pub(crate) enum Beside {
     Wall,
 }
 
-/// Closes the wall: light returns the way it came where it would go on into another wall's cell, or to a neighbour that lies
-/// beyond the wall.
+/// Closes the wall: light returns the way it came where it would go on into another wall's cell, or to a neighbour that
+/// lies beyond the wall.
 ///
-/// Surfaces are stairs on a grid, and at their corners directions alone do not tell which side is which. So the neighbours do:
-/// those that follow each other round the cell without a wall between them lie on the same side.
+/// Surfaces are stairs on a grid, and at their corners directions alone do not tell which side is which. So the
+/// neighbours do: those that follow each other round the cell without a wall between them lie on the same side.
 pub(crate) fn closed(mut matrix: Matrix, beside: impl Fn(usize) -> Beside) -> Matrix {
     let beside: [Beside; 8] = std::array::from_fn(beside);
     for j in 0..8 {
@@ -116,7 +118,8 @@ pub(crate) fn closed(mut matrix: Matrix, beside: impl Fn(usize) -> Beside) -> Ma
     matrix
 }
 
-/// Whether a walk round the cell leads from neighbour `a` to neighbour `b` over open ones alone; both may be the end of it.
+/// Whether a walk round the cell leads from neighbour `a` to neighbour `b` over open ones alone; both may be the end of
+/// it.
 fn same_side(beside: &[Beside; 8], a: usize, b: usize) -> bool {
     let walk =
         |from: usize, to: usize| (1..(to + 8 - from) % 8).all(|i| beside[(from + i) % 8] == Beside::Open);

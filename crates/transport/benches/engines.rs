@@ -47,8 +47,8 @@ fn engines(c: &mut Criterion) {
     group.finish();
 }
 
-/// Full lanes of pulses of the centre until they have reached the whole grid and as long again, and the L1 difference of
-/// two of them.
+/// Full lanes of pulses of the centre until they have reached the whole grid and as long again, and the L1 difference
+/// of two of them.
 fn pulses<T: Real>(c: &mut Criterion) {
     let transmission = radial(32);
     let scheme = Scheme::new(transmission.directions(), SharedWeights::Thesis);

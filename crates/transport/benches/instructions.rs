@@ -1,8 +1,8 @@
-//! Instructions one update of a cell takes, counted by callgrind: numbers that neither load nor clock changes. Ends with 1
-//! where they are not the recorded ones.
+//! Instructions one update of a cell takes, counted by callgrind: numbers that neither load nor clock changes. Ends
+//! with 1 where they are not the recorded ones.
 //!
-//! Valgrind hides AVX-512, so the count is that of the AVX2 path. Without Valgrind, or where the processor has no AVX2, it
-//! says that it was skipped.
+//! Valgrind hides AVX-512, so the count is that of the AVX2 path. Without Valgrind, or where the processor has no AVX2,
+//! it says that it was skipped.
 
 use std::process::{Command, ExitCode};
 use tigereye_core::{Cell, Directions, Field, Grid, Normalization, Tensor2, TransmissionField};

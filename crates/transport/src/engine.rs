@@ -95,6 +95,9 @@ pub type Observer<'a> = dyn FnMut(&dyn StepView) -> ControlFlow<()> + 'a;
 
 /// A way to compute the scheme. All engines give the same numbers up to rounding (1e-13 relative).
 pub trait Engine {
+    /// Name in experiment files, one word; unique among [`crate::ENGINES`].
+    fn id(&self) -> &'static str;
+
     /// Name for reports.
     fn name(&self) -> &'static str;
 

@@ -1,8 +1,8 @@
 //! The reduced step of one light distribution, in its plainest form.
 //!
 //! The state is eight fluxes a cell on a grid with a ring of ghost cells: every cell may pass light on to all eight
-//! neighbours, and what reaches the ring is never read again (the absorbing rim). A slot (cell, k) has one writer, the cell
-//! behind it, so the two states need no clearing between steps.
+//! neighbours, and what reaches the ring is never read again (the absorbing rim). A slot (cell, k) has one writer, the
+//! cell behind it, so the two states need no clearing between steps.
 
 use crate::scattering::{CellScattering, Scattering};
 use crate::window::Window;
@@ -72,8 +72,8 @@ impl Buffers {
     }
 
     /// Passes light on from every cell of `window` and makes the result the current state (`from`) and the one before
-    /// `to`. `specials` (lights, in row-major order) pass on what they say instead of their lobes' flux. Returns the flux
-    /// that went to existing neighbours: each row alone, then rows in order.
+    /// `to`. `specials` (lights, in row-major order) pass on what they say instead of their lobes' flux. Returns the
+    /// flux that went to existing neighbours: each row alone, then rows in order.
     pub(crate) fn step(&mut self, field: &Scattering<'_>, window: Window, specials: &[(Cell, Lobes)]) -> f64 {
         let mut total = 0.0;
         let mut specials = specials.iter().peekable();

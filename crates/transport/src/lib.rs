@@ -1,7 +1,7 @@
 //! The light propagation scheme: how light in one cell is passed on to its eight neighbours, step by step.
 //!
-//! [`SampleSpace`] computes it as the thesis writes it, on whole angular profiles; [`EightLobe`] computes the same numbers
-//! from eight fluxes a cell. Both are [`Engine`]s. This crate knows nothing of gradients, files or pictures.
+//! [`SampleSpace`] computes it as the thesis writes it, on whole angular profiles; [`EightLobe`] computes the same
+//! numbers from eight fluxes a cell. Both are [`Engine`]s. This crate knows nothing of gradients, files or pictures.
 
 mod aligned;
 mod engine;
@@ -33,3 +33,7 @@ pub use scattering::Scattering;
 pub use scheme::{Scheme, SharedWeights, half_angle_beta_rad, half_core_alpha_rad, sector_lobes};
 pub use simd::Level;
 pub use stopping::{Stopping, StoppingRule};
+
+/// Every engine, the oracle first. Laws of propagations are tested for each of them, and experiment files choose them
+/// by [`Engine::id`].
+pub const ENGINES: &[&(dyn Engine + Sync)] = &[&SampleSpace, &EightLobe];

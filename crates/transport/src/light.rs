@@ -59,8 +59,8 @@ impl Light {
     }
 }
 
-/// The emitter `max(0, cos(theta - theta0))^m` (Fig. 3.1): m = 0 spherical, m = 1 Lambert, m = 2 cone. Intensity 1 W/rad
-/// at its brightest; m = 0 shines equally in **all** directions.
+/// The emitter `max(0, cos(theta - theta0))^m` (Fig. 3.1): m = 0 spherical, m = 1 Lambert, m = 2 cone. Intensity 1
+/// W/rad at its brightest; m = 0 shines equally in **all** directions.
 #[must_use]
 pub fn emitter(directions: Directions, theta0_rad: f64, m: f64) -> PolarProfile {
     PolarProfile::from_fn(directions, |t| {
@@ -72,7 +72,8 @@ pub fn emitter(directions: Directions, theta0_rad: f64, m: f64) -> PolarProfile 
 /// Checks that the lights can be propagated in a grid with a sampling.
 ///
 /// # Errors
-/// The first fault: no light, one outside the grid, two in a cell, a dark one, one too bright for sums of it, another sampling.
+/// The first fault: no light, one outside the grid, two in a cell, a dark one, one too bright for sums of it, another
+/// sampling.
 pub fn check_lights(lights: &[Light], grid: Grid, directions: Directions) -> Result<(), TransportError> {
     if lights.is_empty() {
         return Err(TransportError::NoLight);

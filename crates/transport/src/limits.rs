@@ -17,8 +17,8 @@ const SUMS: usize = 16;
 const PRODUCT_CHAINS: usize = 10;
 const SUM_CHAINS: usize = 3;
 
-/// Does the arithmetic of at least `updates` updates of a cell, and nothing else: as many fused multiply-adds, additions
-/// and divisions, all in registers. Returns how many updates it was.
+/// Does the arithmetic of at least `updates` updates of a cell, and nothing else: as many fused multiply-adds,
+/// additions and divisions, all in registers. Returns how many updates it was.
 ///
 /// Their rate is the arithmetic limit.
 #[must_use]
@@ -90,8 +90,8 @@ impl<T: Real> Traffic<T> {
         Self { numbers: Aligned::zeros(grid.cells() * 8 * T::LANES), cells: grid.cells() as u64 }
     }
 
-    /// Reads and writes every number once, as a step does, and nothing else. Returns how many updates of a cell in a lane
-    /// would have moved as much.
+    /// Reads and writes every number once, as a step does, and nothing else. Returns how many updates of a cell in a
+    /// lane would have moved as much.
     ///
     /// Their rate is the limit of moving the state once a step; fused steps may pass it.
     pub fn pass(&mut self, level: Level) -> u64 {

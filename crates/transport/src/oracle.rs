@@ -28,6 +28,10 @@ struct View<'a> {
 }
 
 impl Engine for SampleSpace {
+    fn id(&self) -> &'static str {
+        "SampleSpace"
+    }
+
     fn name(&self) -> &'static str {
         "sample space"
     }

@@ -46,6 +46,10 @@ struct Run<'a> {
 }
 
 impl Engine for EightLobe {
+    fn id(&self) -> &'static str {
+        "EightLobe"
+    }
+
     fn name(&self) -> &'static str {
         "eight lobes"
     }

@@ -1,6 +1,7 @@
 //! Sums over angular samples without visiting lobes one by one.
 //!
-//! Between 45k and 45(k+1) degrees only four lobes differ from 0 and their sum is `P cos + Q sin` of the angle from 45k.
+//! Between 45k and 45(k+1) degrees only four lobes differ from 0 and their sum is `P cos + Q sin` of the angle from
+//! 45k.
 
 use crate::Scheme;
 use core::f64::consts::FRAC_1_SQRT_2;

@@ -77,8 +77,8 @@ pub fn missing_label(surfaces: Option<&Field<Option<Surface>>>) -> &'static str 
     }
 }
 
-/// A gradient's scalar where it is a result, not a number elsewhere: at the border, where it is 0 by definition, and in and beside
-/// the walls of a scene, where others are compared with a pulse that shines on nothing.
+/// A gradient's scalar where it is a result, not a number elsewhere: at the border, where it is 0 by definition, and in
+/// and beside the walls of a scene, where others are compared with a pulse that shines on nothing.
 #[must_use]
 pub fn where_result(field: &Field<f64>, surfaces: Option<&Field<Option<Surface>>>) -> Field<f64> {
     let grid = field.grid();

@@ -1,4 +1,5 @@
-//! Views of tensor fields, one file each: from a request to what is found, with its picture, its data for VTK and its parameters.
+//! Views of tensor fields, one file each: from a request to what is found, with its picture, its data for VTK and its
+//! parameters.
 
 pub mod ftle;
 pub mod glyphs;
@@ -54,8 +55,8 @@ impl Placement {
     }
 }
 
-/// Scalars as image data that lie on the field, with so many samples a cell along x and y: rows upwards, as the parameters of its
-/// provenance say ([`tigereye_io::Rows::KEY`]).
+/// Scalars as image data that lie on the field, with so many samples a cell along x and y: rows upwards, as the
+/// parameters of its provenance say ([`tigereye_io::Rows::KEY`]).
 #[must_use]
 pub fn image(
     arrays: &[(&str, &Field<f64>)],
@@ -106,8 +107,8 @@ fn push_story(data: &mut PolyData, story: &str) {
     data.field_data.push(FieldEntry { name: PROVENANCE.to_owned(), values });
 }
 
-/// Lines and points over a field of which zero tensors and those that are not finite are hatched, and, where lines follow eigenvectors,
-/// those with complex eigenvalues shaded.
+/// Lines and points over a field of which zero tensors and those that are not finite are hatched, and, where lines
+/// follow eigenvectors, those with complex eigenvalues shaded.
 fn plain_options(
     field: &Field<Tensor2>,
     following: Following,

@@ -33,8 +33,8 @@ pub struct LinesRequest {
     pub seeds: Seeds,
     /// How they are followed.
     pub options: LineOptions,
-    /// Half of a hyperstreamline's width, in the unit of the smaller side of a cell, for the largest semi-axis, or eigenvalue, of
-    /// the field; none for plain lines.
+    /// Half of a hyperstreamline's width, in the unit of the smaller side of a cell, for the largest semi-axis, or
+    /// eigenvalue, of the field; none for plain lines.
     pub ribbon: Option<f64>,
 }
 
@@ -102,7 +102,8 @@ pub fn lines(field: &Field<Tensor2>, request: &LinesRequest) -> Result<FieldLine
 }
 
 impl FieldLines {
-    /// The lines on white, below `more`; cells without a tensor are hatched. Pixels a cell by default as [`plain_map`] has them.
+    /// The lines on white, below `more`; cells without a tensor are hatched. Pixels a cell by default as [`plain_map`]
+    /// has them.
     #[must_use]
     pub fn picture(
         &self,
@@ -146,9 +147,9 @@ impl FieldLines {
         self.lines.iter().map(|l| l.line.length(cell)).sum::<f64>() + 0.0
     }
 
-    /// The lines as polylines. Point arrays: `values` (both half-lengths or eigenvalues, major first) and, for hyperstreamlines,
-    /// `half_width` (in the unit of the smaller cell side). Cell arrays: `family` (0 major, 1 minor) and `ends` (why a line
-    /// ends: 0 border, 1 degenerate, 2 length, 3 closed, 4 stopped beside another line).
+    /// The lines as polylines. Point arrays: `values` (both half-lengths or eigenvalues, major first) and, for
+    /// hyperstreamlines, `half_width` (in the unit of the smaller cell side). Cell arrays: `family` (0 major, 1 minor)
+    /// and `ends` (why a line ends: 0 border, 1 degenerate, 2 length, 3 closed, 4 stopped beside another line).
     #[must_use]
     pub fn poly_data(&self, placement: &Placement, story: &str) -> PolyData {
         let mut data = PolyData::default();

@@ -11,8 +11,8 @@ const MAX_FRAMES: usize = 600;
 const MAX_BYTES: usize = 512 << 20;
 /// Energies of cells after some of the steps.
 ///
-/// Where there are more steps than frames, every second frame goes, as often as it takes, so that the rest follow each other
-/// at equal distances.
+/// Where there are more steps than frames, every second frame goes, as often as it takes, so that the rest follow each
+/// other at equal distances.
 #[derive(Clone, Debug)]
 pub struct Reel {
     /// Steps from one frame to the next.
@@ -42,7 +42,8 @@ impl Reel {
         self.frames.is_empty()
     }
 
-    /// The next step, or what is there before the first; `energies` of its cells (W) are asked for where it makes a frame.
+    /// The next step, or what is there before the first; `energies` of its cells (W) are asked for where it makes a
+    /// frame.
     pub fn add(&mut self, energies: impl FnOnce() -> Field<f64>) {
         if self.seen.is_multiple_of(self.every) {
             self.frames.push((self.seen, energies()));
@@ -55,16 +56,16 @@ impl Reel {
         self.seen += 1;
     }
 
-    /// The frames whose step is a multiple of `every`, without those that another animation of the same steps wants. All of them where
-    /// one would be left.
+    /// The frames whose step is a multiple of `every`, without those that another animation of the same steps wants.
+    /// All of them where one would be left.
     fn chosen(&self, every: usize) -> Vec<&(usize, Field<f64>)> {
         let some: Vec<_> = self.frames.iter().filter(|(step, _)| step.is_multiple_of(every.max(1))).collect();
         if some.len() > 1 { some } else { self.frames.iter().collect() }
     }
 
-    /// The frames of every `every`-th step as an animated PNG, and how many they are: pictures of one scale, `options` with a range of
-    /// `decades` below the brightest cell that is no light. Where they have too many pixels, every second one goes, as often as
-    /// it takes.
+    /// The frames of every `every`-th step as an animated PNG, and how many they are: pictures of one scale, `options`
+    /// with a range of `decades` below the brightest cell that is no light. Where they have too many pixels, every
+    /// second one goes, as often as it takes.
     ///
     /// # Errors
     /// As [`animation`].

@@ -69,7 +69,8 @@ pub struct ScalarImage {
 }
 
 impl ScalarImage {
-    /// The array of a name, or the only one; gradients by theirs. The border of a gradient, 0 by definition, is missing.
+    /// The array of a name, or the only one; gradients by theirs. The border of a gradient, 0 by definition, is
+    /// missing.
     ///
     /// # Errors
     /// [`RidgesError::NoArray`], [`RidgesError::Ambiguous`].
@@ -129,8 +130,8 @@ impl ScalarImage {
         self.periodic
     }
 
-    /// The sides of a cell in the unit of the smaller of the first two. The third is `third` where it is given, otherwise the file's,
-    /// and 1 for the directions of a gradient: degrees have no length.
+    /// The sides of a cell in the unit of the smaller of the first two. The third is `third` where it is given,
+    /// otherwise the file's, and 1 for the directions of a gradient: degrees have no length.
     #[must_use]
     pub fn cell(&self, third: Option<f64>) -> [f64; 3] {
         let sides = self.axes.map(|[x, y, z]| math::hypot(math::hypot(x, y), z));
@@ -265,8 +266,8 @@ impl Found {
         }
     }
 
-    /// The lines or triangles where the image lies. Point arrays: `value` and, for ridges, `strength`. Ridge surfaces have a cell
-    /// array `piece`.
+    /// The lines or triangles where the image lies. Point arrays: `value` and, for ridges, `strength`. Ridge surfaces
+    /// have a cell array `piece`.
     #[must_use]
     pub fn poly_data(&self, image: &ScalarImage, story: &str) -> PolyData {
         let mut data = PolyData::default();

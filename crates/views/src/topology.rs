@@ -57,8 +57,8 @@ const LINES_A_SIDE: f64 = 40.0;
 /// Their colour.
 const CONTEXT: Rgba = Rgba::hex(0xb4b4b4);
 
-/// Points as vertices and separatrices as lines. Cell arrays: `half_turns` (twice the index; for a line that of its point), and
-/// `family` (0 major, 1 minor, -1 for points).
+/// Points as vertices and separatrices as lines. Cell arrays: `half_turns` (twice the index; for a line that of its
+/// point), and `family` (0 major, 1 minor, -1 for points).
 #[must_use]
 pub fn poly_data(topology: &Topology, placement: &Placement, story: &str) -> PolyData {
     let mut data = PolyData::default();
@@ -79,7 +79,8 @@ pub fn poly_data(topology: &Topology, placement: &Placement, story: &str) -> Pol
     data
 }
 
-/// The skeleton for machines: the axes it is of, positions in cells (y downwards), indices, and where separatrices lead.
+/// The skeleton for machines: the axes it is of, positions in cells (y downwards), indices, and where separatrices
+/// lead.
 #[must_use]
 pub fn summary(topology: &Topology, following: Following) -> Value {
     let end = |end: LineEnd| match end {

@@ -148,6 +148,25 @@ fn every_source_file_says_what_it_is() {
     }
 }
 
+/// Longest line of a comment, characters: what fits beside another file on a screen. `rustfmt` keeps code within 110.
+const WIDEST_COMMENT: usize = 120;
+
+#[test]
+fn comments_fit_on_a_screen() {
+    let mut wide = Vec::new();
+    for path in tracked_files().iter().filter(|p| p.extension().is_some_and(|e| e == "rs")) {
+        let text = std::fs::read_to_string(path).expect("UTF-8 source");
+        for (i, line) in text.lines().enumerate() {
+            // Rows of tables cannot be broken.
+            let is_row = line.trim_start().trim_start_matches(['/', '!']).trim_start().starts_with('|');
+            if line.trim_start().starts_with("//") && !is_row && line.chars().count() > WIDEST_COMMENT {
+                wide.push(format!("{}:{}", path.display(), i + 1));
+            }
+        }
+    }
+    assert!(wide.is_empty(), "comments wider than {WIDEST_COMMENT} characters:\n{}", wide.join("\n"));
+}
+
 #[test]
 fn no_path_tells_history() {
     for path in tracked_files() {

@@ -22,8 +22,8 @@ const BRUTE_FORCE: f64 = 1e-12;
 const SYMMETRY: f64 = 1e-12;
 /// Spread of equal values relative to themselves (1): rounding of sums that start elsewhere.
 const UNIFORMITY: f64 = 1e-13;
-/// Relative L2 difference of a gradient in single precision (1): rounding of 1e-7, and a source that stops a step early or
-/// late now and then.
+/// Relative L2 difference of a gradient in single precision (1): rounding of 1e-7, and a source that stops a step early
+/// or late now and then.
 const SINGLE: f64 = 1e-4;
 /// Mean number of steps (steps): published with two decimals.
 const PRINTED_STEPS: f64 = 5e-3;
@@ -704,9 +704,9 @@ fn work_of_inverse13_is_known() {
     ");
 }
 
-/// Checkpoints and shards of other numerics are told apart by a number. Every instruction set gives the same bits, so they
-/// can be recorded: where this fails on purpose, raise `NUMERICS`, record the new pair, and say so under "Numbers" in
-/// CHANGELOG.md.
+/// Checkpoints and shards of other numerics are distinguished by a number. Every instruction set gives the same bits,
+/// so they can be recorded: where this fails on purpose, raise `NUMERICS`, record the new pair, and say so under
+/// "Numbers" in CHANGELOG.md.
 #[test]
 fn bits_change_with_the_count_of_numerics_only() {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;

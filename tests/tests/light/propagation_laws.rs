@@ -10,8 +10,8 @@ use tigereye_core::{
 use tigereye_fields::{Expression, generators};
 use tigereye_tests::{Symmetry, difference_over_largest};
 use tigereye_transport::{
-    EightLobe, Emission, Engine, Light, Outcome, Problem, SampleSpace, Scheme, Stopping, StoppingRule,
-    emitter,
+    ENGINES, EightLobe, Emission, Engine, Light, Outcome, Problem, SampleSpace, Scheme, Stopping,
+    StoppingRule, emitter,
 };
 
 /// Relative drift of the energy allowed over 80 steps (1): rounding alone reaches 1.4e-13 with S = 360.
@@ -19,7 +19,7 @@ const ENERGY_DRIFT: f64 = 3e-13;
 /// Relative rounding of one step's energy balance (1): sums of some 1e4 terms of one sign.
 const BALANCE: f64 = 1e-13;
 /// Difference of the engines relative to the largest sample (1): the same numbers in another order of summation.
-const ENGINES: f64 = 1e-13;
+const AGREEMENT: f64 = 1e-13;
 /// Difference of a moved distribution relative to the largest sample (1): the tensors' decomposition rounds differently
 /// in every frame, and the steps carry that on.
 const SYMMETRY: f64 = 1e-12;
@@ -32,8 +32,6 @@ const ATTENUATION: f64 = 5e-4;
 
 /// Energy of a grid in which every number has become subnormal (W): 1e5 of them.
 const SUBNORMAL_GRID: f64 = 1e5 * f64::MIN_POSITIVE;
-
-const ENGINE_PAIR: [&dyn Engine; 2] = [&SampleSpace, &EightLobe];
 
 /// A profile without any symmetry, as a user writes it.
 fn uneven(directions: Directions) -> PolarProfile {
@@ -61,15 +59,19 @@ fn samples_of(outcome: &Outcome) -> &[f64] {
     outcome.distribution.samples()
 }
 
-/// Both engines leave the same light after the same number of steps, for the same reason.
+/// All engines leave the same light as the oracle after the same number of steps, for the same reason; the oracle's.
 fn assert_engines_agree(problem: &Problem<'_>, what: &str) -> Outcome {
-    let [oracle, reduced] = ENGINE_PAIR.map(|e| propagate(e, problem));
-    assert_eq!((oracle.work.steps, oracle.stop), (reduced.work.steps, reduced.stop), "{what}: steps, reason");
-    let difference = difference_over_largest(samples_of(&reduced), samples_of(&oracle));
-    assert!(difference <= ENGINES, "{what}: samples differ by {difference:e} of the largest");
     let incoming = |o: &Outcome| -> Vec<f64> { o.distribution.incoming().values().concat() };
-    let difference = difference_over_largest(&incoming(&reduced), &incoming(&oracle));
-    assert!(difference <= ENGINES, "{what}: fluxes differ by {difference:e} of the largest");
+    let oracle = propagate(ENGINES[0], problem);
+    let others: Vec<Outcome> = ENGINES[1..].iter().map(|engine| propagate(*engine, problem)).collect();
+    for (engine, other) in ENGINES[1..].iter().zip(&others) {
+        let what = format!("{what}, {}", engine.name());
+        assert_eq!((oracle.work.steps, oracle.stop), (other.work.steps, other.stop), "{what}: steps, reason");
+        let difference = difference_over_largest(samples_of(other), samples_of(&oracle));
+        assert!(difference <= AGREEMENT, "{what}: samples differ by {difference:e} of the largest");
+        let difference = difference_over_largest(&incoming(other), &incoming(&oracle));
+        assert!(difference <= AGREEMENT, "{what}: fluxes differ by {difference:e} of the largest");
+    }
     oracle
 }
 
@@ -117,7 +119,7 @@ fn assert_no_light_gains(tensors: &Field<Tensor2>, normalization: Normalization,
             lights: &lights,
             stopping: Stopping::steps(15),
         };
-        for engine in ENGINE_PAIR {
+        for &engine in ENGINES {
             let what = format!("{name}, {normalization:?}, {:?}, {}", lights[0].emission, engine.name());
             assert_never_gains(engine, &problem, &what);
         }
@@ -179,7 +181,7 @@ fn locally_normalised_fields_conserve_energy_until_the_rim_is_reached() {
             lights: &lights,
             stopping: Stopping::steps(10),
         };
-        for engine in ENGINE_PAIR {
+        for &engine in ENGINES {
             let energy = propagate(engine, &problem).distribution.total_energy();
             assert!((energy - initial).abs() <= BALANCE * initial, "{spec}, {}: {energy} W", engine.name());
         }
@@ -220,7 +222,7 @@ fn globally_normalised_fields_absorb() {
     let lights = [Light::impulse(Cell::new(2, 6), PolarProfile::constant(scheme.directions(), 1.0))];
     let stopping = Stopping::steps(1);
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
-    for engine in ENGINE_PAIR {
+    for &engine in ENGINES {
         let energy = propagate(engine, &problem).distribution.total_energy();
         assert!((energy - math::PI).abs() <= BALANCE * math::PI, "half of 2 pi, not {energy}");
     }
@@ -245,7 +247,7 @@ fn cells_of_rate_zero_transmit_nothing() {
             let lights = [light];
             let stopping = Stopping::steps(12);
             let problem = Problem { scheme: &scheme, transmission, lights: &lights, stopping };
-            for engine in ENGINE_PAIR {
+            for &engine in ENGINES {
                 let energy = propagate(engine, &problem).distribution.energy();
                 let behind = energy.iter().filter(|(c, _)| c.x > wall).map(|(_, &e)| e);
                 assert_eq!(behind.fold(0.0, f64::max), 0.0, "{}: light behind the wall", engine.name());
@@ -256,7 +258,7 @@ fn cells_of_rate_zero_transmit_nothing() {
         let lights = [Light::continuous(Cell::new(wall, 3), uneven(scheme.directions()))];
         let stopping = Stopping::steps(3);
         let problem = Problem { scheme: &scheme, transmission, lights: &lights, stopping };
-        for engine in ENGINE_PAIR {
+        for &engine in ENGINES {
             let energy = propagate(engine, &problem).distribution.energy();
             assert_eq!(energy.values().iter().filter(|&&e| e != 0.0).count(), 1, "{}", engine.name());
         }
@@ -271,7 +273,7 @@ fn totally_anisotropic_cells_absorb_light_that_comes_across() {
     let tensors = Field::from_fn(grid, |c| if c.x == 3 { across } else { along });
     let (scheme, transmission) = (scheme(32), transmission(&tensors, 32, Normalization::Local));
     let lights = [Light::impulse(Cell::new(0, 1), PolarProfile::constant(scheme.directions(), 1.0))];
-    for engine in ENGINE_PAIR {
+    for &engine in ENGINES {
         let energy_after = |steps| {
             let stopping = Stopping::steps(steps);
             let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
@@ -327,7 +329,7 @@ fn light_mirrors_and_turns_with_the_field() {
                     let moved_lights = [moved_light(symmetry, tensors.grid(), samples, &light)];
                     let lights = [light.clone()];
                     let stopping = Stopping::steps(12);
-                    for engine in ENGINE_PAIR {
+                    for &engine in ENGINES {
                         let here =
                             Problem { scheme: &scheme, transmission: &straight, lights: &lights, stopping };
                         let away = Problem { transmission: &there, lights: &moved_lights, ..here };
@@ -401,10 +403,10 @@ fn oracle_and_reduced_agree_for_many_lights_at_once() {
         let outcome = assert_engines_agree(&problem, "five lights");
         let mut reversed = lights.clone();
         reversed.reverse();
-        for engine in ENGINE_PAIR {
+        for &engine in ENGINES {
             let other = propagate(engine, &Problem { lights: &reversed, ..problem });
             let difference = difference_over_largest(samples_of(&other), samples_of(&outcome));
-            assert!(difference <= ENGINES, "the order of the lights does not matter: {difference:e}");
+            assert!(difference <= AGREEMENT, "the order of the lights does not matter: {difference:e}");
         }
     }
 }
@@ -456,7 +458,7 @@ fn relative_rule_ends_an_impulse_only_in_darkness() {
     let rule = StoppingRule::Converged { tolerance: 1e-8 };
     let stopping = Stopping { rule, max_iterations: 10_000 };
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
-    for engine in ENGINE_PAIR {
+    for &engine in ENGINES {
         let outcome = propagate(engine, &problem);
         assert_eq!(outcome.stop, StopReason::Converged, "{}", engine.name());
         let energy = outcome.distribution.total_energy();
@@ -489,7 +491,7 @@ fn a_limit_of_n_means_n_plus_one_steps_and_threshold_zero_never_stops_early() {
                 let stopping = Stopping { rule, max_iterations };
                 let problem =
                     Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
-                for engine in ENGINE_PAIR {
+                for &engine in ENGINES {
                     let outcome = propagate(engine, &problem);
                     assert_eq!(
                         (outcome.work.steps, outcome.stop),
@@ -519,7 +521,7 @@ fn lights_do_not_superpose_in_anisotropic_fields() {
         let sum: Vec<f64> = first.iter().zip(&second).map(|(a, b)| a + b).collect();
         difference_over_largest(&both, &sum)
     };
-    for engine in ENGINE_PAIR {
+    for &engine in ENGINES {
         let anisotropic = departure("star:size=9,anisotropy=10", engine);
         assert!(anisotropic > NOT_ADDITIVE, "{}: {anisotropic:e}", engine.name());
         // Where nothing is normalised they do: n_f = 1.
@@ -547,7 +549,7 @@ fn more_light_gives_proportionally_more_light() {
             let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
             propagate(engine, &problem).distribution.samples().to_vec()
         };
-        for engine in ENGINE_PAIR {
+        for &engine in ENGINES {
             for impulse in [false, true] {
                 let once = run(engine, 1.0, impulse);
                 for factor in [2.0, 3.0, 1e-6] {
@@ -629,22 +631,20 @@ proptest! {
         let stopping = Stopping::steps(15);
         let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
         assert_engines_agree(&problem, "arbitrary tensors");
-        for engine in ENGINE_PAIR {
+        for &engine in ENGINES {
             assert_never_gains(engine, &problem, engine.name());
         }
     }
 }
 
-/// Light that all but misses a pulse-shaped transmission must not blow up: what passes is smaller than what a double can
-/// make up for.
+/// Light that all but misses a pulse-shaped transmission must not blow up: what passes is smaller than what a double
+/// can make up for.
 #[test]
 fn almost_nothing_passing_stays_finite() {
     use tigereye_core::{
         Cell, Directions, Field, Grid, Normalization, PolarProfile, Tensor2, TransmissionField,
     };
-    use tigereye_transport::{
-        EightLobe, Engine, Light, Problem, SampleSpace, Scheme, SharedWeights, Stopping,
-    };
+    use tigereye_transport::{Light, Problem, Scheme, SharedWeights, Stopping};
     let directions = Directions::new(32).expect("directions");
     let field = Field::from_fn(Grid::new(5, 5).expect("a grid"), |c| match (c.x, c.y) {
         (2, 2) => Tensor2::symmetric(1.0, 0.0, 0.0),
@@ -661,7 +661,7 @@ fn almost_nothing_passing_stays_finite() {
         ];
         let stopping = Stopping::steps(30);
         let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
-        for engine in [&EightLobe as &dyn Engine, &SampleSpace] {
+        for &engine in ENGINES {
             let light = engine.propagate(&problem).expect("a propagation").distribution;
             assert!(light.samples().iter().all(|v| v.is_finite()), "{} with {faint:e}", engine.name());
         }

@@ -1,7 +1,7 @@
 //! The thesis author's published gradient volumes, met value by value.
 //!
-//! They lie outside the project (`TIGEREYE_REFERENCE`, or `shared/reference` beside the workspace); where they are absent
-//! the probe values below remain. `TIGEREYE_FULL=1` adds the volumes of 51x51 cells, which take minutes.
+//! They lie outside the project (`TIGEREYE_REFERENCE`, or `shared/reference` beside the workspace); where they are
+//! absent the probe values below remain. `TIGEREYE_FULL=1` adds the volumes of 51x51 cells, which take minutes.
 
 use crate::common::{directions, field, scheme, transmission};
 use serde_json::Value;

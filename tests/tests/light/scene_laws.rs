@@ -7,8 +7,8 @@ use tigereye_core::{
 use tigereye_ltg::{LtgSettings, sweep};
 use tigereye_scenes::{Layout, Mask, Material, Part, Scene, Shape};
 use tigereye_transport::{
-    EightLobe, Engine, Level, Light, Outcome, Problem, PulseDistribution, PulseSolver, Real, SampleSpace,
-    Scattering, Scheme, Stopping, TransportError,
+    ENGINES, EightLobe, Engine, Level, Light, Outcome, Problem, PulseDistribution, PulseSolver, Real,
+    SampleSpace, Scattering, Scheme, Stopping, TransportError,
 };
 
 const SAMPLES: usize = 16;
@@ -141,7 +141,7 @@ fn an_absorber_never_transmits() {
     let wall =
         part(Shape::Segment { from: [15.0, 0.0], to: [15.0, 20.0], thickness: 1.0 }, Material::Absorber);
     let scene = built(31, 21, vec![wall]);
-    for engine in [&EightLobe as &dyn Engine, &SampleSpace] {
+    for &engine in ENGINES {
         let light = Light::continuous(Cell::new(7, 9), isotropic());
         let energy = lit(engine, &scene, &[light], 120).distribution.energy();
         assert!(*energy.at(Cell::new(15, 9)) > 1e-3, "the wall is lit");
@@ -376,8 +376,8 @@ fn turned(
     }
 }
 
-/// Light of one direction alone, followed from wall to wall: empty space does not spread it here. Shares of it that leave the
-/// grid in each direction.
+/// Light of one direction alone, followed from wall to wall: empty space does not spread it here. Shares of it that
+/// leave the grid in each direction.
 fn traced(scene: &BuiltScene, from: Cell, direction: usize) -> [f64; 8] {
     let grid = scene.scene.grid;
     let mut left = [0.0; 8];
@@ -626,8 +626,8 @@ fn every_cell_keeps_the_balance_of_its_material() {
     }
 }
 
-/// The matrix of every wall, derived a second time: reflection of vectors, cosines as scalar products, and a flood round the
-/// cell for what lies on its side.
+/// The matrix of every wall, derived a second time: reflection of vectors, cosines as scalar products, and a flood
+/// round the cell for what lies on its side.
 #[test]
 fn walls_reflect_as_vectors_do() {
     let scene = rough_scene();

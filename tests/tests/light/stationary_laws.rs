@@ -84,8 +84,9 @@ fn single_precision_settles_as_far_as_it_can_tell() {
     }
 }
 
-/// In a spiral of totally anisotropic cells some light runs in a closed loop and never leaves: its energy grows for ever.
-/// Extrapolation must not make a state of it, in a field of its own and inside another one, whose other light it mixes with.
+/// In a spiral of totally anisotropic cells some light runs in a closed loop and never leaves: its energy grows for
+/// ever. Extrapolation must not make a state of it, in a field of its own and inside another one, whose other light it
+/// mixes with.
 #[test]
 fn light_caught_in_a_loop_is_reported_as_not_stationary() {
     let spiral = field("spiral:size=21");

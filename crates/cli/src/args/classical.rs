@@ -106,14 +106,14 @@ impl AxesArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct LinesArgs {
-    /// Outputs by their endings: .vtp, .png, .svg.
+    /// Outputs by their extensions: .vtp, .png, .svg.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Which lines.
     #[arg(long, value_enum, default_value_t = FamilyName::Major)]
     pub(crate) family: FamilyName,
-    /// Distance of the lines, cells (sides of the smaller length where cells are not square), from 0.1; by default a fortieth of the
-    /// longer side.
+    /// Distance of the lines, cells (sides of the smaller length where cells are not square), from 0.1; by default a
+    /// fortieth of the longer side.
     #[arg(long, value_name = "CELLS", value_parser = parse_separation, conflicts_with = "seeds")]
     pub(crate) separation: Option<f64>,
     /// A point that a line goes through, in cells from the centre of the upper left one, y downwards; may be repeated.
@@ -131,14 +131,16 @@ pub(crate) struct LinesArgs {
     /// Longest line to each side of its seed, cells (smaller sides); by default four times the longer side.
     #[arg(long, value_name = "CELLS", value_parser = parse_length)]
     pub(crate) length: Option<f64>,
-    /// Lines end where the axes differ by less than this part of the longer one; with --inertia it only says where they begin.
+    /// Lines end where the axes differ by less than this part of the longer one; with --inertia it only says where they
+    /// begin.
     #[arg(long, value_name = "F", default_value = "0.001", value_parser = parse_share)]
     pub(crate) least_anisotropy: f64,
-    /// Inertia of tensorlines, which cross round tensors: the weight of the tensor there, from 0 (straight on) to 1. It acts once a
-    /// step, so that --step matters.
+    /// Inertia of tensorlines, which cross round tensors: the weight of the tensor there, from 0 (straight on) to 1. It
+    /// acts once a step, so that --step matters.
     #[arg(long, value_name = "W", value_parser = parse_share)]
     pub(crate) inertia: Option<f64>,
-    /// Hyperstreamlines: half of the width, cells (smaller sides), that the largest semi-axis or eigenvalue of the field gets.
+    /// Hyperstreamlines: half of the width, cells (smaller sides), that the largest semi-axis or eigenvalue of the
+    /// field gets.
     #[arg(long, value_name = "CELLS", num_args = 0..=1, default_missing_value = "1", value_parser = parse_step)]
     pub(crate) ribbon: Option<f64>,
     #[command(flatten)]
@@ -147,7 +149,7 @@ pub(crate) struct LinesArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct TopologyArgs {
-    /// Outputs by their endings: .vtp, .png, .svg.
+    /// Outputs by their extensions: .vtp, .png, .svg.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Whose separatrices.
@@ -165,7 +167,7 @@ pub(crate) struct TopologyArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct LicArgs {
-    /// Outputs by their endings: .png, .svg, .vti.
+    /// Outputs by their extensions: .png, .svg, .vti.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Smear along both axes, along each as far as it is long (HyperLIC).
@@ -192,7 +194,7 @@ pub(crate) struct LicArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct FtleArgs {
-    /// Outputs by their endings: .vti, .png, .svg.
+    /// Outputs by their extensions: .vti, .png, .svg.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Which lines.
@@ -215,7 +217,7 @@ pub(crate) struct FtleArgs {
 pub(crate) struct GlyphsArgs {
     /// A data file, a field file or a generator.
     pub(crate) input: String,
-    /// Outputs by their endings: .vtp, .png, .svg.
+    /// Outputs by their extensions: .vtp, .png, .svg.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// What stands for a tensor.
@@ -227,7 +229,8 @@ pub(crate) struct GlyphsArgs {
     /// How glyphs are scaled against each other.
     #[arg(long, value_enum, default_value_t = ScaleName::Field)]
     pub(crate) scale: ScaleName,
-    /// What colours mean; by default the signs where the field is symmetric (but for rounding), the anisotropy otherwise.
+    /// What colours mean; by default the signs where the field is symmetric (but for rounding), the anisotropy
+    /// otherwise.
     #[arg(long, value_enum)]
     pub(crate) colour: Option<ColourName>,
     /// A glyph for every n-th cell; by default as many as stay readable, and all in a .vtp.
@@ -241,7 +244,7 @@ pub(crate) struct GlyphsArgs {
 pub(crate) struct RidgesArgs {
     /// Image data with one number a point: a gradient of `ltg`, exponents of `ftle`, or any other .vti.
     pub(crate) input: String,
-    /// Outputs by their endings: .vtp; .png and .svg show one layer.
+    /// Outputs by their extensions: .vtp; .png and .svg show one layer.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// The array, where there are several.
@@ -260,11 +263,12 @@ pub(crate) struct RidgesArgs {
     /// Ridges are at least as strong as this part of the strongest curvature.
     #[arg(long, value_name = "F", default_value = "0.05", value_parser = parse_share)]
     pub(crate) least_strength: f64,
-    /// Ridges are at least so many cells long, or square cells large; sides of the smaller length where cells are not square.
+    /// Ridges are at least so many cells long, or square cells large; sides of the smaller length where cells are not
+    /// square.
     #[arg(long, value_name = "CELLS", default_value = "2", value_parser = parse_extent)]
     pub(crate) least_length: f64,
-    /// How many cells (smaller sides) the distance of two layers counts for; what is across a ridge depends on it. By default 1 for the
-    /// directions of a gradient, and the file's own distance otherwise.
+    /// How many cells (smaller sides) the distance of two layers counts for; what is across a ridge depends on it. By
+    /// default 1 for the directions of a gradient, and the file's own distance otherwise.
     #[arg(long, value_name = "CELLS", value_parser = parse_step)]
     pub(crate) direction_length: Option<f64>,
     /// Steps a cell in which ridges are looked for; 2 for a layer and 1 for surfaces by default.

@@ -56,7 +56,8 @@ pub(crate) struct ReviewArgs {
     /// Folder for the page and the summary, review.html and review.json.
     #[arg(long, value_name = "DIR", default_value = "review")]
     pub(crate) out: PathBuf,
-    /// Only the experiment of this name, its file without folder and ending; repeatable. Of revisions only these are run.
+    /// Only the experiment of this name, its file without folder and ending; repeatable. Of revisions only these are
+    /// run.
     #[arg(long, value_name = "SLUG", conflicts_with = "snapshots")]
     pub(crate) only: Vec<String>,
     /// Largest relative change of a number that is no movement.

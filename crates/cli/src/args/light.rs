@@ -56,11 +56,11 @@ pub(crate) enum StopRule {
 
 #[derive(Debug, Args)]
 pub(crate) struct PropagateArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value;
-    /// or a scene (NAME.scene.ron).
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or
+    /// NAME:key=value,key=value; or a scene (NAME.scene.ron).
     pub(crate) input: String,
-    /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1). A scene has
-    /// lights of its own where none is given.
+    /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1). A scene
+    /// has lights of its own where none is given.
     #[arg(long = "light", value_name = "X,Y[,PROFILE]", allow_hyphen_values = true)]
     pub(crate) lights: Vec<String>,
     /// The lights flash once instead of shining all the time.
@@ -69,8 +69,8 @@ pub(crate) struct PropagateArgs {
     /// Exactly N steps instead of a stopping rule.
     #[arg(long, value_name = "N", value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) steps: Option<usize>,
-    /// Outputs by their endings: .vti, .npy, .png, .svg; .pvd has a frame for every step, in the folder NAME beside NAME.pvd;
-    /// .apng is an animation of the energy, a frame for every step or every n-th.
+    /// Outputs by their extensions: .vti, .npy, .png, .svg; .pvd has a frame for every step, in the folder NAME beside
+    /// NAME.pvd; .apng is an animation of the energy, a frame for every step or every n-th.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// What pictures show.
@@ -94,11 +94,11 @@ pub(crate) enum Picture {
 
 #[derive(Debug, Args)]
 pub(crate) struct LtgArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value;
-    /// or a scene (NAME.scene.ron).
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or
+    /// NAME:key=value,key=value; or a scene (NAME.scene.ron).
     pub(crate) input: String,
-    /// Outputs by their endings: .vti, .npy; .png, .svg show the only slice, or the mean over the slices. With --shard
-    /// one .part.
+    /// Outputs by their extensions: .vti, .npy; .png, .svg show the only slice, or the mean over the slices. With
+    /// --shard one .part.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     #[command(flatten)]
@@ -142,7 +142,7 @@ pub(crate) struct MergeArgs {
     /// What `ltg --shard` wrote, every shard once, in any order.
     #[arg(required = true, value_name = "PART")]
     pub(crate) parts: Vec<PathBuf>,
-    /// Outputs by their endings, as those of `ltg`: .vti, .npy, .png, .svg.
+    /// Outputs by their extensions, as those of `ltg`: .vti, .npy, .png, .svg.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Summary as JSON on standard output.

@@ -10,11 +10,12 @@ use tigereye_io::volume::{Axis, ComponentArrays, Crop, Frame, Plane, PlaneChoice
 /// What files do not state, the plane of a volume, and what becomes of its values.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct ReadingArgs {
-    /// Array of a .vti, .vtp, .vtk or .npz to take the tensors from; points:NAME or cells:NAME where both have one of that name.
+    /// Array of a .vti, .vtp, .vtk or .npz to take the tensors from; points:NAME or cells:NAME where both have one of
+    /// that name.
     #[arg(long, value_name = "NAME")]
     array: Option<String>,
-    /// A tensor from arrays of their own: XX=S_XX,YY=S_YY,XY=S_XY for single numbers, X=T_x,Y=T_y,Z=T_z for rows; with --derive gradient
-    /// the components of a vector.
+    /// A tensor from arrays of their own: XX=S_XX,YY=S_YY,XY=S_XY for single numbers, X=T_x,Y=T_y,Z=T_z for rows; with
+    /// --derive gradient the components of a vector.
     #[arg(long, value_name = "XX=NAME,YY=NAME,XY=NAME[,...]", value_parser = ComponentArrays::parse)]
     components: Option<ComponentArrays>,
     /// Order of the components: vtk, nrrd, dipy, fsl, mrtrix, itk, voigt, abaqus, or names such as xx,yy,zz,xy.
@@ -39,8 +40,8 @@ pub(crate) struct ReadingArgs {
     /// Number of cells wanted, after cropping; tensors are interpolated, or averaged where cells become fewer.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     resample: Option<[usize; 2]>,
-    /// Tensors of an image: gradient or rate of strain of vectors; Hessian, structure tensor (light runs across stripes) or
-    /// orientation tensor (along them) of numbers.
+    /// Tensors of an image: gradient or rate of strain of vectors; Hessian, structure tensor (light runs across
+    /// stripes) or orientation tensor (along them) of numbers.
     #[arg(long, value_enum)]
     derive: Option<DerivedName>,
     /// Gaussian that derivatives are taken at, cells; 0 for gradients and 1 for images by default.
@@ -193,7 +194,8 @@ impl From<PlaneName> for Plane {
 
 #[derive(Debug, Args)]
 pub(crate) struct InfoArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or
+    /// NAME:key=value,key=value.
     pub(crate) input: String,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
@@ -225,19 +227,20 @@ impl From<WriteOrder> for WrittenAs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ConvertArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz .png) or a generator, NAME or NAME:key=value,key=value.
+    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz .png) or a generator, NAME or
+    /// NAME:key=value,key=value.
     pub(crate) input: String,
-    /// The output by its ending: .vti, .vtp, .vtk, .nrrd, .nii, .nii.gz, .npy or .txt. A volume without a plane is written
-    /// whole, which .npy and .txt cannot hold.
+    /// The output by its extension: .vti, .vtp, .vtk, .nrrd, .nii, .nii.gz, .npy or .txt. A volume without a plane is
+    /// written whole, which .npy and .txt cannot hold.
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
-    /// Add the fractional anisotropy, mean diffusivity and mode of every voxel as arrays `FA`, `MD` and `mode`; for whole
-    /// volumes written as .vti, .vtp or .vtk.
+    /// Add the fractional anisotropy, mean diffusivity and mode of every voxel as arrays `FA`, `MD` and `mode`; for
+    /// whole volumes written as .vti, .vtp or .vtk.
     #[arg(long)]
     pub(crate) invariants: bool,
-    /// Layout of the components of a .nii or .nii.gz: the standard's matrices (5-D), or six components (4-D) as FSL or MRtrix3 read
-    /// them.
+    /// Layout of the components of a .nii or .nii.gz: the standard's matrices (5-D), or six components (4-D) as FSL or
+    /// MRtrix3 read them.
     #[arg(long, value_enum)]
     pub(crate) write_order: Option<WriteOrder>,
     /// Replace an output that exists.
@@ -247,14 +250,15 @@ pub(crate) struct ConvertArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CompareArgs {
-    /// The first result: a gradient volume or light (.vti, .npy), a tensor field in any readable format, or a generator.
+    /// The first result: a gradient volume or light (.vti, .npy), a tensor field in any readable format, or a
+    /// generator.
     pub(crate) a: String,
     /// The second result.
     pub(crate) b: String,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
-    /// Largest relative difference accepted: the L2 difference over the L2 norm of A, and the largest difference over the
-    /// largest value of A.
+    /// Largest relative difference accepted: the L2 difference over the L2 norm of A, and the largest difference over
+    /// the largest value of A.
     #[arg(long, value_name = "REL", default_value = "1e-10", value_parser = parse_threshold, allow_hyphen_values = true)]
     pub(crate) tolerance: f64,
     /// Angular slices of volumes to leave out (sample indices).

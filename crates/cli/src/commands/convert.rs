@@ -24,7 +24,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
     let name = args.output.display().to_string();
     let Some(writer) = Format::of(&name).and_then(|format| format.tensors) else {
         let expected = writable_extensions(|_| true);
-        return Err(CliError::input(&name, format!("the extension tells the format: expected {expected}")));
+        return Err(CliError::input(&name, format!("unknown extension: expected {expected}")));
     };
     let is_flat = matches!(writer, TensorWriter::Plane(_));
     files::check_writable(&args.output)?;
@@ -58,7 +58,10 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 eprintln!("{name}: {}", not_finite_words(count));
             }
             let volume = finite_volume(volume, &reading).map_err(|e| CliError::input(&name, e))?;
-            let frame = if reading.frame == Some(Frame::Voxel) { Frame::Voxel } else { Frame::World };
+            // Where the file states the frame, the option says how to write; where it does not, how to read.
+            let is_stated = volume.lattice().frame.1 == Known::Stated;
+            let by_voxels = is_stated && reading.frame == Some(Frame::Voxel);
+            let frame = if by_voxels { Frame::Voxel } else { Frame::World };
             if let Some(words) = unplaced(writer, &volume, frame) {
                 eprintln!("{name}: {words}");
             }
@@ -155,8 +158,8 @@ fn encoded(
     }
 }
 
-/// FA, MD and mode of every voxel, 0 where the mask is. They depend on no frame, and turning by axes in single precision
-/// would cost digits, so they are taken of the tensors as stored.
+/// FA, MD and mode of every voxel, 0 where the mask is. They depend on no frame, and turning by axes in single
+/// precision would cost digits, so they are taken of the tensors as stored.
 fn invariants(volume: &TensorVolume) -> [DataArray; 3] {
     let eigenvalues = |(voxel, t): (usize, [f64; 9])| {
         if volume.is_masked(voxel) { [0.0; 3] } else { symmetric_eigenvalues3(&t) }

@@ -1,4 +1,4 @@
-//! What the commands of the classical methods share: outputs by their endings, provenance, and place.
+//! What the commands of the classical methods share: outputs by their extensions, provenance, and position.
 
 use crate::args::reading::ReadingArgs;
 use crate::commands::command_line;
@@ -16,11 +16,11 @@ use tigereye_lines::LineOptions;
 use tigereye_render::{RenderError, Scene};
 use tigereye_views::Placement;
 
-/// Refuses endings that are none of `endings`, and places where nothing can be written, before anything is computed.
-pub(super) fn check_outputs(outputs: &[PathBuf], endings: &[&str]) -> Result<(), CliError> {
+/// Refuses extensions other than `extensions`, and paths that cannot be written, before anything is computed.
+pub(super) fn check_outputs(outputs: &[PathBuf], extensions: &[&str]) -> Result<(), CliError> {
     for output in outputs {
-        if !endings.contains(&files::extension(output).as_str()) {
-            let problem = format!("the ending tells the format: expected .{}", endings.join(", ."));
+        if !extensions.contains(&files::extension(output).as_str()) {
+            let problem = format!("unknown extension: expected .{}", extensions.join(", ."));
             return Err(CliError::input(&output.display().to_string(), problem));
         }
         files::check_writable(output)?;

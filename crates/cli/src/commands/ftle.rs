@@ -67,7 +67,7 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
         let left = 100.0 * found.left;
         print_text(&format!(
             "{width} x {height} samples, at most {largest:.6} per {}, {mean:.6} on average; \
-             {left:.1} % of the lines leave before their length; {}\n",
+             {left:.1} % of the lines leave the field early; {}\n",
             drawing::one_unit(&following),
             axes.words()
         ))?;

@@ -63,8 +63,8 @@ pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
     Ok(0)
 }
 
-/// Image data without tensors, such as a gradient volume or a light distribution: its arrays and, where there is one, its
-/// provenance.
+/// Image data without tensors, such as a gradient volume or a light distribution: its arrays and, where there is one,
+/// its provenance.
 fn facts_of_result(args: &InfoArgs) -> Result<Option<Value>, CliError> {
     let path = Path::new(&args.input);
     if files::extension(path) != "vti" || args.reading.reading() != Reading::default() {
@@ -240,7 +240,7 @@ fn as_text(facts: &Value) -> String {
     if let Some(fraction) = facts["suggested_local_above"].as_f64() {
         let _ = writeln!(
             text,
-            "  weak and strong cells part at {fraction:.3} of the largest transmission: --normalization local-above:{fraction:.3}"
+            "  threshold between weak and strong cells: {fraction:.3} of the largest transmission: --normalization local-above:{fraction:.3}"
         );
     }
     for remark in facts["remarks"].as_array().into_iter().flatten() {

@@ -57,8 +57,8 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     Ok(0)
 }
 
-/// The scene that the parts were made of, for its walls and title in pictures. Parts hold neither: where the file is not
-/// the one that was read then, pictures go without, and standard error says so.
+/// The scene that the parts were made of, for its walls and title in pictures. Parts hold neither: where the file is
+/// not the one that was read then, pictures go without, and standard error says so.
 fn scene_of(identity: &Identity, outputs: &[PathBuf]) -> Result<Option<PreparedScene>, CliError> {
     let Some(name) = identity.parameters["input"].as_str().filter(|name| is_scene_file(name)) else {
         return Ok(None);

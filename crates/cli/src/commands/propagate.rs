@@ -115,10 +115,10 @@ fn progress_line(name: &str, stopping: &Stopping) -> ProgressBar {
 }
 
 /// Refuses outputs before anything is computed.
-pub(super) fn check_outputs(outputs: &[PathBuf], endings: &[&str]) -> Result<(), CliError> {
+pub(super) fn check_outputs(outputs: &[PathBuf], extensions: &[&str]) -> Result<(), CliError> {
     let mut seen = Vec::new();
     for output in outputs {
-        check_output(output, endings)?;
+        check_output(output, extensions)?;
         let place = files::place_of(output);
         if seen.contains(&place) {
             return Err(CliError::input(&output.display().to_string(), "this output is named twice"));
@@ -128,13 +128,13 @@ pub(super) fn check_outputs(outputs: &[PathBuf], endings: &[&str]) -> Result<(),
     Ok(())
 }
 
-fn check_output(output: &Path, endings: &[&str]) -> Result<(), CliError> {
-    if endings.contains(&files::extension(output).as_str()) {
+fn check_output(output: &Path, extensions: &[&str]) -> Result<(), CliError> {
+    if extensions.contains(&files::extension(output).as_str()) {
         return files::check_writable(output);
     }
-    let mut expected = endings.iter().map(|e| format!(".{e}")).collect::<Vec<_>>();
+    let mut expected = extensions.iter().map(|e| format!(".{e}")).collect::<Vec<_>>();
     let last = expected.pop().unwrap_or_default();
-    let problem = format!("the ending tells the format: expected {} or {last}", expected.join(", "));
+    let problem = format!("unknown extension: expected {} or {last}", expected.join(", "));
     Err(CliError::input(&output.display().to_string(), problem))
 }
 
@@ -173,8 +173,8 @@ fn check_frames(output: &Path, args: &PropagateArgs) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The light after every step, the first before any step: `NAME.pvd` and its frames, images of energy and net flux, in the folder
-/// `NAME` beside it.
+/// The light after every step, the first before any step: `NAME.pvd` and its frames, images of energy and net flux, in
+/// the folder `NAME` beside it.
 struct Frames<'a> {
     output: &'a Path,
     geometry: &'a PlaneGeometry,
@@ -200,8 +200,8 @@ impl<'a> Frames<'a> {
         self.files.add(&frame_file(step), &bytes)
     }
 
-    /// Lets everything appear. Until here an older collection is whole; then it goes first and the new one comes last, so that none
-    /// names frames of two runs, and older frames behind the last new one go too.
+    /// Lets everything appear. Until here an older collection is whole; then it goes first and the new one comes last,
+    /// so that none names frames of two runs, and older frames behind the last new one go too.
     fn finish(mut self) -> Result<(), CliError> {
         let (folder, steps) = (folder_of_frames(self.output), self.files.len());
         let name = folder.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();

@@ -119,7 +119,7 @@ fn of_snapshots(folder: &Path, tolerance: f64) -> Result<Review, CliError> {
     let fault = |source| CliError::File { path: folder.display().to_string(), action: "listing", source };
     let mut names = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(fault)? {
-        // A name that is no text is none of insta's.
+        // Names that are not UTF-8 are not snapshots.
         names.extend(entry.map_err(fault)?.file_name().into_string());
     }
     names.sort();

@@ -18,7 +18,7 @@ pub(crate) fn run(args: &RidgesArgs) -> Result<u8, CliError> {
     let fault = |problem: String| CliError::input(&args.input, problem);
     let path = Path::new(&args.input);
     if files::extension(path) != "vti" {
-        return Err(fault("the ending tells the format: expected .vti".to_owned()));
+        return Err(fault("unknown extension: expected .vti".to_owned()));
     }
     let bytes = files::read(path)?;
     let image = vti::read(&bytes).map_err(|e| fault(e.to_string()))?;

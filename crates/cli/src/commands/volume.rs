@@ -125,7 +125,7 @@ pub(super) fn sentence(summary: &Value, stop: &Value) -> String {
     let limited = match summary["limited"].as_u64() {
         None | Some(0) => String::new(),
         Some(n) if stop == stop_name(StopRule::Stationary) => {
-            format!("; {n} sources came to no rest, theirs is the light after {CAUGHT} steps")
+            format!("; {n} sources did not converge within {CAUGHT} steps, and have the light after these")
         }
         Some(n) => format!("; {n} sources met --max-iterations before the threshold"),
     };

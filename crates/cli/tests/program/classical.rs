@@ -97,7 +97,8 @@ fn topology_names_points_and_separatrices() {
     );
 }
 
-/// Radial tension of 2 and hoop compression of -5 about a point outside of the field, xy and yx apart by rounding in single precision.
+/// Radial tension of 2 and hoop compression of -5 about a point outside of the field, xy and yx apart by rounding in
+/// single precision.
 const MIXED: &str = r#"(format: 1, title: "mixed", field: Components(width: 21, height: 15,
     xx: "2*cos(atan2(7*(y+3),10*(x+3)))^2 - 5*sin(atan2(7*(y+3),10*(x+3)))^2",
     xy: "7*sin(atan2(7*(y+3),10*(x+3)))*cos(atan2(7*(y+3),10*(x+3))) + 1e-7*sin(40*x)",
@@ -151,7 +152,8 @@ fn the_major_axis_is_named_and_does_not_hang_on_rounding() {
     assert!(!odd.contains("not symmetric"), "{odd}");
 }
 
-/// A wave whose crests lie at 45 degrees, sampled twice as coarsely along x: ridges, glyphs and textures see its true shape.
+/// A wave whose crests lie at 45 degrees, sampled twice as coarsely along x: ridges, glyphs and textures see its true
+/// shape.
 #[test]
 fn oblong_cells_keep_their_shape() {
     let place = Place::new();
@@ -167,7 +169,8 @@ fn oblong_cells_keep_their_shape() {
     place.succeeds(&["convert", "t.field.ron", "t.vti"]);
     spaced("wide.vti", [2.0, 1.0, 1.0]);
     place.succeeds(&["glyphs", "wide.vti", "-o", "g.vtp", "g.png", "g.svg"]);
-    // An ellipse is as long as it is wide around its centre, in the file's unit: at 45 degrees both extents are the same.
+    // An ellipse is as long as it is wide around its centre, in the file's unit: at 45 degrees both extents are the
+    // same.
     let data = poly_data(&place, "g.vtp");
     let first = data.polys.iter().next().expect("an ellipse").to_vec();
     let extent = |axis: usize| {

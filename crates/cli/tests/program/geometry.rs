@@ -156,7 +156,8 @@ fn everything_made_of_an_oblique_slice_lies_on_it() {
     }
 }
 
-/// A gradient stands on its field: its first layer lies on it, the others follow at right angles, and so do ridges in them.
+/// A gradient stands on its field: its first layer lies on it, the others follow at right angles, and so do ridges in
+/// them.
 #[test]
 fn gradients_and_their_ridges_lie_on_the_slice() {
     let place = Place::new();
@@ -236,8 +237,8 @@ fn a_place_changes_no_number_and_no_picture() {
 
 const UNIT: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
-/// Stress at 20 degrees on 21 x 15 points with y running fastest, round at the largest x and smallest y: as `meshgrid` of
-/// NumPy and swapped direction matrices have it.
+/// Stress at 20 degrees on 21 x 15 points with y running fastest, round at the largest x and smallest y: as `meshgrid`
+/// of NumPy and swapped direction matrices have it.
 #[test]
 fn grids_with_y_fastest_are_upright() {
     let place = Place::new();

@@ -102,7 +102,7 @@ fn a_sweep_of_one_step_is_possible() {
 }
 
 #[test]
-fn endings_may_be_written_in_capitals() {
+fn extensions_may_be_written_in_capitals() {
     let place = Place::new();
     place.write("F.TXT", unit_text(3, 2));
     let info = place.succeeds(&["info", "F.TXT", "--json"]).json();

@@ -1,5 +1,5 @@
-//! Files of situations that users of other programs reported, each read as its author meant it or refused by name. The files are looked for
-//! in the folder `reports` of `TIGEREYE_DATA` or of `../shared/data`.
+//! Files of situations that users of other programs reported, each read as its author meant it or refused by name. The
+//! files are looked for in the folder `reports` of `TIGEREYE_DATA` or of `../shared/data`.
 
 use crate::support::Place;
 use std::path::PathBuf;
@@ -81,7 +81,8 @@ fn fsl_tensors_point_the_same_way_in_images_of_either_hand() {
         }
         assert!(!said.contains("WARNING"), "{name}: {said}");
     }
-    // Along the voxel axes, where somebody says so, only one of them does; and the recipe for dipy gives 30 degrees, too.
+    // Along the voxel axes, where somebody says so, only one of them does; and the recipe for dipy gives 30 degrees,
+    // too.
     let (field, _) =
         reports.plane("fsl_ras.nii.gz", &["--order", "fsl", "--frame", "voxel", "--slice", "z=1"]);
     assert!((angle_deg(&field.values()[0]) - 150.0).abs() < 0.1);
@@ -165,7 +166,8 @@ fn arrays_nobody_asked_for_are_in_nobodys_way() {
 #[test]
 fn derivatives_know_their_frames_and_holes() {
     let Some(reports) = Reports::open() else { return };
-    // The velocity along the world's axes in a volume whose x runs to the left: the picture has the world's x to the right.
+    // The velocity along the world's axes in a volume whose x runs to the left: the picture has the world's x to the
+    // right.
     let said = reports.inner(
         "velocity_las.nii.gz",
         &["--derive", "gradient", "--slice", "z=1"],

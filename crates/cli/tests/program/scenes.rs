@@ -136,7 +136,7 @@ fn bad_scenes_are_refused_with_their_place() {
     );
     place.refuses(&["info", "room.scene.ron"], &["a scene has no tensors"]);
     place.refuses(&["lines", "room.scene.ron", "-o", "l.vtp"], &["a scene has no tensors"]);
-    place.refuses(&["propagate", "room.scene.ron", "-o", "room.scene.ron"], &["ending"]);
+    place.refuses(&["propagate", "room.scene.ron", "-o", "room.scene.ron"], &["unknown extension"]);
     place.refuses(&["propagate", "rings", "-o", "l.npy"], &["rings", "--light"]);
     place.refuses(&["propagate", "none.scene.ron", "-o", "l.npy"], &["none.scene.ron"]);
 }

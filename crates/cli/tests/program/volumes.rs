@@ -73,7 +73,7 @@ fn outputs_are_replaced_only_by_force() {
     place.write("field.txt", unit_text(3, 2));
     place.write("kept.npy", "an earlier result");
     place.refuses(&["convert", "field.txt", "kept.npy"], &["kept.npy", "exists", "--force"]);
-    place.refuses(&["convert", "field.txt", "f.png"], &[".nii.gz, .npy or .txt"]);
+    place.refuses(&["convert", "field.txt", "f.png"], &[".nrrd, .nii or .nii.gz"]);
     place.succeeds(&["convert", "field.txt", "kept.npy", "--force"]);
     assert_eq!(npy::read_tensors(&place.read("kept.npy")).unwrap().grid().width(), 3);
     place.succeeds(&["convert", "inverse:size=5", "generated.vti"]);
@@ -221,8 +221,8 @@ fn slices_keep_their_place_in_every_frame() {
     }
 }
 
-/// `--frame` says along which axes a whole volume is written where the file states its own, and how numbers are read where
-/// it does not.
+/// `--frame` says along which axes a whole volume is written where the file states its own, and how numbers are read
+/// where it does not.
 #[test]
 fn frames_of_whole_volumes_turn_tensors_but_never_relabel_them() {
     let place = Place::new();
@@ -241,8 +241,12 @@ fn frames_of_whole_volumes_turn_tensors_but_never_relabel_them() {
     place.succeeds(&["compare", "stated.nrrd", "voxel.nrrd", "--tolerance", "0"]);
     let open = turned.replace("measurement frame: (1,0,0) (0,1,0) (0,0,1)\n", "");
     place.write("open.nrrd", open);
-    place.says(&["convert", "open.nrrd", "read.vti", "--frame", "voxel"], "directions are left out");
-    assert_eq!(first("read.vti"), [1.0, 0.0, 0.0, 0.0, 2.0]);
+    place.succeeds(&["convert", "open.nrrd", "read.vti", "--frame", "voxel"]);
+    assert_eq!(first("read.vti"), [2.0, 0.0, 0.0, 0.0, 1.0]);
+    assert_eq!(place.image("read.vti").direction, place.image("world.vti").direction);
+    // Of a plane it says how numbers are read, and where the file states something else, that is said.
+    let plane = ["convert", "stated.nrrd", "plane.npy", "--slice", "z=0", "--frame", "voxel"];
+    place.says(&plane, "the file states components along");
 }
 
 /// What a plane is along says nothing of how it lies.

@@ -41,16 +41,6 @@ pub enum Weights {
     Geometric,
 }
 
-/// What computes a distribution.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
-pub enum EngineChoice {
-    /// Eight fluxes a cell.
-    #[default]
-    EightLobe,
-    /// Whole profiles: slow, the oracle.
-    SampleSpace,
-}
-
 /// When a propagation ends.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -112,8 +102,8 @@ pub enum AxesChoice {
     Dual,
 }
 
-/// By what the major axis is the larger one; by default eigenvectors by value and semi-axes by magnitude. Dual eigenvectors have but one
-/// order, the longer first.
+/// By what the major axis is the larger one; by default eigenvectors by value and semi-axes by magnitude. Dual
+/// eigenvectors have but one order, the longer first.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub enum MajorChoice {
     /// By the value with its sign: tension before compression.

@@ -61,8 +61,9 @@ pub enum FieldSource {
         /// Component yy.
         yy: String,
     },
-    /// A data file of any format that the program reads, or another field's file (`.field.ron`), looked up beside the experiment file, in its parent folders, and
-    /// among the data that the program carries. The options are those of the command line.
+    /// A data file of any format that the program reads, or another field's file (`.field.ron`), looked up beside the
+    /// experiment file, in its parent folders, and among the data that the program carries. The options are those of
+    /// the command line.
     File {
         /// Path of the file.
         path: String,
@@ -96,7 +97,8 @@ pub enum FieldSource {
         /// Tensors of an image.
         #[serde(default)]
         derive: Option<DeriveRule>,
-        /// File of one number a voxel; tensors become zero where it is not above [`mask_above`](Self::File::mask_above).
+        /// File of one number a voxel; tensors become zero where it is not above
+        /// [`mask_above`](Self::File::mask_above).
         #[serde(default)]
         mask: Option<String>,
         /// What a mask, or the confidence in an NRRD file, must exceed.

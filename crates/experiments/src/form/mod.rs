@@ -1,10 +1,11 @@
 //! What may stand in the project's files: the values that experiments, fields and scenes are made of.
 //!
 //! Strict: unknown keys, missing keys, wrong types and numbers out of range are errors with line and column. Keys carry
-//! their units. What an experiment as a whole may hold stands in [`crate::experiment`]; its runs, panels, tables and quantities have
-//! a file each.
+//! their units. What an experiment as a whole may hold stands in [`crate::experiment`]; its runs, panels, tables and
+//! quantities have a file each.
 
 mod choices;
+mod engine;
 mod field_source;
 mod light_source;
 mod named;
@@ -14,8 +15,9 @@ mod scene_file;
 mod words;
 
 pub use choices::{
-    AxesChoice, EngineChoice, FamilyChoice, MajorChoice, NormalizationRule, OmegaStep, Scope, Stop, Weights,
+    AxesChoice, FamilyChoice, MajorChoice, NormalizationRule, OmegaStep, Scope, Stop, Weights,
 };
+pub use engine::EngineChoice;
 pub use field_source::{DeriveRule, FieldFile, FieldSource, Parameter};
 pub use light_source::{EmissionKind, LightSource, ProfileShape};
 pub use named::Named;

@@ -1,4 +1,5 @@
-//! Numbers that are in range once they exist. Checking them while the file is read gives every error its line and column.
+//! Numbers that are in range once they exist. Checking them while the file is read gives every error its line and
+//! column.
 
 use serde::Deserialize;
 use tigereye_core::Directions;

@@ -8,8 +8,8 @@ use std::ops::Deref;
 
 /// Where a value begins in the text it was read from.
 ///
-/// It is the address of its first byte, so that values of nested parsers need no offsets handed down. Only the text itself turns
-/// it into a line and a column ([`Self::in_text`]); the text must be the one that was parsed.
+/// It is the address of its first byte, so that values of nested parsers need no offsets handed down. Only the text
+/// itself turns it into a line and a column ([`Self::in_text`]); the text must be the one that was parsed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     address: usize,
@@ -106,8 +106,8 @@ fn code_of(text: &str) -> &str {
     }
 }
 
-/// A fault of a value that has a parser of its own. The outer parser knows only where the value ends, so its message carries the
-/// place.
+/// A fault of a value that has a parser of its own. The outer parser knows only where the value ends, so its message
+/// carries the place.
 struct NestedFault {
     place: Place,
     words: String,

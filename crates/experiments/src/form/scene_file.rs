@@ -9,8 +9,8 @@ use serde::Deserialize;
 
 /// Walls, mirrors and crystals on a grid, with lights.
 ///
-/// Positions are in cells, `(0, 0)` the centre of the upper left one, y downwards; angles in degrees, counter-clockwise from
-/// the right. A cell belongs to a shape where its centre does, border included; later parts cover earlier ones.
+/// Positions are in cells, `(0, 0)` the centre of the upper left one, y downwards; angles in degrees, counter-clockwise
+/// from the right. A cell belongs to a shape where its centre does, border included; later parts cover earlier ones.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
@@ -111,8 +111,8 @@ pub enum MaterialSource {
         /// The part of the light that is sent back.
         #[serde(default = "Fraction::one")]
         reflectance: Fraction,
-        /// Direction of the mirror's line, degrees; along the surface of the shape where it is left out. Multiples of 22.5 degrees
-        /// are exact; for others light is split between the two nearest of them.
+        /// Direction of the mirror's line, degrees; along the surface of the shape where it is left out. Multiples of
+        /// 22.5 degrees are exact; for others light is split between the two nearest of them.
         #[serde(default)]
         angle_deg: Option<Finite>,
     },

@@ -13,12 +13,13 @@ pub enum Summary {
     Mean,
     /// The largest.
     Most,
-    /// The largest difference of two pulses that follow each other in a run: of neighbours where its cells are neighbours
-    /// and it has one angle.
+    /// The largest difference of two pulses that follow each other in a run: of neighbours where its cells are
+    /// neighbours and it has one angle.
     Jump,
 }
 
-/// One number for the pulses of some runs; not a number where it is not one for any of them, or where there are too few.
+/// One number for the pulses of some runs; not a number where it is not one for any of them, or where there are too
+/// few.
 pub(crate) fn summary(runs: &[&[PulseRecord]], number: PulseNumber, over: Summary) -> f64 {
     let values: Vec<Vec<f64>> = runs.iter().map(|r| r.iter().map(|p| p.number(number)).collect()).collect();
     of_values(&values, over)

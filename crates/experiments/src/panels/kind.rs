@@ -14,7 +14,8 @@ pub(crate) type Curves = Box<dyn Fn(&Results<'_>) -> Result<Vec<Curve>, Unavaila
 
 /// What stands in the experiment file, and how it is drawn.
 pub(crate) trait PanelKind {
-    /// Looks up names, checks cells and steps, and parses expressions; `None` where something is wrong, which is reported.
+    /// Looks up names, checks cells and steps, and parses expressions; `None` where something is wrong, which is
+    /// reported.
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel>;
 }
 

@@ -1,4 +1,5 @@
-//! Pictures of figures, a kind a file: what stands in the experiment file, what its names stand for, and how it is drawn.
+//! Pictures of figures, a kind a file: what stands in the experiment file, what its names stand for, and how it is
+//! drawn.
 //!
 //! A panel is added by its file, which implements [`PanelKind`](kind::PanelKind), and its line in [`panels!`].
 

@@ -9,7 +9,8 @@ pub(crate) type Measure = Box<dyn Fn(&Results<'_>) -> Result<f64, Unavailable> +
 
 /// What stands in the experiment file, and how its number is measured.
 pub(crate) trait QuantityKind {
-    /// Looks up names, checks cells and steps, and parses expressions; `None` where something is wrong, which is reported.
+    /// Looks up names, checks cells and steps, and parses expressions; `None` where something is wrong, which is
+    /// reported.
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<Measure>;
 }
 

@@ -23,8 +23,8 @@ impl QuantityKind for WayLength {
     }
 }
 
-/// By how many cells the brightest path is longer than the shortest: the one that leads from a cell always to its brightest
-/// neighbour, up to the light.
+/// By how many cells the brightest path is longer than the shortest: the one that leads from a cell always to its
+/// brightest neighbour, up to the light.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct WayExcess {

@@ -20,9 +20,7 @@ use tigereye_core::{Cell, Field, LightDistribution, StopReason, Surface, Transmi
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{IoError, image_from_light, vti};
 use tigereye_report::DataFile;
-use tigereye_transport::{
-    EightLobe, Engine, Problem, SampleSpace, Scheme, StepView, StoppingRule, TransportError,
-};
+use tigereye_transport::{Problem, Scheme, StepView, StoppingRule, TransportError};
 use tigereye_views::Reel;
 
 /// Light from some cells.
@@ -49,8 +47,8 @@ pub struct Light {
     /// What computes it.
     #[serde(default)]
     engine: EngineChoice,
-    /// Steps whose distribution is kept besides the last one and those that figures and checks mention; 0 is the state before
-    /// the first.
+    /// Steps whose distribution is kept besides the last one and those that figures and checks mention; 0 is the state
+    /// before the first.
     #[serde(default)]
     frames: Vec<usize>,
     /// When it runs.
@@ -80,7 +78,8 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    /// Keeps what another needs, too. An animation finds its frames where the steps between those that are kept divide its own.
+    /// Keeps what another needs, too. An animation finds its frames where the steps between those that are kept divide
+    /// its own.
     pub(crate) fn merge(&mut self, other: &Self) {
         self.frames.extend(&other.frames);
         self.radii |= other.radii;
@@ -138,8 +137,8 @@ pub(crate) struct Outcome {
     pub(crate) frames: BTreeMap<usize, LightDistribution>,
     /// Energy in the grid before the first step and after each, W.
     pub(crate) energies: Vec<f64>,
-    /// Mean and standard deviation of the energy's distance from the centre, after each step (index 0: before the first);
-    /// empty unless asked for.
+    /// Mean and standard deviation of the energy's distance from the centre, after each step (index 0: before the
+    /// first); empty unless asked for.
     pub(crate) radii: Vec<(f64, f64)>,
     /// Steps for an animation, where one is asked for.
     pub(crate) reel: Option<Reel>,
@@ -202,11 +201,9 @@ impl Plan {
             }
             ControlFlow::Continue(())
         };
-        let engine: &dyn Engine = match self.engine {
-            EngineChoice::EightLobe => &EightLobe,
-            EngineChoice::SampleSpace => &SampleSpace,
-        };
-        let outcome = engine
+        let outcome = self
+            .engine
+            .engine()
             .propagate_observed(&problem, &mut observe)
             .map_err(|source| RunError::Propagation { run: name.to_owned(), source })?;
         if interrupted {

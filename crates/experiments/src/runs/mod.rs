@@ -1,8 +1,8 @@
-//! Computations of an experiment, a kind a file: what may stand in the experiment file, its plan, its outcome with digest, counters
-//! and data.
+//! Computations of an experiment, a kind a file: what may stand in the experiment file, its plan, its outcome with
+//! digest, counters and data.
 //!
-//! A kind is added by its file, its line in [`runs!`], an id in [`crate::ids`] and, where snapshots are to remember it, a field of the
-//! [`Digest`](crate::Digest).
+//! A kind is added by its file, its line in [`runs!`], an id in [`crate::ids`] and, where snapshots are to remember it,
+//! a field of the [`Digest`](crate::Digest).
 
 mod digest;
 mod error;

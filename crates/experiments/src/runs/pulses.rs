@@ -38,8 +38,8 @@ pub enum PulseNumber {
     StoppedDistance,
     /// Share of the stationary energy that the stopped state lacks.
     MissingEnergy,
-    /// What the stopped fluxes exceed the stationary ones by, in sum, over the sum of these: half of how much the distance
-    /// is larger than the missing energy, 0 where light only grows.
+    /// What the stopped fluxes exceed the stationary ones by, in sum, over the sum of these: half of how much the
+    /// distance is larger than the missing energy, 0 where light only grows.
     Overshoot,
     /// L1 distance, as above, of the solver's state from the one that much longer stepping gives.
     SolverError,
@@ -91,8 +91,8 @@ impl PulseRecord {
     }
 }
 
-/// How pulses come to rest: what a stopping rule leaves out of their stationary states, how many plain steps lead there,
-/// and how few evaluations the solver of gradients needs instead.
+/// How pulses come to rest: what a stopping rule leaves out of their stationary states, how many plain steps lead
+/// there, and how few evaluations the solver of gradients needs instead.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Pulses {

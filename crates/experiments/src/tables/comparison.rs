@@ -63,7 +63,7 @@ impl TableKind for Comparison {
     }
 }
 
-/// A correlation, or that there is none.
+/// A correlation, or a dash without one.
 pub(crate) fn correlation(a: Map, b: Map, results: &Results<'_>) -> String {
     a.correlation(b, results).map_or_else(|_| NOTHING.to_owned(), hundredths)
 }

@@ -84,7 +84,8 @@ impl Parser<'_> {
 
     /// An expression whose operators bind at least as strongly as `least`.
     ///
-    /// Recursion is bounded: operators of rising strength nest at most once each, all else goes through [`Self::deeper`].
+    /// Recursion is bounded: operators of rising strength nest at most once each, all else goes through
+    /// [`Self::deeper`].
     fn expression(&mut self, least: u8) -> Result<(), ExpressionError> {
         self.operand()?;
         let mut compared = false;

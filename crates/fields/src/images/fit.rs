@@ -1,9 +1,10 @@
 //! Derivatives beside borders and holes: a polynomial fitted to the samples that are there.
 //!
-//! Around a cell the field is taken as `c0 + c1 x + c2 y + c3 x^2 + c4 xy + c5 y^2`, by least squares over the samples in
-//! reach, each weighted by the Gaussian of its distance. Where no sample is missing, its derivatives are those of the
-//! Gaussian kernels (the weights make the polynomials orthogonal), so borders, holes and inner cells share one definition.
-//! Missing samples have weight 0, which makes it a normalised convolution, and quadrics are met exactly everywhere.
+//! Around a cell the field is taken as `c0 + c1 x + c2 y + c3 x^2 + c4 xy + c5 y^2`, by least squares over the samples
+//! in reach, each weighted by the Gaussian of its distance. Where no sample is missing, its derivatives are those of
+//! the Gaussian kernels (the weights make the polynomials orthogonal), so borders, holes and inner cells share one
+//! definition. Missing samples have weight 0, which makes it a normalised convolution, and quadrics are met exactly
+//! everywhere.
 //!
 //! Source: Knutsson and Westin, Normalized and differential convolution, CVPR 1993; Farnebäck, Polynomial expansion for
 //! orientation and motion estimation, Linköping 2002.
@@ -19,16 +20,16 @@ const POWERS: [[usize; 2]; TERMS] = [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0,
 /// Powers of the moments that fits need, and of those of samples.
 const MOMENTS: usize = 5;
 const SAMPLE_MOMENTS: usize = 3;
-/// Least part of a term's square that the terms before it must leave: below, the samples do not tell it from them. Samples
-/// in three columns leave more than 1e-5, rounding less than 1e-14.
+/// Least part of a term's square that the terms before it must leave: below, the samples do not tell it from them.
+/// Samples in three columns leave more than 1e-5, rounding less than 1e-14.
 const LEAST_PART: f64 = 1e-8;
 /// Narrowest Gaussian of a fit, cells: with less, the third sample of a row would have no weight left beside the first.
 const NARROWEST: f64 = 0.6;
 /// Columns that are done together, which bounds the memory.
 const STRIP: usize = 32;
 
-/// A polynomial around a cell, by its coefficients with distances in `scale` cells; `None` for those that the samples do
-/// not determine.
+/// A polynomial around a cell, by its coefficients with distances in `scale` cells; `None` for those that the samples
+/// do not determine.
 pub(super) struct Fit {
     coefficients: [Option<f64>; TERMS],
     scale: f64,

@@ -102,8 +102,8 @@ impl Kernel {
     }
 }
 
-/// The sample at any index of a row that is not empty; beyond the ends the row goes on as its mirror image, `f(i - 1)` at
-/// -i.
+/// The sample at any index of a row that is not empty; beyond the ends the row goes on as its mirror image, `f(i - 1)`
+/// at -i.
 fn mirrored(row: &[f64], index: i64) -> f64 {
     let last = row.len() as i64 - 1;
     if index < 0 {

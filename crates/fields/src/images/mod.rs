@@ -11,13 +11,14 @@
 //! Derivatives are those of the field smoothed by a Gaussian of `sigma` cells (correlation with the Gaussian's
 //! derivatives), divided by the distance of the cells; `sigma` 0 means differences of neighbours.
 //!
-//! Samples may be missing (`None`), and they always are beyond the border. Nothing is put in their place: differences are
-//! one-sided there (`stencils.rs`), and where the Gaussian reaches a border or a hole, a polynomial is fitted to the samples that
-//! are there (`fit.rs`). Both are exact for polynomials of degree 2 where there are samples enough, as inside. A cell
-//! without sample has no tensor, nor has one whose neighbours are too few for a derivative that the tensor needs.
+//! Samples may be missing (`None`), and they always are beyond the border. Nothing is put in their place: differences
+//! are one-sided there (`stencils.rs`), and where the Gaussian reaches a border or a hole, a polynomial is fitted to
+//! the samples that are there (`fit.rs`). Both are exact for polynomials of degree 2 where there are samples enough, as
+//! inside. A cell without sample has no tensor, nor has one whose neighbours are too few for a derivative that the
+//! tensor needs.
 //!
-//! Sources: Lindeberg, Scale-Space Theory in Computer Vision, 1994 (derivatives at a scale); Bigün and Granlund, Optimal
-//! orientation detection of linear symmetry, ICCV 1987 (structure tensor).
+//! Sources: Lindeberg, Scale-Space Theory in Computer Vision, 1994 (derivatives at a scale); Bigün and Granlund,
+//! Optimal orientation detection of linear symmetry, ICCV 1987 (structure tensor).
 
 mod fit;
 mod kernel;
@@ -134,7 +135,8 @@ pub fn strain_rate_tensors(
     gradient_tensors(vectors, spacing, sigma).map(|t| t.as_ref().map(strain))
 }
 
-/// Part of a gradient below which its rate of strain is what differences of rounded velocities leave of a rigid rotation.
+/// Part of a gradient below which its rate of strain is what differences of rounded velocities leave of a rigid
+/// rotation.
 const ROUNDING: f64 = 1e-12;
 
 /// The Hessian of a scalar field; `None` where a sample or a difference is missing.
@@ -147,9 +149,9 @@ pub fn hessian_tensors(scalars: &Samples, spacing: [f64; 2], sigma: f64) -> Fiel
     Field::from_fn(scalars.grid(), |c| Some(Tensor2::symmetric((*xx.at(c))?, (*xy.at(c))?, (*yy.at(c))?)))
 }
 
-/// The structure tensor of a scalar field: products of derivatives, averaged by a Gaussian of `window` cells over the cells
-/// that have some. Its major axis is that of the strongest change, across stripes. `None` where a sample or a difference is
-/// missing.
+/// The structure tensor of a scalar field: products of derivatives, averaged by a Gaussian of `window` cells over the
+/// cells that have some. Its major axis is that of the strongest change, across stripes. `None` where a sample or a
+/// difference is missing.
 #[must_use]
 pub fn structure_tensors(
     scalars: &Samples,
@@ -168,8 +170,9 @@ pub fn structure_tensors(
     })
 }
 
-/// The orientation tensor of a scalar field: trace(J) I - J of the structure tensor J. It has the same trace and axes with
-/// the eigenvalues exchanged, so that its major axis runs along stripes. In the plane this is J turned by a quarter.
+/// The orientation tensor of a scalar field: trace(J) I - J of the structure tensor J. It has the same trace and axes
+/// with the eigenvalues exchanged, so that its major axis runs along stripes. In the plane this is J turned by a
+/// quarter.
 #[must_use]
 pub fn orientation_tensors(
     scalars: &Samples,

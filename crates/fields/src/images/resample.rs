@@ -4,13 +4,14 @@ use crate::FieldError;
 use crate::limits::{MAX_RESAMPLED, MAX_RESAMPLED_CELLS};
 use tigereye_core::{Cell, Field, Grid, Tensor2};
 
-/// The same picture with another number of cells, component by component. Every new cell is a mean of the old ones under
-/// a triangle around its centre, as wide as two cells of the coarser of both grids: linear interpolation where the new
-/// grid is finer, an average where it is coarser. The same size gives the same field. Zero tensors, which stand for cells without any
-/// (masked ones), are not mixed in: a new cell is the mean of those that there are, or zero where they have less than half of its weight.
+/// The same picture with another number of cells, component by component. Every new cell is a mean of the old ones
+/// under a triangle around its centre, as wide as two cells of the coarser of both grids: linear interpolation where
+/// the new grid is finer, an average where it is coarser. The same size gives the same field. Zero tensors, which stand
+/// for cells without any (masked ones), are not mixed in: a new cell is the mean of those that there are, or zero where
+/// they have less than half of its weight.
 ///
 /// # Errors
-/// [`FieldError::Grid`] and [`FieldError::ResampledSize`] for sizes that are none, or too large.
+/// [`FieldError::Grid`] and [`FieldError::ResampledSize`] for sizes that are invalid or too large.
 pub fn resampled(field: &Field<Tensor2>, width: usize, height: usize) -> Result<Field<Tensor2>, FieldError> {
     let (wide, grid) = (Grid::new(width, field.grid().height())?, Grid::new(width, height)?);
     // On the way there are as many rows as before.
@@ -85,8 +86,8 @@ mod tests {
         assert_eq!(resampled(&field, 7, 5), Ok(field));
     }
 
-    /// Inside, where the triangle meets no rim, linear fields stay linear on finer grids and on those coarser by a whole
-    /// number.
+    /// Inside, where the triangle meets no rim, linear fields stay linear on finer grids and on those coarser by a
+    /// whole number.
     #[test]
     fn linear_fields_stay_linear() {
         for (width, height) in [(60, 60), (37, 41), (15, 10), (10, 4)] {

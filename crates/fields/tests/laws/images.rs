@@ -62,8 +62,8 @@ fn gradients_of_linear_flows_are_exact() {
     }
 }
 
-/// Quadratic flows and hills have their derivatives up to the border and to holes, wherever three samples are in a row, at
-/// every scale.
+/// Quadratic flows and hills have their derivatives up to the border and to holes, wherever three samples are in a row,
+/// at every scale.
 #[test]
 fn derivatives_of_quadratic_fields_are_exact_up_to_borders_and_holes() {
     let place = |c: Cell| (c.x as f64 * SPACING[0], (H - 1 - c.y) as f64 * SPACING[1]);
@@ -83,8 +83,8 @@ fn derivatives_of_quadratic_fields_are_exact_up_to_borders_and_holes() {
     }
 }
 
-/// Away from the reach of holes tensors are the bits of those of the field without holes. One-sided stencils reach three
-/// cells, and so does the narrowest fit.
+/// Away from the reach of holes tensors are the bits of those of the field without holes. One-sided stencils reach
+/// three cells, and so does the narrowest fit.
 #[test]
 fn holes_change_nothing_out_of_reach() {
     let hill = field(|x, y| sin(0.7 * x) * sin(0.3 * y));
@@ -127,8 +127,8 @@ fn strain_rates_are_the_symmetric_parts_of_gradients() {
     }
 }
 
-/// Beside a wave the structure tensor's major axis is along the wave vector, the orientation tensor's along the crests, and
-/// both have one trace.
+/// Beside a wave the structure tensor's major axis is along the wave vector, the orientation tensor's along the crests,
+/// and both have one trace.
 #[test]
 fn orientation_tensors_run_along_stripes() {
     let wave = whole(&field(|x, y| sin(0.8 * x + 0.3 * y)));

@@ -29,14 +29,18 @@ impl<'a> From<Option<&'a str>> for ArrayChoice<'a> {
 
 type Found<'a> = (Association, Cow<'a, DataArray>);
 
-/// The array that the user names, or the active one, or the one that suits best; separate arrays of single components are joined.
+/// The array that the user names, or the active one, or the one that suits best; separate arrays of single components
+/// are joined.
 pub(crate) fn choose_array<'a>(
     image: &'a ImageData,
     choice: ArrayChoice,
     wanted: Wanted,
 ) -> Result<Found<'a>, IoError> {
     match choice {
-        ArrayChoice::Named(name) => named(image, name).map(|(on, a)| (on, Cow::Borrowed(a))),
+        ArrayChoice::Named(name) => match named(image, name) {
+            Ok((on, array)) => Ok((on, Cow::Borrowed(array))),
+            Err(error) => joined_as(image, name, wanted).ok_or(error),
+        },
         ArrayChoice::Components(components) => by_components(image, components),
         ArrayChoice::Usual => usual(image, wanted),
     }
@@ -68,6 +72,22 @@ fn named<'a>(image: &'a ImageData, name: &str) -> Result<(Association, &'a DataA
         [] => at_one().ok_or_else(|| missing(image, &format!("array `{name}`"))),
         [..] => Err(ambiguous(called(name))),
     }
+}
+
+/// The array of separate ones whose names, one after the other, are `name`, as messages list them.
+fn joined_as<'a>(image: &'a ImageData, name: &str, wanted: Wanted) -> Option<Found<'a>> {
+    let plain = |text: &str| text.split(',').map(|word| word.trim().to_owned()).collect::<Vec<String>>();
+    let find = |on: Association| {
+        let name = plain(name.strip_prefix(on.prefix()).unwrap_or(name));
+        let found = separate(of(image, on).0, wanted).into_iter().find(|array| plain(&array.name) == name);
+        found.map(|array| (on, Cow::Owned(array)))
+    };
+    // Where both have it, the prefix tells which is meant.
+    let is_given = |on: &Association| name.starts_with(on.prefix());
+    let all: Vec<Association> = BOTH.into_iter().filter(is_given).collect();
+    let all = if all.is_empty() { BOTH.to_vec() } else { all };
+    let mut found: Vec<Found> = all.into_iter().filter_map(find).collect();
+    if found.len() == 1 { found.pop() } else { None }
 }
 
 /// The arrays that fit, with their association where they differ in it.
@@ -114,8 +134,12 @@ fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
             if best >= least {
                 let fits = |a: &&DataArray| wanted.suits(a, active) == best;
                 fitting.extend(arrays.iter().filter(fits).map(|a| borrowed((on, a))));
-            } else if let Some(found) = separate(arrays, wanted)? {
-                fitting.push((on, Cow::Owned(found)));
+            } else {
+                let mut found = separate(arrays, wanted);
+                if found.len() > 1 {
+                    return Err(IoError::AmbiguousArray { candidates: described(&found) });
+                }
+                fitting.extend(found.pop().map(|found| (on, Cow::Owned(found))));
             }
         }
         if let Some(found) = only(fitting)? {
@@ -141,17 +165,13 @@ fn only(mut found: Vec<Found>) -> Result<Option<Found>, IoError> {
     }
 }
 
-/// The tensor, or the vector, whose components are arrays of their own and called so.
-fn separate(arrays: &[DataArray], wanted: Wanted) -> Result<Option<DataArray>, IoError> {
+/// The tensors, or the vectors, whose components are arrays of their own and called so.
+fn separate(arrays: &[DataArray], wanted: Wanted) -> Vec<DataArray> {
     let with = |n: usize| arrays.iter().filter(|a| a.components == n).collect::<Vec<&DataArray>>();
-    let mut found = match wanted {
+    match wanted {
         Wanted::Tensors => [entries(&with(1)), rows(&with(3), 3), rows(&with(2), 2)].concat(),
         Wanted::Vectors => [rows(&with(1), 3), rows(&with(1), 2)].concat(),
         Wanted::Scalars => Vec::new(),
-    };
-    match found.len() {
-        0 | 1 => Ok(found.pop()),
-        _ => Err(IoError::AmbiguousArray { candidates: described(&found) }),
     }
 }
 

@@ -14,10 +14,10 @@ use tigereye_core::LightDistribution;
 /// | `intensity` | S | W/rad, one per direction |
 /// | `flux` | 3 | net radiant flux, W; the active vectors |
 ///
-/// On a field that lies somewhere the image lies on it: rows upwards, with its origin, spacing and direction, the flux along
-/// the axes of the world. Otherwise row 0 is the field's first row, as in light transport gradient volumes, and the flux is
-/// in the frame x right, y **up**: a viewer whose y axis points up shows the picture upside down, and the flux mirrored against
-/// it. The provenance says which, under [`Rows::KEY`].
+/// On a field that lies somewhere the image lies on it: rows upwards, with its origin, spacing and direction, the flux
+/// along the axes of the world. Otherwise row 0 is the field's first row, as in light transport gradient volumes, and
+/// the flux is in the frame x right, y **up**: a viewer whose y axis points up shows the picture upside down, and the
+/// flux mirrored against it. The provenance says which, under [`Rows::KEY`].
 #[must_use]
 pub fn image_from_light(
     light: &LightDistribution,

@@ -1,7 +1,7 @@
 //! Light transport gradients in image data: x fastest, then row, then direction.
 //!
-//! On a field that lies somewhere the rows run upwards. Otherwise row 0 is the field's first row and is **not** flipped, as in
-//! the published volumes.
+//! On a field that lies somewhere the rows run upwards. Otherwise row 0 is the field's first row and is **not**
+//! flipped, as in the published volumes.
 
 use super::arrays::{LTG_ARRAY, PROVENANCE, PUBLISHED_ARRAY, described};
 use super::rows::{self, Rows};
@@ -42,9 +42,9 @@ impl LtgImage {
     }
 }
 
-/// An image of W x H x n points with the one array [`LTG_ARRAY`], and the JSON text in the field data. On a field that lies
-/// somewhere the image has its origin, spacing and direction, and rows upwards; the third axis is that of the slices, from
-/// the plane in steps of 1 along right x up. The provenance says which way rows run, under [`Rows::KEY`].
+/// An image of W x H x n points with the one array [`LTG_ARRAY`], and the JSON text in the field data. On a field that
+/// lies somewhere the image has its origin, spacing and direction, and rows upwards; the third axis is that of the
+/// slices, from the plane in steps of 1 along right x up. The provenance says which way rows run, under [`Rows::KEY`].
 #[must_use]
 pub fn image_from_ltg(volume: &LtgVolume, geometry: &PlaneGeometry, field_data_json: &str) -> ImageData {
     let (grid, slices) = (volume.grid(), volume.slices());

@@ -27,7 +27,8 @@ impl Rows {
         }
     }
 
-    /// How light and its gradient are written: on the data where these lie somewhere, else with the field's first row first.
+    /// How light and its gradient are written: on the data where these lie somewhere, else with the field's first row
+    /// first.
     #[must_use]
     pub const fn of_results(geometry: &PlaneGeometry) -> Self {
         if geometry.is_placed() { Self::Upwards } else { Self::Downwards }
@@ -71,7 +72,8 @@ fn is_plain(image: &ImageData) -> bool {
     image.origin == [0.0; 3] && image.spacing == [1.0; 3] && image.direction.is_none_or(|d| d == IDENTITY)
 }
 
-/// Puts an image of a plane where its cells lie. A third axis, of directions, begins at the plane and keeps its own distance of 1.
+/// Puts an image of a plane where its cells lie. A third axis, of directions, begins at the plane and keeps its own
+/// distance of 1.
 pub(super) fn place(image: &mut ImageData, geometry: &PlaneGeometry) {
     if !geometry.is_placed() {
         return;

@@ -23,7 +23,7 @@ pub(super) enum Stored {
     Other(Other),
 }
 
-/// Elements that are no numbers.
+/// Elements that are not numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Other {
     Bits,
@@ -160,7 +160,7 @@ impl<'a> Cursor<'a> {
         }))
     }
 
-    /// Passes over `count` elements that are no numbers.
+    /// Skips `count` elements that are not numbers.
     pub(super) fn skip(&mut self, array: &str, kind: Other, count: u128) -> Result<(), IoError> {
         if kind == Other::Bits && !self.binary {
             return self.numbers(array, ScalarType::UInt8, count).map(drop);
@@ -186,8 +186,8 @@ impl<'a> Cursor<'a> {
         Ok(())
     }
 
-    /// A string of a binary file: its length in 1, 2, 4 or 8 bytes, of which the first two bits say which, and its bytes
-    /// (vtkDataWriter.cxx of VTK 9).
+    /// A string of a binary file: its length in 1, 2, 4 or 8 bytes, of which the first two bits say which, and its
+    /// bytes (vtkDataWriter.cxx of VTK 9).
     fn packed_string(&mut self, array: &str) -> Result<(), IoError> {
         let first = self.bytes.get(self.at).copied().unwrap_or_default();
         let width = match first >> 6 {

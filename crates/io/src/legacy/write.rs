@@ -7,8 +7,8 @@ use crate::{DataArray, ImageData, IoError, ScalarType};
 /// Longest second line of a file, the line feed among it.
 const TITLE: usize = 256;
 
-/// Writes a file with the point arrays of an image: the active tensors as TENSORS, everything else as arrays of a FIELD.
-/// Field data are left out; `title` has room for 255 bytes.
+/// Writes a file with the point arrays of an image: the active tensors as TENSORS, everything else as arrays of a
+/// FIELD. Field data are left out; `title` has room for 255 bytes.
 ///
 /// # Errors
 /// [`IoError::Unwritable`] for a title or names that the format cannot hold, [`IoError::ArraySize`],

@@ -267,10 +267,12 @@ fn steps(fields: &Bytes) -> [f64; 3] {
     [1, 2, 3].map(|i| if pixdim[i] > 0.0 && pixdim[i].is_finite() { pixdim[i] } else { 1.0 })
 }
 
-/// Distance of the two positions of a corner voxel, of a voxel's size, that is a disagreement: quaternions in single precision are off by less.
+/// Distance of the two positions of a corner voxel, of a voxel's size, that is a disagreement: quaternions in single
+/// precision are off by less.
 const APART: f64 = 0.05;
 
-/// How far the qform puts a corner of the volume from where the sform has it, where both are there and that is more than rounding.
+/// How far the qform puts a corner of the volume from where the sform has it, where both are there and that is more
+/// than rounding.
 fn disagreement(fields: &Bytes, size: [usize; 3]) -> Option<f64> {
     let (Ok(Some(a)), Ok(Some(b))) = (sform(fields), qform(fields)) else { return None };
     let corner = |(axes, origin): &Position, which: usize| {
@@ -290,8 +292,8 @@ fn disagreement(fields: &Bytes, size: [usize; 3]) -> Option<f64> {
 /// What three numbers of single precision may be off from a length of 1, squared.
 const HALF_TURN: f64 = 3.0 * f32::EPSILON as f64;
 
-/// Axes from the three imaginary parts of a unit quaternion; the third axis may be reversed. Parts of length 1, up to single precision, are
-/// a half turn: the root of what is left would be a rotation by the root of the rounding, 3e-4.
+/// Axes from the three imaginary parts of a unit quaternion; the third axis may be reversed. Parts of length 1, up to
+/// single precision, are a half turn: the root of what is left would be a rotation by the root of the rounding, 3e-4.
 fn rotated([b, c, d]: [f64; 3], steps: [f64; 3], flip: f64) -> [[f64; 3]; 3] {
     let square = b * b + c * c + d * d;
     let is_half_turn = square > 1.0 - HALF_TURN;

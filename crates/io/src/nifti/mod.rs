@@ -1,12 +1,13 @@
 //! NIfTI-1 in one file, `.nii` and `.nii.gz`.
 //!
-//! Read: both byte orders, all integer and floating-point types of up to 64 bits, scaling, sform and qform; symmetric and
-//! general matrices as the standard has them (5-D, intents 1005 and 1004), and 4-D or 5-D images of several components, whose
-//! order the file does not state; ITK's, whose intent has no size. Refused by name: NIfTI-2, ANALYZE and `.hdr`/`.img` pairs, complex and colour numbers,
-//! time series.
+//! Read: both byte orders, all integer and floating-point types of up to 64 bits, scaling, sform and qform; symmetric
+//! and general matrices as the standard has them (5-D, intents 1005 and 1004), and 4-D or 5-D images of several
+//! components, whose order the file does not state; ITK's, whose intent has no size. Refused by name: NIfTI-2, ANALYZE
+//! and `.hdr`/`.img` pairs, complex and colour numbers, time series.
 //!
-//! Written, in the precision of the input: symmetric or general matrices (5-D, intents 1005 and 1004) along the voxel axes, or six
-//! components along the fourth axis as FSL or MRtrix3 have them; an sform, and what made the file as an extension of comments.
+//! Written, in the precision of the input: symmetric or general matrices (5-D, intents 1005 and 1004) along the voxel
+//! axes, or six components along the fourth axis as FSL or MRtrix3 have them; an sform, and what made the file as an
+//! extension of comments.
 //!
 //! Standard: nifti1.h of the NIfTI Data Format Working Group, 2003.
 
@@ -87,8 +88,8 @@ fn apart(distance: f64) -> String {
     format!("its qform and sform disagree by up to {distance:.3} of its unit: the sform is used")
 }
 
-/// Numbers stored component by component, voxel by voxel. A component at a time is decoded, so that little more than the
-/// result is in memory.
+/// Numbers stored component by component, voxel by voxel. A component at a time is decoded, so that little more than
+/// the result is in memory.
 fn by_voxel(data: &[u8], components: usize, scalar: ScalarType, order: ByteOrder) -> Vec<f64> {
     let voxels = data.len() / (components * scalar.bytes()).max(1);
     let mut values = vec![0.0; voxels * components];

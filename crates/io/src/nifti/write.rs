@@ -50,12 +50,13 @@ impl WrittenAs {
     }
 }
 
-/// Writes a file, little-endian, in single precision where the input has no more, else in double: as [`WrittenAs`] says. The sform has the
-/// world right-anterior-superior; worlds that say left or posterior are turned. `provenance` becomes an extension of comments.
+/// Writes a file, little-endian, in single precision where the input has no more, else in double: as [`WrittenAs`]
+/// says. The sform has the world right-anterior-superior; worlds that say left or posterior are turned. `provenance`
+/// becomes an extension of comments.
 ///
 /// # Errors
-/// [`IoError::NiftiSize`], [`IoError::NotSymmetric`] where six components cannot hold the tensors, and [`IoError::SkewedAxes`] where
-/// components must be turned and cannot be.
+/// [`IoError::NiftiSize`], [`IoError::NotSymmetric`] where six components cannot hold the tensors, and
+/// [`IoError::SkewedAxes`] where components must be turned and cannot be.
 pub fn write(volume: &TensorVolume, as_what: WrittenAs, provenance: &str) -> Result<Vec<u8>, IoError> {
     let lattice = volume.lattice();
     let size = lattice.size;

@@ -51,7 +51,8 @@ const fn expected(wanted: Wanted) -> &'static str {
     }
 }
 
-/// Whether the shape would fit with its first axis (or its first two, of a matrix) put last, as arrays with the components first have it.
+/// Whether the shape would fit with its first axis (or its first two, of a matrix) put last, as arrays with the
+/// components first have it.
 fn has_components_first(shape: &[usize], wanted: Wanted) -> bool {
     let leading = match *shape {
         [a @ (2 | 3), b, _, ..] if a == b && wanted == Wanted::Tensors => 2,
@@ -64,8 +65,8 @@ fn has_components_first(shape: &[usize], wanted: Wanted) -> bool {
     Layout::of(&moved, wanted).is_some()
 }
 
-/// Whether an array that is read with its components last would as well be one with a tuple's numbers first: as few rows as a
-/// tuple has numbers.
+/// Whether an array that is read with its components last would as well be one with a tuple's numbers first: as few
+/// rows as a tuple has numbers.
 fn could_have_components_first(shape: &[usize], wanted: Wanted) -> bool {
     let is_tuple = match (wanted, shape) {
         (Wanted::Tensors, [first, _, _]) => matches!(first, 3 | 4 | 6 | 9),
@@ -77,8 +78,8 @@ fn could_have_components_first(shape: &[usize], wanted: Wanted) -> bool {
     is_tuple && has_components_first(shape, wanted)
 }
 
-/// Reads an array of a shape that the module lists. Pictures have row 0 on top and components in the frame x right, y up;
-/// volumes have components along their own axes.
+/// Reads an array of a shape that the module lists. Pictures have row 0 on top and components in the frame x right, y
+/// up; volumes have components along their own axes.
 ///
 /// # Errors
 /// As [`read_array`], and [`IoError::NpyShape`] or [`IoError::NpyComponentsFirst`] for another shape.
@@ -138,12 +139,13 @@ fn laid_out(array: NpyArray, layout: Layout, warnings: Vec<String>) -> Lattice {
     }
 }
 
-/// Takes an array out of the arrays of an archive, by name and bytes: the named one, the only one that fits, or the one whose
-/// components are arrays of their own. Arrays of positions ([`Positions`]) place it; the others are said to be left aside.
+/// Takes an array out of the arrays of an archive, by name and bytes: the named one, the only one that fits, or the one
+/// whose components are arrays of their own. Arrays of positions ([`Positions`]) place it; the others are said to be
+/// left aside.
 ///
 /// # Errors
-/// As [`read_lattice`] for the named or only array, as [`crate::volume::lattice_from_image`] for one out of several, and
-/// [`IoError::NpzPositions`].
+/// As [`read_lattice`] for the named or only array, as [`crate::volume::lattice_from_image`] for one out of several,
+/// and [`IoError::NpzPositions`].
 pub fn lattice_of_members(
     members: &[(String, Vec<u8>)],
     choice: ArrayChoice,
@@ -232,8 +234,8 @@ fn out_of_several(
     Ok((used, first.clone().with_array(array.into_owned())))
 }
 
-/// Names of the arrays that are one component each, of two or three axes of cells: those that a user names, and those whose
-/// names make up a tensor or, where vectors are wanted, a vector.
+/// Names of the arrays that are one component each, of two or three axes of cells: those that a user names, and those
+/// whose names make up a tensor or, where vectors are wanted, a vector.
 fn components_among(members: &[(String, Vec<u8>)], choice: ArrayChoice, wanted: Wanted) -> Vec<String> {
     if let ArrayChoice::Components(components) = choice {
         return if components.are_numbers(wanted) {

@@ -319,8 +319,8 @@ impl Header {
         self.sized(layout)
     }
 
-    /// The axis of tuples where no kind of tensors names it: labels do, or it has 6, 7 or 9 numbers of another kind than the lattice's, or
-    /// it is the first without a kind.
+    /// The axis of tuples where no kind of tensors names it: labels do, or it has 6, 7 or 9 numbers of another kind
+    /// than the lattice's, or it is the first without a kind.
     fn axis_of_numbers(&self) -> Option<usize> {
         let size = |axis: usize| self.sizes[axis];
         let named = |axis: usize| order_of(&self.component_names(axis, size(axis) as usize)).is_some();
@@ -350,8 +350,8 @@ impl Header {
         if names.len() == components { names } else { Vec::new() }
     }
 
-    /// Refuses space directions that are no axes of a space: `none` on an axis of the lattice, a vector on the axis of tuples, and
-    /// vectors that lie in a plane.
+    /// Refuses space directions that are no axes of a space: `none` on an axis of the lattice, a vector on the axis of
+    /// tuples, and vectors that lie in a plane.
     pub(super) fn check_directions(&self, layout: &Layout) -> Result<(), IoError> {
         if !self.has_directions() {
             return Ok(());
@@ -430,7 +430,8 @@ impl Header {
         Some([min?, max?])
     }
 
-    /// Whether samples lie at both ends of the range or in the middle of equal parts, as the file states it or as its spacing tells.
+    /// Whether samples lie at both ends of the range or in the middle of equal parts, as the file states it or as its
+    /// spacing tells.
     fn stated_node_centring(&self, axis: usize) -> Option<bool> {
         match self.centerings.get(axis).map(|c| c.to_ascii_lowercase()).as_deref() {
             Some("node") => return Some(true),

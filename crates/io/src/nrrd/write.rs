@@ -7,10 +7,10 @@ use flate2::write::GzEncoder;
 use std::fmt::Write as _;
 use std::io::Write as _;
 
-/// Writes a file with attached gzip data, in single precision where the input has no more. Tensors are along the axes of `frame`: the world's (the measurement frame is the
-/// unit matrix), or the voxels' (it has the directions of their axes).
-/// Symmetric ones become `3D-masked-symmetric-matrix`, as teem and Slicer have them, others `3D-masked-matrix`; the mask is
-/// the volume's, or 1. `provenance` becomes the value of the key `tigereye`.
+/// Writes a file with attached gzip data, in single precision where the input has no more. Tensors are along the axes
+/// of `frame`: the world's (the measurement frame is the unit matrix), or the voxels' (it has the directions of their
+/// axes). Symmetric ones become `3D-masked-symmetric-matrix`, as teem and Slicer have them, others `3D-masked-matrix`;
+/// the mask is the volume's, or 1. `provenance` becomes the value of the key `tigereye`.
 ///
 /// # Errors
 /// [`IoError::SkewedAxes`] where components must be turned and cannot be.

@@ -94,8 +94,8 @@ struct Header {
 }
 
 impl Header {
-    /// The nearest line above the numbers that names positions; without names, three columns are x, y and a number where
-    /// single numbers are wanted.
+    /// The nearest line above the numbers that names positions; without names, three columns are x, y and a number
+    /// where single numbers are wanted.
     fn of(text: &Text, wanted: Wanted) -> Result<Self, IoError> {
         let candidates: Vec<Self> = text.names().map(|(line, names)| Self::named(line, &names)).collect();
         let first = candidates.first().map(|h| (h.line, h.names()));
@@ -143,11 +143,12 @@ impl Header {
     }
 }
 
-/// The array of tensors (or what is wanted) that named columns hold, at the positions of the columns x, y and z (or x and y).
+/// The array of tensors (or what is wanted) that named columns hold, at the positions of the columns x, y and z (or x
+/// and y).
 ///
 /// # Errors
-/// [`IoError::TableHeader`] without names of all columns or without positions; names line and column of a word that does not
-/// fit; and as [`lattice_from_points`].
+/// [`IoError::TableHeader`] without names of all columns or without positions; names line and column of a word that
+/// does not fit; and as [`lattice_from_points`].
 pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice, IoError> {
     let text = Text::of(bytes)?;
     let header = Header::of(&text, wanted)?;

@@ -4,26 +4,26 @@
 //! x  y  u  v  [flags  mask]          x,y,S11,S22,S12
 //! ```
 //!
-//! Columns are separated by blanks or tabs, by commas, or by semicolons; where semicolons or tabs separate them, a comma is
-//! a decimal point. Lines that do not begin with a number come first, if at all; one of them may name the columns
-//! (`VARIABLES=` of Tecplot files, `%` of COMSOL, the first line of a `.csv`). y is taken to run upwards.
+//! Columns are separated by blanks or tabs, by commas, or by semicolons; where semicolons or tabs separate them, a
+//! comma is a decimal point. Lines that do not begin with a number come first, if at all; one of them may name the
+//! columns (`VARIABLES=` of Tecplot files, `%` of COMSOL, the first line of a `.csv`). y is taken to run upwards.
 //!
-//! [`read_vectors`]: columns x, y, u and v by their names (OpenPIV, PIVlab, JPIV, DaVis, Insight; vx and vy for u and v),
-//! otherwise by their places. Positions form a lattice, in any order; nodes without vector are masked. What may stand beside
-//! the vectors:
+//! [`read_vectors`]: columns x, y, u and v by their names (OpenPIV, PIVlab, JPIV, DaVis, Insight; vx and vy for u and
+//! v), otherwise by their places. Positions form a lattice, in any order; nodes without vector are masked. What may
+//! stand beside the vectors:
 //!
 //! | name | masked where | program |
 //! | --- | --- | --- |
 //! | `mask` (sixth without names) | not 0 | OpenPIV |
 //! | `chc` | below 1 | Insight |
 //! | `vector type` | 0 | PIVlab |
-//! | `isvalid` | 0 | DaVis |
+//! | `isvalid`, `valid`, `validity` | below 1 | DaVis and others |
 //! | `flags` (fifth without names) | never: such vectors were mostly replaced; counted | OpenPIV |
 //!
 //! [`read_numbers`]: an image, one number a cell.
 //!
-//! [`read_columns`]: every column with a name is an array, those of `Stress:0`, `Stress:1`, ... (ParaView) are one; tensors
-//! are found in them as in any file with several arrays.
+//! [`read_columns`]: every column with a name is an array, those of `Stress:0`, `Stress:1`, ... (ParaView) are one;
+//! tensors are found in them as in any file with several arrays.
 //!
 //! 2x2 blocks ([`crate::matrices`]) are rows of numbers, too. [`kind`] tells them apart.
 
@@ -57,8 +57,9 @@ pub enum Kind {
     Other,
 }
 
-/// Whether a text is a table, one point a line, rather than 2x2 blocks: a line names the columns; or two neighbouring columns
-/// are the positions of a complete lattice of 3 x 3 nodes or more (or of most of 5 x 5 or more); or a column counts the lines.
+/// Whether a text is a table, one point a line, rather than 2x2 blocks: a line names the columns; or two neighbouring
+/// columns are the positions of a complete lattice of 3 x 3 nodes or more (or of most of 5 x 5 or more); or a column
+/// counts the lines.
 ///
 /// Blocks are mistaken only where a pair of columns visits every node of such a lattice once, or a column grows by the
 /// same step in every row.

@@ -6,7 +6,8 @@ use crate::volume::{Frame, Known, Lattice, World};
 use crate::{IoError, ScalarType};
 use tigereye_core::Grid;
 
-/// Reads an image of single numbers: every number is a cell, the first row on top. Lines above the numbers are passed over.
+/// Reads an image of single numbers: every number is a cell, the first row on top. Lines above the numbers are passed
+/// over.
 ///
 /// # Errors
 /// Names line and column of a word that is no number, and rows of different length.

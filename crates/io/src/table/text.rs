@@ -100,7 +100,8 @@ impl<'a> Text<'a> {
         self.separator.words(self.lines[0].1).count()
     }
 
-    /// Names of the columns: lines above the numbers with as many as there are columns, with their numbers, the nearest first.
+    /// Names of the columns: lines above the numbers with as many as there are columns, with their numbers, the nearest
+    /// first.
     pub(super) fn names(&self) -> impl Iterator<Item = (usize, Vec<String>)> + '_ {
         let columns = self.columns();
         let named = move |(i, line): (usize, &String)| {
@@ -148,8 +149,8 @@ pub(super) fn names_of(line: &str) -> Vec<String> {
     }
 }
 
-/// A number, possibly in quotes, or with Fortran's `D` before its exponent. Its decimal point may be a comma, which then separates
-/// nothing ([`Separator::of`]).
+/// A number, possibly in quotes, or with Fortran's `D` before its exponent. Its decimal point may be a comma, which
+/// then separates nothing ([`Separator::of`]).
 pub(super) fn parsed(word: &[u8]) -> Option<f64> {
     let word = std::str::from_utf8(word).ok()?.trim_matches('"');
     let number =

@@ -43,7 +43,7 @@ impl Role {
             "v" | "vy" | "uy" | "u1" | "vely" | "velocityy" | "velocity1" | "vvel" => Some(Self::V),
             "flags" | "flag" => Some(Self::Flags),
             "mask" => Some(Self::Mask),
-            "chc" | "vector" | "vectortype" | "isvalid" => Some(Self::Choice),
+            "chc" | "vector" | "vectortype" | "isvalid" | "valid" | "validity" => Some(Self::Choice),
             _ => None,
         }
     }
@@ -56,6 +56,8 @@ struct Columns {
     units: Vec<Option<String>>,
     /// Line that names them, from 1.
     named: Option<usize>,
+    /// Columns that are not read, in words.
+    unread: Vec<String>,
 }
 
 impl Columns {
@@ -67,6 +69,7 @@ impl Columns {
             roles: all[..known].iter().copied().map(Some).collect(),
             units: vec![None; known],
             named: None,
+            unread: (known..columns).map(|column| format!("number {}", column + 1)).collect(),
         }
     }
 
@@ -81,7 +84,9 @@ impl Columns {
             };
             let units = names.iter().map(unit).collect();
             let once = |role: &Role| roles.iter().filter(|r| **r == Some(*role)).count() == 1;
-            Role::NEEDED.iter().all(once).then_some(Self { roles, units, named: Some(i + 1) })
+            let is_unread = |(name, role): (&String, &Option<Role>)| role.is_none().then(|| name.clone());
+            let unread = names.iter().zip(&roles).filter_map(is_unread).collect();
+            Role::NEEDED.iter().all(once).then_some(Self { roles, units, named: Some(i + 1), unread })
         };
         text.above.iter().enumerate().rev().find_map(named)
     }
@@ -144,6 +149,7 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
         });
     }
     let mut notes = vec![words_of(&columns)];
+    let mut said = Vec::new();
     if columns.named.is_none() && columns.roles.len() >= 5 && is_flat(&rows) {
         return Err(IoError::TableHeader {
             line: text.first(),
@@ -154,14 +160,25 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
         rows.iter_mut().for_each(|row| row.masked = false);
         notes.push("the sixth column holds more than 0 and 1 and is left aside".to_owned());
     } else if flagged > 0 {
-        notes.push(format!("{flagged} vectors with a flag, taken as they stand"));
+        said.push(format!("{flagged} vectors with a flag other than 0, taken as they stand"));
+    }
+    if !columns.unread.is_empty() {
+        said.push(format!(
+            "columns not read, whatever they say of the vectors: {}",
+            columns.unread.join(", ")
+        ));
+    }
+    let zeros = rows.iter().filter(|row| !row.masked && row.vector == [0.0; 2]).count();
+    if zeros > 0 && zeros < rows.len() {
+        said.push(format!("{zeros} vectors are exactly zero, as some programs write those that are missing; taken as they stand"));
     }
     let y_up = "y taken to run upwards and v with it (right-handed, as OpenPIV's transform_coordinates makes them); where a \
                 file has y downwards the picture is upside down";
-    let said = text.decimal_commas();
+    let commas = text.decimal_commas();
     let mut lattice = lattice(&rows, notes)?;
-    lattice.remarks.extend(said.map(|(words, _)| words.to_owned()));
-    if said.is_some_and(|(_, thousands)| thousands) {
+    lattice.remarks.extend(said);
+    lattice.remarks.extend(commas.map(|(words, _)| words.to_owned()));
+    if commas.is_some_and(|(_, thousands)| thousands) {
         lattice
             .warnings
             .push("every comma stands before three digits, as separators of thousands do".to_owned());
@@ -325,6 +342,7 @@ mod tests {
         let more = "x [px],y [px],u [px/frame],v [px/frame],vector direction [degrees],Vector length [px],Vector type [-]\n";
         let line = |x: f64, y: f64| format!("{x},{y},{x},{},0.5,0,{}", ten(y), 1 - low(y));
         is_read(&table(more, line), 4);
+        is_read(&table("x,y,u,v,valid\n", |x, y| format!("{x},{y},{x},{},{}", ten(y), 1 - low(y))), 4);
         let insight =
             "TITLE=\"run\" VARIABLES=\"X mm\", \"Y mm\", \"U m/s\", \"V m/s\", \"CHC\", ZONE I=4, J=3\n";
         is_read(
@@ -377,6 +395,26 @@ mod tests {
         ] {
             assert_eq!(kind(text.as_bytes()), Kind::Other, "{text}");
         }
+    }
+
+    #[test]
+    fn what_is_not_known_of_vectors_is_said() {
+        let is_said = |header: &str, line: &dyn Fn(f64, f64) -> String, words: &str| {
+            let remarks = read(&table(header, line)).unwrap().remarks;
+            assert!(remarks.iter().any(|r| r.contains(words)), "{header}: {remarks:?}");
+        };
+        is_said(
+            "x,y,u,v,status\n",
+            &|x, y| format!("{x},{y},{x},1,0"),
+            "columns not read, whatever they say of the vectors: status",
+        );
+        is_said(
+            "",
+            &|x, y| format!("{x} {y} {x} 1 0"),
+            "columns not read, whatever they say of the vectors: number 5",
+        );
+        is_said("x,y,u,v,flags,mask\n", &|x, y| format!("{x},{y},{x},1,1,0"), "12 vectors with a flag");
+        is_said("x,y,u,v\n", &|x, y| format!("{x},{y},{},0", x - 1.0), "3 vectors are exactly zero");
     }
 
     #[test]

@@ -50,7 +50,8 @@ impl ComponentArrays {
         pairs.join(",")
     }
 
-    /// Whether the arrays hold one number each: entries of a tensor, or components of a vector where vectors are wanted.
+    /// Whether the arrays hold one number each: entries of a tensor, or components of a vector where vectors are
+    /// wanted.
     pub(crate) fn are_numbers(&self, wanted: crate::Wanted) -> bool {
         self.kind == Kind::Entries || wanted == crate::Wanted::Vectors
     }

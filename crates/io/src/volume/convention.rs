@@ -1,4 +1,5 @@
-//! What programs write and what is assumed of it: the tables that decide, and the page of the documentation made from them.
+//! What programs write and what is assumed of it: the tables that decide, and the page of the documentation made from
+//! them.
 
 use super::meaning::{Frame, Known};
 use super::order::TensorOrder;

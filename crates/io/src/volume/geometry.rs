@@ -10,8 +10,8 @@ const ROUNDING: f64 = 1e-6;
 const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 
-/// Where the cells of a plane lie: in the world of the file, or, where the input has none, in a flat frame of their own, x to
-/// the right and y up.
+/// Where the cells of a plane lie: in the world of the file, or, where the input has none, in a flat frame of their
+/// own, x to the right and y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneGeometry {
     corner: [f64; 3],
@@ -26,8 +26,9 @@ impl PlaneGeometry {
     pub const UNPLACED: Self =
         Self { corner: [0.0; 3], right: X, up: Y, spacing: [1.0; 2], is_placed: false };
 
-    /// From the position of the centre of the lower left cell, unit vectors to the right and up, and the distances of the
-    /// cells along them. Without a place in the world where one of these is no finite number, or a distance not positive.
+    /// From the position of the centre of the lower left cell, unit vectors to the right and up, and the distances of
+    /// the cells along them. Without a place in the world where one of these is no finite number, or a distance not
+    /// positive.
     #[must_use]
     pub fn new(corner: [f64; 3], right: [f64; 3], up: [f64; 3], spacing: [f64; 2]) -> Self {
         let numbers = [&corner[..], &right, &up, &spacing].concat();
@@ -47,8 +48,8 @@ impl PlaneGeometry {
         Self { corner, right: X, up: Y, spacing: self.spacing, is_placed: false }
     }
 
-    /// How a plane of tensors along right and up is written: in the world where these are its x and y (up to rounding), else in
-    /// a flat frame of its own.
+    /// How a plane of tensors along right and up is written: in the world where these are its x and y (up to rounding),
+    /// else in a flat frame of its own.
     #[must_use]
     pub fn upright(&self) -> Self {
         let near = |v: [f64; 3], axis: [f64; 3]| (0..3).all(|i| (v[i] - axis[i]).abs() <= ROUNDING);
@@ -139,8 +140,8 @@ impl PlaneGeometry {
         self.with_corner_at([crop.x[0] as f64, height.saturating_sub(crop.y[1]) as f64])
     }
 
-    /// Other numbers of cells for the same picture: cells are rectangles around their points, and the outermost keep their
-    /// outer sides.
+    /// Other numbers of cells for the same picture: cells are rectangles around their points, and the outermost keep
+    /// their outer sides.
     #[must_use]
     pub fn resampled(self, before: [usize; 2], after: [usize; 2]) -> Self {
         let ratio = [0, 1].map(|i| before[i] as f64 / after[i] as f64);
@@ -175,8 +176,8 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// The world axis of each of three directions (any length): the assignment that makes the sum of the absolute cosines
-/// largest. Among those that differ by rounding only, the one that keeps the order of the file; a direction without length
-/// takes the axis that is left.
+/// largest. Among those that differ by rounding only, the one that keeps the order of the file; a direction without
+/// length takes the axis that is left.
 pub(crate) fn world_axes(axes: &[[f64; 3]; 3]) -> [usize; 3] {
     /// Difference of two sums of cosines that counts as rounding.
     const TIE: f64 = 1e-6;

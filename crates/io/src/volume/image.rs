@@ -17,7 +17,8 @@ use crate::{DataArray, ImageData, IoError, PolyData};
 const HIDDEN_POINT: u8 = 2;
 const HIDDEN_CELL: u8 = 32 | 8;
 
-/// Takes an array out of poly data whose points form a lattice: row by row in any direction, or along the world's axes in any order.
+/// Takes an array out of poly data whose points form a lattice: row by row in any direction, or along the world's axes
+/// in any order.
 ///
 /// # Errors
 /// [`IoError::NoLattice`], and as [`lattice_from_image`]. Cell arrays belong to polygons and are not looked at.
@@ -54,9 +55,9 @@ pub fn lattice_from_points<'a>(
     Ok(found)
 }
 
-/// Takes an array out of an image: the named one, or the active one of the wanted kind, or the only one whose tuples fit; where there is
-/// none, the one whose components are arrays of their own (`S_XX`, `S_YY`, `S_XY`). Cell arrays form a lattice of cell centres. Points
-/// that VTK marked as invalid or hidden are masked.
+/// Takes an array out of an image: the named one, or the active one of the wanted kind, or the only one whose tuples
+/// fit; where there is none, the one whose components are arrays of their own (`S_XX`, `S_YY`, `S_XY`). Cell arrays
+/// form a lattice of cell centres. Points that VTK marked as invalid or hidden are masked.
 ///
 /// # Errors
 /// [`IoError::NoArray`], [`IoError::AmbiguousArray`], [`IoError::Principal`], [`IoError::UnequalComponents`],
@@ -91,9 +92,8 @@ pub fn lattice_from_image<'a>(
         world = World::Absent;
     }
     let kind = if association == Association::Points { "point" } else { "cell" };
-    let mut notes = vec![format!("an array of the {kind}s")];
-    let (mask, note) = mask_of(image, association);
-    notes.extend(note);
+    let notes = vec![format!("an array of the {kind}s")];
+    let (mask, said) = mask_of(image, association);
     let (content, order) = meaning(image, association, &array);
     let array = array.into_owned();
     Ok(Lattice {
@@ -111,7 +111,7 @@ pub fn lattice_from_image<'a>(
         array: array.name,
         component_names: array.component_names,
         notes,
-        remarks: Vec::new(),
+        remarks: said.into_iter().collect(),
         warnings: Vec::new(),
     })
 }
@@ -143,8 +143,8 @@ fn meaning(
     (content, order)
 }
 
-/// What VTK left out: points that lay outside of what was resampled, hidden points and cells. A point is hidden with all cells around
-/// it, a cell with any of its points, as VTK shows them.
+/// What VTK left out: points that lay outside of what was resampled, hidden points and cells. A point is hidden with
+/// all cells around it, a cell with any of its points, as VTK shows them.
 fn mask_of(image: &ImageData, association: Association) -> (Option<Vec<f64>>, Option<String>) {
     let flags = |arrays: &[DataArray], size: [usize; 3], name: &str, is_out: &dyn Fn(f64) -> bool| {
         let array = arrays.iter().find(|a| a.name == name && a.components == 1)?;
@@ -205,8 +205,8 @@ fn spread(flags: &[bool], from: [usize; 3], to: [usize; 3], all: bool) -> Vec<bo
 }
 
 /// An image of the whole volume: nine named components, the active tensors. In the frame world the voxel axes keep
-/// their directions and tensors are along the world's axes; in the frame voxel the image has the axes x, y, z and tensors
-/// are along the voxel axes.
+/// their directions and tensors are along the world's axes; in the frame voxel the image has the axes x, y, z and
+/// tensors are along the voxel axes.
 ///
 /// # Errors
 /// [`IoError::SkewedAxes`] where components must be turned and cannot be.

@@ -79,8 +79,8 @@ impl Lattice {
         }
     }
 
-    /// Whether FSL's axes have the first voxel axis reversed: the determinant of the affine, in a world that runs to the right,
-    /// anterior and superior, is positive.
+    /// Whether FSL's axes have the first voxel axis reversed: the determinant of the affine, in a world that runs to
+    /// the right, anterior and superior, is positive.
     #[must_use]
     pub fn reverses_x_for_fsl(&self) -> bool {
         // FSL takes a volume of which nobody says how it lies as one that needs no reversal.
@@ -132,8 +132,8 @@ impl Lattice {
     }
 
     /// Takes a mask of another file: a voxel keeps the smaller of both confidences. Where an axis of one lattice runs
-    /// against that of the other, as far as both say where they lie, the mask is turned round along it. Returns whether the
-    /// mask lies elsewhere all the same, or in a world that cannot be compared.
+    /// against that of the other, as far as both say where they lie, the mask is turned round along it. Returns whether
+    /// the mask lies elsewhere all the same, or in a world that cannot be compared.
     ///
     /// # Panics
     /// Where the mask has another size or holds tuples.
@@ -238,7 +238,8 @@ impl Lattice {
         [at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8)]
     }
 
-    /// What turns components in `frame` into components along the voxel axes, `K v` or `K D K^T`; `None` where nothing does.
+    /// What turns components in `frame` into components along the voxel axes, `K v` or `K D K^T`; `None` where nothing
+    /// does.
     pub(crate) fn to_voxel(&self, frame: Frame) -> Result<Option<[f64; 9]>, IoError> {
         let measured = match (frame, self.measurement) {
             (Frame::Voxel, _) => return Ok(None),

@@ -12,7 +12,8 @@ pub enum Frame {
     /// The axes of FSL's gradient tables, and of tensors fitted with them: the voxel axes, the first reversed where the
     /// determinant of the affine is positive (FSL, "What conventions do the bvecs use?", FDT user guide).
     Fsl,
-    /// Left, posterior and superior, whatever the file's own world: ITK's axes, in which it writes images of vectors as they are.
+    /// Left, posterior and superior, whatever the file's own world: ITK's axes, in which it writes images of vectors as
+    /// they are.
     Lps,
 }
 
@@ -70,7 +71,7 @@ pub enum Known {
     Given,
     /// The format leaves it open and this program has a convention for it.
     Convention,
-    /// Nobody says so; it is usual.
+    /// Assumed by convention; the file does not state it.
     Assumed,
 }
 

@@ -1,11 +1,11 @@
 //! Tensors on a 3D lattice as files have them, and what was read or assumed to know what they mean.
 //!
-//! A reader gives a [`Lattice`]: tuples of numbers with what the file states about them. [`Lattice::tensors`] adds what the
-//! user says ([`Reading`]) and assumes the rest, visibly; the [`TensorVolume`] it gives is cut to a plane by
+//! A reader gives a [`Lattice`]: tuples of numbers with what the file states about them. [`Lattice::tensors`] adds what
+//! the user says ([`Reading`]) and assumes the rest, visibly; the [`TensorVolume`] it gives is cut to a plane by
 //! [`TensorVolume::slice`].
 //!
-//! Frames. Every voxel axis has a direction in the world of the file (`axes`). Components are along the voxel axes, along
-//! the world's axes, or along those of NRRD's measurement frame.
+//! Frames. Every voxel axis has a direction in the world of the file (`axes`). Components are along the voxel axes,
+//! along the world's axes, or along those of NRRD's measurement frame.
 
 mod choice;
 mod components;

@@ -1,8 +1,8 @@
 //! What the names of components say: which entry of a tensor each one is.
 //!
-//! Programs spell them `XX`, `xx`, `11`, `00`, `S11`, `SXX`, `sigma_xx`, `stress_XX`, `S-XY`, `(1,2)`. The two index characters are
-//! read, and what stands before or after them is not: the quantity's own name differs between normal and shear components
-//! (`sigma_xx`, `tau_xy`).
+//! Programs spell them `XX`, `xx`, `11`, `00`, `S11`, `SXX`, `sigma_xx`, `stress_XX`, `S-XY`, `(1,2)`. The two index
+//! characters are read, and what stands before or after them is not: the quantity's own name differs between normal and
+//! shear components (`sigma_xx`, `tau_xy`).
 
 use super::order::TensorOrder;
 
@@ -48,7 +48,8 @@ fn words_of(name: &str) -> Vec<String> {
     name.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty()).map(str::to_owned).collect()
 }
 
-/// The pair of a derivative, `dudx`, `du_dy`, `dvx/dx`, `∂v/∂y`: component before direction, as rows and columns of a gradient.
+/// The pair of a derivative, `dudx`, `du_dy`, `dvx/dx`, `∂v/∂y`: component before direction, as rows and columns of a
+/// gradient.
 fn derivative_of(words: &[String]) -> Option<(Pair, String)> {
     let letters: Vec<char> = words.concat().chars().collect();
     let is_d = |c: &char| *c == 'd';
@@ -97,7 +98,8 @@ fn pair_of(name: &str) -> Option<(Pair, String)> {
     Some((Pair::of(a, b)?, rest(behind)))
 }
 
-/// Names as entries of a tensor, row by row; `None` where one of them is no index pair, or where the digits count from nowhere.
+/// Names as entries of a tensor, row by row; `None` where one of them is no index pair, or where the digits count from
+/// nowhere.
 fn entries_of(pairs: &[Pair]) -> Option<Vec<usize>> {
     let has = |digit: char| pairs.iter().any(|p| p.0.contains(&digit));
     let first = match (has('0'), has('3')) {
@@ -138,7 +140,8 @@ pub(crate) fn order_of<S: AsRef<str>>(names: &[S]) -> Option<TensorOrder> {
     TensorOrder::by_entries(&entries(names)?).ok()
 }
 
-/// The entries that names spell, row by row. Where some are pairs, `SX` beside `SXY` is a normal component, as Ansys has it.
+/// The entries that names spell, row by row. Where some are pairs, `SX` beside `SXY` is a normal component, as Ansys
+/// has it.
 pub(crate) fn entries<S: AsRef<str>>(names: &[S]) -> Option<Vec<usize>> {
     let pair = |name: &S| pair_of(name.as_ref()).map(|(pair, _)| pair);
     let has_pairs = names.iter().any(|n| pair(n).is_some());
@@ -167,7 +170,8 @@ pub(crate) fn names_eigenvectors(array: &str) -> bool {
     words_of(array).iter().any(|w| NAMES.contains(&w.as_str()))
 }
 
-/// Whether a name is that of a strain, whose shears may be engineering ones: `strain`, `TOSTRAIN`, `eps_xy`, `gamma_xy`, `E11`, `LE12`.
+/// Whether a name is that of a strain, whose shears may be engineering ones: `strain`, `TOSTRAIN`, `eps_xy`,
+/// `gamma_xy`, `E11`, `LE12`.
 pub(crate) fn names_strain(name: &str) -> bool {
     name.split(", ").any(is_strain)
 }
@@ -201,7 +205,8 @@ pub(crate) struct Group {
 /// Stems that mean one tensor where normal and shear components are called differently.
 const SAME_QUANTITY: [[&str; 2]; 4] = [["sigma", "tau"], ["σ", "τ"], ["eps", "gamma"], ["ε", "γ"]];
 
-/// Arrays called `S_XX`, `S_YY`, `S_XY` are one tensor: the groups of names that share what stands before their index pairs.
+/// Arrays called `S_XX`, `S_YY`, `S_XY` are one tensor: the groups of names that share what stands before their index
+/// pairs.
 pub(crate) fn groups(names: &[&str]) -> Vec<Group> {
     let mut stems: Vec<(String, Vec<usize>, Vec<Pair>)> = Vec::new();
     for (at, name) in names.iter().enumerate() {

@@ -59,8 +59,8 @@ impl TensorOrder {
         Self { entries, components }
     }
 
-    /// The order by the entry (row by row) of every component; a symmetric tensor has only one of xy and yx. Entries that no component
-    /// gives are zero: those outside of the plane, or the shears across it in plane strain.
+    /// The order by the entry (row by row) of every component; a symmetric tensor has only one of xy and yx. Entries
+    /// that no component gives are zero: those outside of the plane, or the shears across it in plane strain.
     pub(crate) fn by_entries(list: &[usize]) -> Result<Self, &'static str> {
         let mut given = [None; 9];
         for (at, &entry) in list.iter().enumerate() {
@@ -97,7 +97,8 @@ impl TensorOrder {
         self.components
     }
 
-    /// Whether a component stands for two entries, so that an engineering shear is one number: the entries xy and yx, and so on.
+    /// Whether a component stands for two entries, so that an engineering shear is one number: the entries xy and yx,
+    /// and so on.
     #[must_use]
     pub fn has_shared_shears(&self) -> bool {
         [(1, 3), (2, 6), (5, 7)]

@@ -9,13 +9,14 @@ use super::tensors::TensorVolume;
 use crate::{IoError, ScalarType};
 use tigereye_core::{Field, Tensor2};
 
-/// Difference of two components that counts as rounding, relative to the largest component of the volume. It decides how tensors are
-/// written, not what they are: with six components where nothing is lost, with nine otherwise, and both read back alike.
+/// Difference of two components that counts as rounding, relative to the largest component of the volume. It decides
+/// how tensors are written, not what they are: with six components where nothing is lost, with nine otherwise, and both
+/// read back alike.
 const ROUNDING: f64 = 1e-12;
 
 impl Lattice {
-    /// A field of the plane as a lattice of one layer, row 0 on top as in the field. The lower left point is at 0, points
-    /// have distance 1.
+    /// A field of the plane as a lattice of one layer, row 0 on top as in the field. The lower left point is at 0,
+    /// points have distance 1.
     #[must_use]
     pub fn from_field(field: &Field<Tensor2>) -> Self {
         let grid = field.grid();
@@ -42,8 +43,8 @@ impl Lattice {
 }
 
 impl TensorVolume {
-    /// A field of the plane as a volume of one layer, its third row and column zero: row 0 of the field is the row of the
-    /// largest y. It lies in the world where right and up are the world's x and y, else in a flat frame of its own.
+    /// A field of the plane as a volume of one layer, its third row and column zero: row 0 of the field is the row of
+    /// the largest y. It lies in the world where right and up are the world's x and y, else in a flat frame of its own.
     #[must_use]
     pub fn from_field(field: &Field<Tensor2>, geometry: &PlaneGeometry) -> Self {
         let rows = field.values().chunks(field.grid().width()).rev();

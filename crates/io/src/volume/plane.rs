@@ -31,9 +31,9 @@ impl Side {
     }
 }
 
-/// Which voxels a plane is made of, and how they lie in the picture: as the world has them. Of the two axes of the plane the
-/// one along the lower world axis runs to the right (x before y before z) and the other one up, both the way the world's
-/// do, whatever the order and the signs of the voxel axes.
+/// Which voxels a plane is made of, and how they lie in the picture: as the world has them. Of the two axes of the
+/// plane the one along the lower world axis runs to the right (x before y before z) and the other one up, both the way
+/// the world's do, whatever the order and the signs of the voxel axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cut {
     /// The plane.
@@ -133,8 +133,8 @@ impl Lattice {
         })
     }
 
-    /// Of several axes of one voxel, that of the last world axis is the normal where nobody chooses, so that a single row is
-    /// in the same plane whatever the order of its axes.
+    /// Of several axes of one voxel, that of the last world axis is the normal where nobody chooses, so that a single
+    /// row is in the same plane whatever the order of its axes.
     fn with_own_plane(&self, choice: PlaneChoice, assigned: [usize; 3]) -> PlaneChoice {
         if choice != PlaneChoice::default() {
             return choice;
@@ -201,7 +201,8 @@ impl Lattice {
         Ok(Slice { field, cut })
     }
 
-    /// The axes that the components of vectors are along, in their frame: two components of a model in a plane are along its two axes.
+    /// The axes that the components of vectors are along, in their frame: two components of a model in a plane are
+    /// along its two axes.
     fn axes_of_components(&self, cut: &Cut, frame: Frame) -> Result<Vec<usize>, IoError> {
         let mut shown = [cut.right, cut.up]
             .map(|s| if matches!(frame, Frame::Voxel | Frame::Fsl) { s.voxel } else { s.world });

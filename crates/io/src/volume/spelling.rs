@@ -6,8 +6,8 @@ use super::order::TensorOrder;
 use crate::IoError;
 
 impl TensorOrder {
-    /// An alias of [`ALIASES`](super::ALIASES) or the components themselves, `xx,xy,xz,yy,yz,zz`, in any spelling that files use
-    /// (`11,12,13,22,23,33`).
+    /// An alias of [`ALIASES`](super::ALIASES) or the components themselves, `xx,xy,xz,yy,yz,zz`, in any spelling that
+    /// files use (`11,12,13,22,23,33`).
     ///
     /// # Errors
     /// [`IoError::Order`] for anything else, and for an alias or names that do not fit the number of components.

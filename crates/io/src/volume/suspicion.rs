@@ -37,8 +37,9 @@ pub fn negative_share<'a>(tuples: impl Iterator<Item = &'a [f64]>, order: Tensor
 }
 
 impl TensorVolume {
-    /// Compares, over all measured voxels, the order used with the other orders of six components: diffusion tensors read in a wrong one have
-    /// negative eigenvalues. `None` where nothing looks wrong. Stresses and Hessians are negative in any order.
+    /// Compares, over all measured voxels, the order used with the other orders of six components: diffusion tensors
+    /// read in a wrong one have negative eigenvalues. `None` where nothing looks wrong. Stresses and Hessians are
+    /// negative in any order.
     #[must_use]
     pub fn suspicion(&self) -> Option<Suspicion> {
         if self.lattice.components != 6 {

@@ -163,8 +163,15 @@ impl TensorVolume {
         (self.order.1 == Known::Given && stated != self.order.0).then_some(stated)
     }
 
-    /// Whether a name suggests strains, whose shears may be engineering ones, while a shear is one number and nobody says
-    /// what it is.
+    /// The frame that the file states, where the user says another one.
+    #[must_use]
+    pub fn contradicted_frame(&self) -> Option<Frame> {
+        let (stated, known) = self.lattice.frame;
+        (known == Known::Stated && self.frame.1 == Known::Given && stated != self.frame.0).then_some(stated)
+    }
+
+    /// Whether a name suggests strains, whose shears may be engineering ones, while a shear is one number and nobody
+    /// says what it is.
     #[must_use]
     pub fn suggests_engineering_shears(&self) -> bool {
         let names = self.lattice.component_names.iter().chain([&self.lattice.array]);

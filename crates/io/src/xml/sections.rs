@@ -38,7 +38,8 @@ pub(crate) fn only_piece(set: &Element) -> Result<&Element, IoError> {
     }
 }
 
-/// The arrays of `<PointData>` or `<CellData>`, and which are active. Arrays without numbers are passed over and named in `skipped`.
+/// The arrays of `<PointData>` or `<CellData>`, and which are active. Arrays without numbers are passed over and named
+/// in `skipped`.
 pub(crate) fn read_arrays(
     element: &Element,
     arrays: &mut ArrayReader,

@@ -185,6 +185,11 @@ fn separate_arrays_are_one_tensor() {
     }
     let ambiguous = lattice_from_image(&parts, None, Wanted::Tensors);
     assert!(matches!(ambiguous, Err(IoError::AmbiguousArray { .. })));
+    // By the words of the message.
+    for name in ["S_YY, S_XX, S_XY", "points:S_YY,S_XX,S_XY"] {
+        let found = lattice_from_image(&parts, ArrayChoice::Named(name), Wanted::Tensors).unwrap();
+        assert_eq!(plane(found, Reading::default()), Ok(EXPECTED), "{name}");
+    }
     let arrays = ComponentArrays::parse("XX=S_XX,YY=S_YY,XY=S_XY").unwrap();
     let found = lattice_from_image(&parts, ArrayChoice::Components(&arrays), Wanted::Tensors).unwrap();
     assert_eq!(plane(found, Reading::default()), Ok(EXPECTED));
@@ -299,8 +304,8 @@ fn positions_of_archives_place_their_cells() {
     );
 }
 
-/// Volumes with one array a component are told from volumes of tuples by the names, whatever the length of their last axis, and
-/// their components are along the axes of their positions.
+/// Volumes with one array a component are told from volumes of tuples by the names, whatever the length of their last
+/// axis, and their components are along the axes of their positions.
 #[test]
 fn volumes_of_archives_have_one_array_a_component() {
     let member = |name: &str, shape: &[usize], values: Vec<f64>| {
@@ -565,7 +570,8 @@ fn world_angle(lattice: Lattice, reading: Reading) -> f64 {
     Svd::of(&Tensor2::symmetric(xx, xy, yy)).phi_rad().to_degrees().rem_euclid(180.0)
 }
 
-/// One fibre at 30 degrees in the world, fitted with FSL's gradient tables, is at 150 degrees in its axes for images of either hand.
+/// One fibre at 30 degrees in the world, fitted with FSL's gradient tables, is at 150 degrees in its axes for images of
+/// either hand.
 #[test]
 fn fsl_tensors_are_along_its_gradient_tables() {
     let t = Tensor2::from_eigen(150.0_f64.to_radians(), 3.0, 1.0);
@@ -661,7 +667,7 @@ fn points_are_masked_like_images() {
     data.point_arrays.push(DataArray::new("vtkGhostType", 1, vec![0.0, 2.0, 0.0, 0.0]));
     let lattice = lattice_from_points(data, None, Wanted::Tensors).unwrap();
     assert_eq!(lattice.mask, Some(vec![1.0, 0.0, 1.0, 1.0]));
-    assert!(lattice.notes.iter().any(|n| n.contains("1 points hidden")), "{:?}", lattice.notes);
+    assert!(lattice.remarks.iter().any(|n| n.contains("1 points hidden")), "{:?}", lattice.remarks);
 }
 
 /// ITK writes images of vectors as it has them in memory: left, posterior and superior.

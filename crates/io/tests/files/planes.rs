@@ -5,12 +5,14 @@ use tigereye_core::Tensor2;
 use tigereye_io::volume::{Axis, PlaneChoice, Reading, Slice, TensorVolume, lattice_from_image};
 use tigereye_io::{DataArray, ImageData, Wanted};
 
-/// Points of three different numbers along the world's axes, and unlike steps; exact in single precision, as NIfTI has them.
+/// Points of three different numbers along the world's axes, and unlike steps; exact in single precision, as NIfTI has
+/// them.
 const SIZE: [usize; 3] = [2, 3, 4];
 const SPACING: [f64; 3] = [0.5, 0.25, 2.0];
 const ORIGIN: [f64; 3] = [10.0, -20.0, 30.0];
 const UPRIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// A rotation by about 37 degrees about z and 16 about the new x: oblique, but every axis has one that it is nearest to.
+/// A rotation by about 37 degrees about z and 16 about the new x: oblique, but every axis has one that it is nearest
+/// to.
 const OBLIQUE: [[f64; 3]; 3] = [[0.8, 0.6, 0.0], [-0.576, 0.768, 0.28], [0.168, -0.224, 0.96]];
 /// Rounding of NIfTI's affine, which is in single precision, on numbers up to 100.
 const SINGLE: f64 = 1e-4;

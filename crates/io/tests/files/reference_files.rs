@@ -287,7 +287,8 @@ fn text_fields_have_their_published_counts() {
     }
 }
 
-/// Measured tensors on poly data: size, range, probes, and the crop that the thesis takes (its first row is the file's).
+/// Measured tensors on poly data: size, range, probes, and the crop that the thesis takes (its first row is the
+/// file's).
 #[test]
 fn measured_slices_have_their_published_values() {
     let Some(reference) = folder("TIGEREYE_REFERENCE", "reference") else { return };

@@ -127,7 +127,8 @@ pub(crate) fn bomb(root: &str, size: usize) -> Vec<u8> {
     encoder.finish().expect("a Vec takes everything")
 }
 
-/// A NIfTI-1 file: lengths of the axes, datatype and bits, intent and its first parameters, data in the byte order given.
+/// A NIfTI-1 file: lengths of the axes, datatype and bits, intent and its first parameters, data in the byte order
+/// given.
 pub(crate) fn nifti_file(
     big: bool,
     shape: &[i16],

@@ -483,7 +483,8 @@ fn masks_follow_their_axes() {
     assert_eq!(masked(own, ras()).0, [0.0, 0.5, 0.0, 3.0, 4.0, 5.0]);
 }
 
-/// An axis that runs against the world's is reversed, so that a position and positive distances tell where a plane lies.
+/// An axis that runs against the world's is reversed, so that a position and positive distances tell where a plane
+/// lies.
 #[test]
 fn positions_are_those_of_the_lower_left_cell_of_the_picture() {
     let cut = |axes: [[f64; 3]; 3], world: &str| {

@@ -53,8 +53,8 @@ fn turned_volume() -> TensorVolume {
     lattice.tensors(Reading::default()).unwrap()
 }
 
-/// Tensors along the world's axes, position and mask survive; NIfTI's world is right-anterior-superior, so two axes change
-/// sign there.
+/// Tensors along the world's axes, position and mask survive; NIfTI's world is right-anterior-superior, so two axes
+/// change sign there.
 #[test]
 fn turned_volumes_come_back_from_every_format() {
     let volume = turned_volume();

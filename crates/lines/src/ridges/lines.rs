@@ -33,7 +33,7 @@ const SAME: f64 = 1e-6;
 ///
 /// Cells that are not finite are missing: rows and columns at the border without any value are cut off, and where one
 /// of the six by six cells around a point is missing there are no ridges. Nor are there any in the margin
-/// ([`RidgeOptions::margin`]). Fields of constant values, of one row or column or of none have none. What is narrower
+/// ([`RidgeOptions::margin`]). Constant fields and fields thinner than two cells have no ridges. What is narrower
 /// than a cell makes the spline swing beside it, by a fifth or so: such crests have weak companions, which
 /// [`RidgeOptions::least_value`] and `least_strength` take away.
 ///
@@ -82,9 +82,9 @@ enum Mark {
     Point { position: [f64; 2], value: f64, strength: f64 },
 }
 
-/// Whether the square right of and below a node is cut from its upper left to its lower right corner, instead of from the upper right
-/// to the lower left one. Neighbours take turns: of an even number of squares the mesh is its own mirror image, so that no direction of
-/// ridges is favoured.
+/// Whether the square right of and below a node is cut from its upper left to its lower right corner, instead of from
+/// the upper right to the lower left one. Neighbours take turns: of an even number of squares the mesh is its own
+/// mirror image, so that no direction of ridges is favoured.
 const fn falls(i: usize, j: usize) -> bool {
     (i + j).is_multiple_of(2)
 }

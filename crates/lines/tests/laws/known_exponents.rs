@@ -34,8 +34,8 @@ fn parallel_lines_part_nowhere() {
     assert!(found.left > 0.1 && found.left < 0.4, "{}", found.left);
 }
 
-/// Rays part as the circles they cross grow: outwards by (r + L) / r. Circles do not part, but those inside go further round: a
-/// shear by L / r.
+/// Rays part as the circles they cross grow: outwards by (r + L) / r. Circles do not part, but those inside go further
+/// round: a shear by L / r.
 #[test]
 fn rays_and_circles_have_their_formulas() {
     let field = ellipse_tensors(&field("star:size=61"));
@@ -59,7 +59,8 @@ fn rays_and_circles_have_their_formulas() {
     }
 }
 
-/// The same formula wherever rays do not leave, the diagonals included, on which lines inwards meet the middle: none leads across.
+/// The same formula wherever rays do not leave, the diagonals included, on which lines inwards meet the middle: none
+/// leads across.
 #[test]
 fn rays_end_in_the_middle_of_a_star() {
     let length = 10.0;
@@ -85,8 +86,8 @@ fn rays_end_in_the_middle_of_a_star() {
     }
 }
 
-/// The axis along (x, -y): hyperbolas. A map along them by arc length has no formula; its gradient is taken of the formula of the
-/// axis, in steps and differences so small that they are exact.
+/// The axis along (x, -y): hyperbolas. A map along them by arc length has no formula; its gradient is taken of the
+/// formula of the axis, in steps and differences so small that they are exact.
 #[test]
 fn hyperbolas_part_as_their_formula_says() {
     let size = 61;
@@ -195,8 +196,8 @@ impl Gyre {
     }
 }
 
-/// At the published setting (A = 0.1, epsilon = 0.25, omega = 2 pi / 10, T = 15) the exponent of the flow map is that of the
-/// variational equation, and with a shear, which has no symmetry to hide behind.
+/// At the published setting (A = 0.1, epsilon = 0.25, omega = 2 pi / 10, T = 15) the exponent of the flow map is that
+/// of the variational equation, and with a shear, which has no symmetry to hide behind.
 #[test]
 fn double_gyre_has_the_exponents_of_its_variational_equation() {
     let duration = 15.0;
@@ -240,8 +241,8 @@ fn gyre_ridges(gyre: &Gyre, across: usize) -> Polylines {
     ridges
 }
 
-/// The curves at time 0 on which particles run into the saddles that wander along the walls: their stable manifolds, from a short way off
-/// each saddle at time `late` backwards, with points at most `spacing` apart.
+/// The curves at time 0 on which particles run into the saddles that wander along the walls: their stable manifolds,
+/// from a short way off each saddle at time `late` backwards, with points at most `spacing` apart.
 fn stable_manifolds(gyre: &Gyre, late: f64, spacing: f64) -> Polylines {
     let back = |p: [f64; 2], from: f64, to: f64| {
         advected(&|t, p| gyre.velocity(t, p), p, [from, to], (40.0 * (from - to)) as usize)
@@ -270,9 +271,9 @@ fn stable_manifolds(gyre: &Gyre, late: f64, spacing: f64) -> Polylines {
     all
 }
 
-/// The crest of the exponent is the stable manifold (Haller 2001; Shadden, Lekien and Marsden 2005), which is known without an
-/// exponent: nine tenths of it lie within half a cell of 121 samples. The rest are folds thinner than a cell. Twice the samples bring it no
-/// nearer, since the crest of a finite time lies beside the manifold.
+/// The crest of the exponent is the stable manifold (Haller 2001; Shadden, Lekien and Marsden 2005), which is known
+/// without an exponent: nine tenths of it lie within half a cell of 121 samples. The rest are folds thinner than a
+/// cell. Twice the samples bring it no nearer, since the crest of a finite time lies beside the manifold.
 #[test]
 fn double_gyre_has_its_ridge_on_the_stable_manifold() {
     for shear in [0.0, 0.03] {

@@ -30,8 +30,8 @@ fn spread(line: &TensorLine, quantity: impl Fn([f64; 2]) -> f64) -> f64 {
     high - low
 }
 
-/// Flamant's principal lines are circles about the load (tension, 0) and its rays (compression). The load lies half a row above
-/// the first one.
+/// Flamant's principal lines are circles about the load (tension, 0) and its rays (compression). The load lies half a
+/// row above the first one.
 #[test]
 fn flamant_has_rays_and_circles() {
     let size = 101;
@@ -99,8 +99,8 @@ fn rays_end_at_the_middle_of_a_star() {
     }
 }
 
-/// Cells of the rings take the angle of the curve point that is nearest, a whole degree of a whole radius: lines close within the
-/// width of a cell.
+/// Cells of the rings take the angle of the curve point that is nearest, a whole degree of a whole radius: lines close
+/// within the width of a cell.
 #[test]
 fn rings_are_circles_within_a_cell() {
     let field = ellipse_tensors(&field("rings:size=51"));

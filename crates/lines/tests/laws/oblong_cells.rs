@@ -72,8 +72,8 @@ fn lines_are_those_of_square_cells() {
     }
 }
 
-/// Where components bend, lines differ by what interpolation does to their direction: of components of size 2 that bend by b, h^2 b / 8 / 2
-/// rad in cells of h, over a length of 8.
+/// Where components bend, lines differ by what interpolation does to their direction: of components of size 2 that bend
+/// by b, h^2 b / 8 / 2 rad in cells of h, over a length of 8.
 #[test]
 fn lines_of_bent_components_differ_by_the_interpolation() {
     let bent = |x: f64, y: f64| Tensor2::from_eigen(0.08 * x - 0.05 * y, 3.0, 1.0);
@@ -165,7 +165,8 @@ fn exponents_are_those_of_square_cells() {
             for y in -6..=6 {
                 let p = [f64::from(x), f64::from(y)];
                 let (a, b) = (at(&square, p, [1.0; 2]), at(&oblong, p, sides));
-                // Near the point and its separatrices neighbours part without end, and differences depend on their distance.
+                // Near the point and its separatrices neighbours part without end, and differences depend on their
+                // distance.
                 if a.is_nan() || b.is_nan() || a > 0.15 || math::hypot(p[0] - 0.6, p[1] + 0.4) < 2.0 {
                     continue;
                 }

@@ -195,7 +195,8 @@ fn ridges_turn_with_the_field() {
     assert!(worst(&plain, away) < 0.01);
 }
 
-/// Four crests from the middle to the corners, weak beside the rest: those of one diagonal are found as those of the other.
+/// Four crests from the middle to the corners, weak beside the rest: those of one diagonal are found as those of the
+/// other.
 #[test]
 fn mirrored_fields_have_mirrored_ridges() {
     let star = |x: f64, y: f64| {

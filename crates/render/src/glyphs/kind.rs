@@ -6,8 +6,8 @@ use tigereye_core::{PrincipalAxes, Svd, Tensor2};
 /// kind; semi-axes are the singular values unless something else is said.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum GlyphKind {
-    /// The ellipse the tensor makes of the unit circle, with its major axis as a thin line. Totally anisotropic tensors are
-    /// segments.
+    /// The ellipse the tensor makes of the unit circle, with its major axis as a thin line. Totally anisotropic tensors
+    /// are segments.
     #[default]
     Ellipse,
     /// The rectangle with the semi-axes as half-sides; segments as for ellipses.
@@ -15,30 +15,30 @@ pub enum GlyphKind {
     /// The superellipse `|x / s1|^(2/e) + |y / s2|^(2/e) = 1` along the semi-axes with `e = (1 - c_l)^gamma` and
     /// `c_l = (s1 - s2) / (s1 + s2)`: a circle where isotropic, boxier the more anisotropic, a segment in the end.
     ///
-    /// Kindlmann ("Superquadric tensor glyphs", VisSym 2004) has two exponents, `(1 - c_p)^gamma` and `(1 - c_l)^gamma`. A
-    /// tensor of the plane has no planar part: with `c_p = 0` this is the section of his glyph through its longest axis, with
-    /// the `c_l` of two axes instead of three.
+    /// Kindlmann ("Superquadric tensor glyphs", VisSym 2004) has two exponents, `(1 - c_p)^gamma` and `(1 -
+    /// c_l)^gamma`. A tensor of the plane has no planar part: with `c_p = 0` this is the section of his glyph through
+    /// its longest axis, with the `c_l` of two axes instead of three.
     Superquadric {
-        /// Sharpness of edges, 0 (always an ellipse) to 100; [`GlyphKind::GAMMA`] is usual, and taken for a value that is
-        /// not a number.
+        /// Sharpness of edges, 0 (always an ellipse) to 100; [`GlyphKind::GAMMA`] is usual, and taken for a value that
+        /// is not a number.
         gamma: f64,
     },
     /// The normal component in every direction, `r(n) = |n . T n|`, the section of Reynolds's glyph (Hashash, Yao and
     /// Wotring 2003, "Glyph and hyperstreamline representation of stress and strain tensors and material constitutive
-    /// response"): filled lobes where it is positive (tension), hollow ones where it is negative (compression). It shows the
-    /// symmetric part alone; along its axes the lobes reach its eigenvalues.
+    /// response"): filled lobes where it is positive (tension), hollow ones where it is negative (compression). It
+    /// shows the symmetric part alone; along its axes the lobes reach its eigenvalues.
     Signed,
-    /// The axes of the symmetric part as a cross of arrows, as long as its eigenvalues: heads outwards for tension, inwards
-    /// for compression.
+    /// The axes of the symmetric part as a cross of arrows, as long as its eigenvalues: heads outwards for tension,
+    /// inwards for compression.
     Arrows,
     /// The ellipse `U S` of `A = U S V^T`, and what the tensor does apart from stretching, `Q = U V^T`.
     ///
-    /// For `det A >= 0` that is a rotation ([`tigereye_core::OrthogonalFactor`]): two opposite sectors open from the line
-    /// `v1`, which becomes the major axis, to the major axis `u1`; their angle is that of the rotation, true whatever the
-    /// ellipse, their radius 0.6 of the larger semi-axis. They are filled where it is counter-clockwise, hollow where it
-    /// is clockwise; half a turn counts as counter-clockwise. Where both semi-axes are equal, +x takes the place of `u1`.
-    /// Symmetric tensors that are nowhere negative have no sectors. For `det A < 0`, a reflection, a dashed line shows the
-    /// direction that it keeps.
+    /// For `det A >= 0` that is a rotation ([`tigereye_core::OrthogonalFactor`]): two opposite sectors open from the
+    /// line `v1`, which becomes the major axis, to the major axis `u1`; their angle is that of the rotation, true
+    /// whatever the ellipse, their radius 0.6 of the larger semi-axis. They are filled where it is counter-clockwise,
+    /// hollow where it is clockwise; half a turn counts as counter-clockwise. Where both semi-axes are equal, +x takes
+    /// the place of `u1`. Symmetric tensors that are nowhere negative have no sectors. For `det A < 0`, a reflection, a
+    /// dashed line shows the direction that it keeps.
     Asymmetric,
 }
 

@@ -43,8 +43,8 @@ const CELL_PX: f64 = 64.0;
 /// Pieces of a cubic; those of an ellipse are a quarter of it.
 const PIECES: usize = 8;
 
-/// What [`super::glyphs`] draws, glyph by glyph, for every n-th cell (`every`, 1 by default) and the options `kind`, `scale` and `cell`; the
-/// others are those of pictures. Zero tensors and those that are not finite have none.
+/// What [`super::glyphs`] draws, glyph by glyph, for every n-th cell (`every`, 1 by default) and the options `kind`,
+/// `scale` and `cell`; the others are those of pictures. Zero tensors and those that are not finite have none.
 #[must_use]
 pub fn glyph_outlines(field: &Field<Tensor2>, options: &GlyphOptions) -> Vec<GlyphOutline> {
     let (kind, every) = (options.kind, options.every.unwrap_or(1).max(1));

@@ -47,7 +47,8 @@ impl Curve<'_> {
             .then(|| math::atan2(own.abs().sqrt(), other.abs().sqrt()))
     }
 
-    /// Outlines about the axis at `middle` (radians from the first one) and the opposite one, or one outline all around.
+    /// Outlines about the axis at `middle` (radians from the first one) and the opposite one, or one outline all
+    /// around.
     fn lobes(&self, middle: f64, half_angle: Option<f64>) -> Vec<Vec<[f64; 2]>> {
         let reach = self.scaling.length(self.size, self.size);
         // Straight pieces a quarter turn: their error is a few hundredths of a pixel.

@@ -8,8 +8,8 @@ use tigereye_core::{Field, Grid, OrthogonalFactor, PrincipalAxes, Svd, Tensor2, 
 
 /// Semi-axis of every glyph here, pixels.
 const REACH: f64 = 100.0;
-/// Rounding of coordinates of some hundred pixels, made of a few dozen operations; square roots of rounded zeros are the
-/// worst. Pixels.
+/// Rounding of coordinates of some hundred pixels, made of a few dozen operations; square roots of rounded zeros are
+/// the worst. Pixels.
 const ROUNDING_PX: f64 = 1e-5;
 
 const SUPERQUADRIC: GlyphKind = GlyphKind::Superquadric { gamma: GlyphKind::GAMMA };

@@ -11,8 +11,8 @@ use tigereye_core::{OrthogonalFactor, Svd, Symmetry, Tensor2, math};
 
 /// Radius of sectors by the larger semi-axis.
 const SECTOR: f64 = 0.6;
-/// Smaller angles are rounding, radians: as much as [`Symmetry::ROUNDING`] makes of a tensor's own size. So is what is missing to half
-/// a turn.
+/// Smaller angles are rounding, radians: as much as [`Symmetry::ROUNDING`] makes of a tensor's own size. So is what is
+/// missing to half a turn.
 const NO_TURN_RAD: f64 = Symmetry::ROUNDING;
 
 pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &Scaling) {

@@ -1,7 +1,7 @@
 //! A few small pictures, compared pixel by pixel with those recorded beside this file.
 //!
-//! Texts are left out, so that the pictures stay small and a change of the font does not touch them. After a change that
-//! is meant to be seen, run the test with `TIGEREYE_UPDATE_PICTURES=1`, look at the pictures, and commit them.
+//! Texts are left out, so that the pictures stay small and a change of the font does not touch them. After a change
+//! that is meant to be seen, run the test with `TIGEREYE_UPDATE_PICTURES=1`, look at the pictures, and commit them.
 
 use std::path::PathBuf;
 use tigereye_core::{

@@ -251,8 +251,8 @@ fn reviewed(kind: Kind, [base, head]: [&[(String, Entry)]; 2], tolerance: f64) -
         .collect()
 }
 
-/// Entries of one name beside each other: those of `head` in their order, then those that are gone. Of several entries of
-/// one name the first belong together, then the second ones, which get a number.
+/// Entries of one name beside each other: those of `head` in their order, then those that are gone. Of several entries
+/// of one name the first belong together, then the second ones, which get a number.
 pub(super) fn paired<'a, T>(
     base: &'a [T],
     head: &'a [T],

@@ -1,7 +1,7 @@
 //! What a change moved: two results, or snapshots and their pending successors, beside each other.
 //!
-//! Data in, text out. [`read()`] takes a `summary.json`, [`results`] compares two of them, [`snapshots`] compares files of
-//! insta; of a [`Review`] are made one page, one JSON object and a screenful of text. Files are untrusted: sizes are
+//! Data in, text out. [`read()`] takes a `summary.json`, [`results`] compares two of them, [`snapshots`] compares files
+//! of insta; of a [`Review`] are made one page, one JSON object and a screenful of text. Files are untrusted: sizes are
 //! bounded, and a fault names the file and the key.
 
 mod compare;
@@ -105,7 +105,7 @@ impl Subject {
     }
 }
 
-/// How something fared.
+/// Outcome of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
     Unchanged,
@@ -146,8 +146,8 @@ struct ExperimentReview {
     /// How many did not.
     still: usize,
     figures: Vec<FigureReview>,
-    /// Largest relative change of a check or figure, or, where none of them moved, of a counter. Infinite where no number
-    /// can say it: added, gone, other words, not a number, another size.
+    /// Largest relative change of a check or figure, or, where none of them moved, of a counter. Infinite where no
+    /// number can say it: added, gone, other words, not a number, another size.
     change: f64,
     /// What changed so much.
     concern: String,
@@ -252,7 +252,8 @@ enum Value {
 }
 
 impl Value {
-    /// Difference over the larger magnitude, or over [`NOISE`] where both are smaller; infinite where no number can say it.
+    /// Difference over the larger magnitude, or over [`NOISE`] where both are smaller; infinite where no number can say
+    /// it.
     fn change(&self, other: &Self) -> f64 {
         match (self, other) {
             (Self::Words(a), Self::Words(b)) if a == b => 0.0,
@@ -306,7 +307,7 @@ impl NumberReview {
         Self { name, kind, base, head, change, state }
     }
 
-    /// Why no number says how much it moved.
+    /// Why the change cannot be quantified.
     fn reason(&self) -> &'static str {
         let numbers = [&self.base, &self.head].into_iter().flatten();
         match self.state {
@@ -340,7 +341,7 @@ struct FigureReview {
 }
 
 impl FigureReview {
-    /// Why no number says how much it moved.
+    /// Why the change cannot be quantified.
     const fn reason(&self) -> &'static str {
         match self.state {
             State::Added => ", added",

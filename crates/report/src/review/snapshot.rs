@@ -47,8 +47,8 @@ struct Open {
 
 /// Every value of a snapshot with its path, in the order of the file.
 ///
-/// What is read is RON and YAML as insta writes them, a value a line; a line of no known form is words. An entry of a list
-/// is called by its `name` where that comes first, so that an entry more does not move those below.
+/// What is read is RON and YAML as insta writes them, a value a line; a line of no known form is words. An entry of a
+/// list is called by its `name` where that comes first, so that an entry more does not move those below.
 fn lines(text: &str) -> Vec<(String, Entry)> {
     let mut found = Vec::new();
     let mut open: Vec<Open> = Vec::new();

@@ -32,8 +32,8 @@ fn png(size: [u32; 2], grey: u8) -> Vec<u8> {
     png
 }
 
-/// Reviews two lists of experiments. Figures are of 4 x 4 pixels; those called `moving` differ in one of them, those called
-/// `growing` in size.
+/// Reviews two lists of experiments. Figures are of 4 x 4 pixels; those called `moving` differ in one of them, those
+/// called `growing` in size.
 fn reviewed(base: &[Json], head: &[Json]) -> Review {
     let parse = |name, list| read(name, &summary(list)).expect("a summary");
     let mut figure = |side, path: &str| {

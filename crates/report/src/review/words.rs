@@ -92,9 +92,9 @@ fn clipped(name: &str) -> String {
 
 /// A review as JSON, indented, keys in a fixed order.
 ///
-/// `numbers` holds the checks (of snapshots the lines) that moved and `work` the counters that did; all figures are there.
-/// A side that is not there is `null`, as are numbers that JSON does not have and changes that no number says: added, gone,
-/// other words, not a number, another size.
+/// `numbers` holds the checks (of snapshots the lines) that moved and `work` the counters that did; all figures are
+/// there. A side that is not there is `null`, as are numbers that JSON does not have and changes that no number says:
+/// added, gone, other words, not a number, another size.
 #[must_use]
 pub fn json(review: &Review) -> String {
     let experiments = review.experiments.iter().map(Experiment::of).collect();

@@ -1,11 +1,10 @@
 //! L1 differences of distributions over all cells and angular samples.
 //!
-//! In the sector from direction k to k + 1 the eight lobes add up to a function of the form `P cos u + Q sin u`, so it is
-//! known from its values `p_k` and `p_{k+1}` at both ends:
-//! `v(u) = (p_k sin(45 deg - u) + p_{k+1} sin u) / sin 45 deg`.
-//! Two samples i and n - i that lie symmetrically in the sector (n = S/8 samples a sector) need not be visited one by
-//! one: `|v_i| + |v_{n-i}| = max(|v_i + v_{n-i}|, |v_i - v_{n-i}|)`, where the sum is a multiple of `p_k + p_{k+1}` and the
-//! difference one of `p_k - p_{k+1}`.
+//! In the sector from direction k to k + 1 the eight lobes add up to a function of the form `P cos u + Q sin u`, so it
+//! is known from its values `p_k` and `p_{k+1}` at both ends: `v(u) = (p_k sin(45 deg - u) + p_{k+1} sin u) / sin 45
+//! deg`. Two samples i and n - i that lie symmetrically in the sector (n = S/8 samples a sector) need not be visited
+//! one by one: `|v_i| + |v_{n-i}| = max(|v_i + v_{n-i}|, |v_i - v_{n-i}|)`, where the sum is a multiple of `p_k +
+//! p_{k+1}` and the difference one of `p_k - p_{k+1}`.
 
 use crate::number::Number;
 use crate::real::Real;
@@ -18,13 +17,13 @@ use tigereye_core::Cell;
 use super::PulseDistribution;
 use super::sector_sums::SectorSums;
 
-/// How many cells ahead numbers are announced: they come from far away, and the processor's own foresight ends at the end of
-/// a page.
+/// How many cells ahead numbers are announced: they come from far away, and the processor's own foresight ends at the
+/// end of a page.
 const AHEAD: usize = 32;
 
 impl<T: Number> SectorSums<T> {
-    /// `sum_cells sum_t |sum_j (a_j - b_j) c_j(t)|`, W/rad, over the cells of a window in a grid of `width` columns: each row
-    /// alone, then rows in order. Dark cells add exactly 0, so windows that hold all light give the same bits.
+    /// `sum_cells sum_t |sum_j (a_j - b_j) c_j(t)|`, W/rad, over the cells of a window in a grid of `width` columns:
+    /// each row alone, then rows in order. Dark cells add exactly 0, so windows that hold all light give the same bits.
     #[inline(always)]
     fn l1<O: Octet<Number = T>>(
         &self,

@@ -117,8 +117,8 @@ impl<T: Number, const N: usize> Memory<T, N> {
     }
 }
 
-/// Solves the normal equations of the first `n` unknowns, of which the upper triangle and the right-hand side are given.
-/// Unknowns that depend on those before them are 0, and all are where they are not finite.
+/// Solves the normal equations of the first `n` unknowns, of which the upper triangle and the right-hand side are
+/// given. Unknowns that depend on those before them are 0, and all are where they are not finite.
 fn least_squares(mut m: [[f64; DEPTH + 1]; DEPTH], n: usize) -> [f64; DEPTH] {
     let norms: [f64; DEPTH] = std::array::from_fn(|c| m[c][c]);
     for r in 0..DEPTH {

@@ -1,8 +1,8 @@
 //! Delta pulses of one cell in many directions at once: what the light transport gradient is made of.
 //!
-//! The propagations share the field and the window, so a cell's numbers are loaded once for all, and they stop at nearly
-//! the same step. A lane that has stopped keeps computing unseen until the last one has; its light was taken when it
-//! stopped, so the numbers are those of separate propagations, bit for bit.
+//! The propagations share the field and the window, so a cell's numbers are loaded once for all, and they stop at
+//! nearly the same step. A lane that has stopped keeps computing unseen until the last one has; its light was taken
+//! when it stopped, so the numbers are those of separate propagations, bit for bit.
 
 mod difference;
 mod memory;
@@ -60,8 +60,8 @@ impl<T: Real> PulseDistribution<T> {
     /// Darkens what is lit outside `window`, in which all cells are about to be written.
     pub(crate) fn keep(&mut self, width: usize, window: Window) {
         let Some(old) = self.window.replace(window) else {
-            // Nothing is lit. Written all the same: memory that is read before it is written costs the system two visits, the
-            // second of which stops all threads.
+            // Nothing is lit. Written all the same: memory that is read before it is written costs the system two
+            // visits, the second of which stops all threads.
             self.lobes_mut().fill([T::default(); 8]);
             return;
         };

@@ -1,4 +1,4 @@
-//! From dark to the stop, lane by lane.
+//! Propagates several pulses, one a lane, from the dark field to their stops.
 
 use super::PulseDistribution;
 use super::difference::distance;
@@ -56,8 +56,8 @@ impl<'a, T: Real> PulseSolver<'a, T> {
     }
 
     /// Propagates pulses from `cell` in 1 to [`Real::LANES`] samples, each until `stopping` ends it; the light of
-    /// `samples[i]` goes to `results[i]`. Panics where there are more samples, a sample or the cell does not exist, or a
-    /// result has another size: the sweep chose them.
+    /// `samples[i]` goes to `results[i]`. Panics where there are more samples, a sample or the cell does not exist, or
+    /// a result has another size: the sweep chose them.
     pub fn solve(
         &mut self,
         cell: Cell,
@@ -188,7 +188,8 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
             Settled::Stationary(work) => Some(LaneOutcome { stop: StopReason::Converged, work }),
             Settled::Never => None,
         });
-        // Light that is caught away from the pulse grows for ever: it is what it is after so many plain steps. The search is not counted.
+        // Light that is caught away from the pulse grows for ever: it is what it is after so many plain steps. The
+        // search is not counted.
         self.stopping = Stopping::steps(limit.min(Stopping::REFERENCE.max_iterations + 1));
         if outcomes.contains(&None) { self.march::<V>(proof, outcomes) } else { self.finished(outcomes) }
     }

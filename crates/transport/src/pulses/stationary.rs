@@ -1,10 +1,10 @@
 //! The stationary state of pulses, by far fewer evaluations of the scheme than stepping there takes.
 //!
-//! A slot (cell, direction) is written by one cell only, so the scheme can be swept through one state in place: each cell
-//! passes on what has arrived so far, first in row-major order, then in exactly the reverse one (a nonlinear symmetric
-//! Gauss-Seidel iteration). Its fixed points are those of the plain step. After every few such pairs of sweeps the states
-//! are mixed so that the change, taken as linear in them, is least (Anderson acceleration of type II: Walker and Ni, SIAM J.
-//! Numer. Anal. 49, 2011).
+//! A slot (cell, direction) is written by one cell only, so the scheme can be swept through one state in place: each
+//! cell passes on what has arrived so far, first in row-major order, then in exactly the reverse one (a nonlinear
+//! symmetric Gauss-Seidel iteration). Its fixed points are those of the plain step. After every few such pairs of
+//! sweeps the states are mixed so that the change, taken as linear in them, is least (Anderson acceleration of type II:
+//! Walker and Ni, SIAM J. Numer. Anal. 49, 2011).
 //!
 //! A row-major sweep writes directions 0, 5, 6 and 7 of a cell before it reads them. So a pair of sweeps depends on the
 //! other four alone: half of the state is all that is mixed and remembered. To choose the few weights one of these four
@@ -27,19 +27,21 @@ const PAIRS: usize = 3;
 const ROWS: usize = 4;
 /// Directions that a row-major sweep reads before it writes them.
 const READ: [usize; 4] = [1, 2, 3, 4];
-/// A mixed number below this part of the unmixed one rejects the mixing: light stays positive, and what is lit stays lit.
+/// A mixed number below this part of the unmixed one rejects the mixing: light stays positive, and what is lit stays
+/// lit.
 const FLOOR: f64 = 1.0 / 16.0;
-/// By what part of it the light that leaves the grid or is absorbed in a step may differ from what the pulse injects. Light
-/// that is caught in a loop away from the pulse grows for ever, while its relative change falls below any tolerance, and below
-/// rounding. In a closed room nothing leaves, and the pulse injects less and less: there the difference itself must be below
-/// the tolerance, as a part of [`INJECTED`], or below rounding.
+/// By what part of it the light that leaves the grid or is absorbed in a step may differ from what the pulse injects.
+/// Light that is caught in a loop away from the pulse grows for ever, while its relative change falls below any
+/// tolerance, and below rounding. In a closed room nothing leaves, and the pulse injects less and less: there the
+/// difference itself must be below the tolerance, as a part of [`INJECTED`], or below rounding.
 const BALANCE: f64 = 1e-3;
-/// What rounding of all light leaves of the balance, as a part of what it leaves of a change: errors of single cells cancel.
+/// What rounding of all light leaves of the balance, as a part of what it leaves of a change: errors of single cells
+/// cancel.
 const ROUNDED: f64 = 0.1;
 /// What a pulse injects in one step at most, W.
 const INJECTED: f64 = core::f64::consts::TAU;
-/// Evaluations after which the search is given up: some ten times what rings of light, the slowest of the published fields,
-/// need on a grid of that size.
+/// Evaluations after which the search is given up: some ten times what rings of light, the slowest of the published
+/// fields, need on a grid of that size.
 const fn patience(grid: Grid) -> usize {
     1000 + 20 * (grid.width() + grid.height())
 }
@@ -54,8 +56,8 @@ pub(crate) enum Settled {
 }
 
 impl<T: Real, const N: usize> Run<'_, '_, T, N> {
-    /// Brings every lane to its stationary state and writes its light. The stream is dark before, and in need of clearing
-    /// afterwards.
+    /// Brings every lane to its stationary state and writes its light. The stream is dark before, and in need of
+    /// clearing afterwards.
     #[inline(always)]
     pub(crate) fn settle<V: Vector<Number = T>>(
         &mut self,
@@ -189,8 +191,8 @@ struct Balance<const N: usize> {
 impl<T: Number, const N: usize> Stream<T, N> {
     /// One sweep in place, in row-major order or `BACK`.
     ///
-    /// Every cell waits for the one before it. So a few rows run at once, each two cells behind the one before: far enough
-    /// for all that it depends on, and the result is that of one row after the other, to the last bit.
+    /// Every cell waits for the one before it. So a few rows run at once, each two cells behind the one before: far
+    /// enough for all that it depends on, and the result is that of one row after the other, to the last bit.
     #[inline(always)]
     fn relax<const BACK: bool, V: Vector<Number = T>>(&mut self, proof: V::Proof, medium: &Medium<'_, T, N>) {
         debug_assert_eq!(self.parity(), Parity::Even);

@@ -1,8 +1,8 @@
 //! N lanes of light that share one field, stepping in place.
 //!
 //! The state is `[cell][slot][lane]`, eight slots a cell, on a grid with a ring of ghost cells. Steps alternate (the AA
-//! pattern of lattice Boltzmann methods: Bailey et al., ICPP 2009), so that each step reads and writes the same slots and
-//! no second state is needed:
+//! pattern of lattice Boltzmann methods: Bailey et al., ICPP 2009), so that each step reads and writes the same slots
+//! and no second state is needed:
 //!
 //! - an **even** step finds the flux that arrives in direction k in slot k of the cell itself and leaves what it passes
 //!   on in direction k in its own slot k + 4, opposite;
@@ -11,9 +11,10 @@
 //!
 //! Nothing ever enters from outside (the absorbing rim): slots that a cell outside would have filled are kept at 0.
 //!
-//! Several steps may be **fused**: step s of a fused run handles row `r - s` and columns one to the left of those of the
-//! step before, strip after strip, so that a cell's slots stay in the cache from one step to the next. The numbers do not
-//! depend on it: every cell's step is the same, and flux is summed along each row from left to right, then over the rows.
+//! Several steps may be **fused**: step s of a fused run handles row `r - s` and columns one to the left of those of
+//! the step before, strip after strip, so that a cell's slots stay in the cache from one step to the next. The numbers
+//! do not depend on it: every cell's step is the same, and flux is summed along each row from left to right, then over
+//! the rows.
 
 use crate::aligned::Aligned;
 use crate::number::Number;
@@ -177,7 +178,8 @@ impl<T: Number, const N: usize> Stream<T, N> {
         self.parity = Parity::Even;
     }
 
-    /// Copies the lanes `lanes` of the cells of `window` to distributions, `to[i][cell][direction]` for lane `lanes[i]`.
+    /// Copies the lanes `lanes` of the cells of `window` to distributions, `to[i][cell][direction]` for lane
+    /// `lanes[i]`.
     pub(crate) fn copy_lanes(&self, window: Window, lanes: &[usize], to: &mut [&mut [[T; 8]]]) {
         let width = window.x1 - window.x0 + 1;
         for y in window.y0..=window.y1 {
@@ -233,7 +235,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         let strip = STRIP_BYTES / size_of::<Lobes<T, N>>();
         let mut start = window.x0;
         while start <= columns {
-            // The last strip takes a thin rest along.
+            // The last strip absorbs a thin remainder.
             let end = if start + strip + strip / 2 > columns { columns + 1 } else { start + strip };
             for row in window.y0..=rows {
                 let mut parity = self.parity;

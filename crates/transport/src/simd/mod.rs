@@ -1,8 +1,8 @@
 //! Vectors of several instruction sets behind two traits, and the hot loops compiled for each, chosen once at run time.
 //!
 //! The loops are written once. Products and sums are fused (`fma`) at every level, in the same places, and lanes never
-//! mix: every level and every number of lanes gives the same bits. A processor without the instruction pays for it with a
-//! function call; all that have AVX2 in fact have it too.
+//! mix: every level and every number of lanes gives the same bits. A processor without the instruction pays for it with
+//! a function call; all that have AVX2 in fact have it too.
 //!
 //! The crate's only `unsafe` is here and in `x86`. Its invariants:
 //! - [`Level`]'s field cannot be set from outside, and [`Level::available`] lists a level only where the processor has

@@ -64,8 +64,8 @@ operators_of_pairs!(Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256
 macro_rules! vector {
     ($vector:ty, $proof:ty, $number:ty, $width:literal, $splat:ident, $load:ident, $store:ident, $fma:ident,
      |$it:ident, $sums:ident, $c:ident| $add:expr) => {
-        // SAFETY of every block in this implementation: the vectors prove the instructions, and the parts of arrays have
-        // the vector's size.
+        // SAFETY of every block in this implementation: the vectors prove the instructions, and the parts of arrays
+        // have the vector's size.
         impl Vector for $vector {
             type Number = $number;
             type Proof = $proof;

@@ -51,7 +51,8 @@ fn folder_made() -> MutexGuard<'static, Option<PathBuf>> {
     FOLDER.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A temporary folder for everything that revisions need, made for the first of them. Their common parts are built once.
+/// A temporary folder for everything that revisions need, made for the first of them. Their common parts are built
+/// once.
 #[derive(Default)]
 pub(super) struct Workshop {
     folder: Option<TempDir>,

@@ -101,11 +101,6 @@ class Written:
         kept = None if self.kept is None else self.kept[tuple(index)]
         return dataclasses.replace(self, lattice=place, world=world, kept=kept)
 
-    def along_the_voxel_axes(self):
-        """Lattice and tensors of a file that is asked to be along its voxel axes: they are its world."""
-        directions, spacing = self.lattice.directions(), self.lattice.spacing()
-        return Lattice(self.lattice.size, np.zeros(3), np.diag(spacing)), turned(self.tensors(), directions.T)
-
     def in_patient(self):
         """Lattice and tensors in the world to the right, anterior and superior."""
         return self.lattice.mirrored(self.signs), turned(self.tensors(), np.diag(self.signs))
@@ -280,8 +275,6 @@ def whole_volume(generator, folder, written):
     positions, found, in_patient = read(folder / out)
     if in_patient:
         lattice_, expected = written.in_patient()
-    elif "voxel" in written.options:
-        lattice_, expected = written.along_the_voxel_axes()
     else:
         lattice_, expected = written.lattice, written.tensors()
     what = f"whole as {out} by {read.__name__}"

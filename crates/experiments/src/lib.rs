@@ -9,7 +9,7 @@
 //!                in the file)         expressions)
 //! ```
 //!
-//! [`runs`](crate::runs), [`panels`](crate::panels), [`quantities`](crate::quantities) and [`tables`](crate::tables)
+//! [`runs`], [`panels`], [`quantities`] and [`tables`]
 //! have a file for each kind. This crate opens no files and reads no clocks: the program hands it both through
 //! [`Host`].
 

@@ -33,7 +33,7 @@ pub enum InputError {
         /// The reader's words.
         source: IoError,
         /// The data file of a header.
-        detached: Option<String>,
+        detached: Option<Box<str>>,
     },
     /// Numbers or vectors where tensors are needed.
     #[error(

@@ -5,6 +5,7 @@ use crate::foreign::unreadable;
 use crate::formats::{Format, Request, format_of, is_readable};
 use crate::provenance::hash_of_bytes;
 use crate::reading::{Derivation, Reading};
+use tigereye_core::math;
 use tigereye_io::volume::{Frame, Known, Lattice, PlaneChoice, TensorVolume};
 use tigereye_io::{ArrayChoice, Limits, ScalarType, Wanted};
 
@@ -141,7 +142,9 @@ fn lattice_of(
     let data = detached.as_ref().map(|data| read(&beside(name, data))).transpose()?;
     let request = Request { bytes: &bytes, detached: data.as_deref(), array, wanted, limits };
     let (kind, lattice) = format.read(&request).map_err(|error| match error {
-        InputError::File { source, .. } => InputError::File { source, detached },
+        InputError::File { source, .. } => {
+            InputError::File { source, detached: detached.map(String::into_boxed_str) }
+        }
         other => other,
     })?;
     bytes.extend(data.unwrap_or_default());
@@ -338,7 +341,7 @@ fn assumptions_of_tensors(volume: &TensorVolume) -> Vec<String> {
         );
     }
     if let Some(cosine) = volume.lattice().skew().filter(|_| matches!(frame, Frame::Voxel | Frame::Fsl)) {
-        let degrees = 90.0 - cosine.abs().min(1.0).acos().to_degrees();
+        let degrees = 90.0 - math::acos(cosine.abs().min(1.0)).to_degrees();
         all.push(format!(
             "WARNING: the voxel axes are {degrees:.1} degrees off right angles: tensors along them are drawn as if they were square"
         ));

@@ -23,13 +23,16 @@ pub struct Format {
     pub written_for: &'static str,
     read: Option<Reader>,
     /// The name of the file that holds the numbers, where bytes are a header.
-    detached: Option<fn(&[u8], Limits) -> Result<Option<String>, IoError>>,
+    detached: Option<Names>,
     /// How tensors are written.
     pub tensors: Option<TensorWriter>,
 }
 
 /// From bytes to numbers on a lattice.
 type Reader = fn(&Request<'_>) -> Result<Found, InputError>;
+
+/// From the bytes of a header to the name of the file that holds the numbers, if there is one.
+type Names = fn(&[u8], Limits) -> Result<Option<String>, IoError>;
 
 /// How tensors are written: what the format has room for.
 #[derive(Clone, Copy, Debug)]

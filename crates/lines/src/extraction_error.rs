@@ -8,7 +8,7 @@ pub(crate) const MAX_SAMPLES: usize = 1 << 28;
 /// A volume or an option outside its range.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ExtractionError {
-    /// A volume needs at least one sample and at most [`MAX_SAMPLES`].
+    /// A volume needs at least one sample and at most `MAX_SAMPLES`.
     #[error("a volume of {} x {} x {} samples is not possible: expected 1 to {max}", size[0], size[1], size[2], max = MAX_SAMPLES)]
     VolumeSize {
         /// Samples along each axis.

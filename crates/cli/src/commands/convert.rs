@@ -58,9 +58,11 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 eprintln!("{name}: {}", not_finite_words(count));
             }
             let volume = finite_volume(volume, &reading).map_err(|e| CliError::input(&name, e))?;
-            // Where the file states the frame, the option says how to write; where it does not, how to read.
+            // Where the file states the frame, the option says how to write; where it does not, how to read. Formats
+            // that state a frame keep the one of the input then, the others have no place for it.
             let is_stated = volume.lattice().frame.1 == Known::Stated;
-            let by_voxels = is_stated && reading.frame == Some(Frame::Voxel);
+            let has_frames = matches!(writer, TensorWriter::Volume(_) | TensorWriter::Layouts(_));
+            let by_voxels = (is_stated || has_frames) && reading.frame == Some(Frame::Voxel);
             let frame = if by_voxels { Frame::Voxel } else { Frame::World };
             if let Some(words) = unplaced(writer, &volume, frame) {
                 eprintln!("{name}: {words}");

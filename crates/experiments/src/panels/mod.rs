@@ -1,7 +1,7 @@
 //! Pictures of figures, a kind a file: what stands in the experiment file, what its names stand for, and how it is
 //! drawn.
 //!
-//! A panel is added by its file, which implements [`PanelKind`](kind::PanelKind), and its line in [`panels!`].
+//! A panel is added by its file, which implements `PanelKind`, and its line in `panels!`.
 
 mod kind;
 pub mod series;

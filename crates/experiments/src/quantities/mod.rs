@@ -1,8 +1,8 @@
 //! Numbers that checks are about, a kind a file: what stands in the experiment file, what its names stand for, and its
 //! value.
 //!
-//! A quantity is added by its file, which implements [`QuantityKind`](kind::QuantityKind), and its line in
-//! [`quantities!`].
+//! A quantity is added by its file, which implements `QuantityKind`, and its line in
+//! `quantities!`.
 
 mod kind;
 

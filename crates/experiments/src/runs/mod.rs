@@ -1,7 +1,7 @@
 //! Computations of an experiment, a kind a file: what may stand in the experiment file, its plan, its outcome with
 //! digest, counters and data.
 //!
-//! A kind is added by its file, its line in [`runs!`], an id in [`crate::ids`] and, where snapshots are to remember it,
+//! A kind is added by its file, its line in `runs!`, an id in `ids` and, where snapshots are to remember it,
 //! a field of the [`Digest`](crate::Digest).
 
 mod digest;
@@ -50,7 +50,6 @@ macro_rules! runs {
 
         /// A run, ready to start.
         #[derive(Clone, Debug)]
-        #[expect(clippy::large_enum_variant, reason = "an experiment has a handful")]
         pub(crate) enum RunPlan {
             $($kind($module::Plan),)*
         }

@@ -1,6 +1,6 @@
 //! Tables of results, a kind a file: what stands in the experiment file, what its names stand for, and its rows.
 //!
-//! A table is added by its file, which implements [`TableKind`](kind::TableKind), and its line in [`tables!`].
+//! A table is added by its file, which implements `TableKind`, and its line in `tables!`.
 
 mod entries;
 mod kind;

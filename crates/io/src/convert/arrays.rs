@@ -8,7 +8,7 @@ pub const TENSOR_ARRAY: &str = "Tensors";
 /// Arrays by which VTK says what points and cells are: no data.
 pub(crate) const VALID_POINTS: &str = "vtkValidPointMask";
 pub(crate) const GHOSTS: &str = "vtkGhostType";
-/// Name of the array that [`image_from_ltg`] writes.
+/// Name of the array that [`crate::image_from_ltg`] writes.
 pub const LTG_ARRAY: &str = "LTG";
 /// Name of the array in the published volumes.
 pub(super) const PUBLISHED_ARRAY: &str = "Energy";

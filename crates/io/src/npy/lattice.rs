@@ -140,7 +140,7 @@ fn laid_out(array: NpyArray, layout: Layout, warnings: Vec<String>) -> Lattice {
 }
 
 /// Takes an array out of the arrays of an archive, by name and bytes: the named one, the only one that fits, or the one
-/// whose components are arrays of their own. Arrays of positions ([`Positions`]) place it; the others are said to be
+/// whose components are arrays of their own. Arrays of positions (`positions.rs`) place it; the others are said to be
 /// left aside.
 ///
 /// # Errors

@@ -119,7 +119,7 @@ impl<'a> Fields<'a> {
                 let begins = |key: &&str| {
                     text.get(..key.len()).is_some_and(|t| t.eq_ignore_ascii_case(key.as_bytes()))
                 };
-                weighted = weighted.or_else(|| WEIGHTED.iter().any(|key| begins(&key)).then_some(line));
+                weighted = weighted.or_else(|| WEIGHTED.iter().any(begins).then_some(line));
             }
         }
     }

@@ -34,7 +34,7 @@ impl Axis {
     }
 }
 
-/// A plane of two voxel axes. Which of them runs to the right is for the world to say, see [`Cut`].
+/// A plane of two voxel axes. Which of them runs to the right is for the world to say, see [`crate::volume::Cut`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plane {
     /// The first and the second axis.

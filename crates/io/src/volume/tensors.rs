@@ -30,7 +30,8 @@ pub struct TensorVolume {
 
 impl Lattice {
     /// The tensors, with the user's words before the file's, and the file's before what is usual for the format
-    /// ([`CONVENTIONS`]). An alias of the order may bring the frame of its program, where the file does not state one.
+    /// ([`crate::volume::CONVENTIONS`]). An alias of the order may bring the frame of its program, where the file does
+    /// not state one.
     ///
     /// # Errors
     /// [`IoError::NoTensor`], [`IoError::Principal`], [`IoError::Order`], [`IoError::NoMeasurementFrame`], and

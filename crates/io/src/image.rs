@@ -36,6 +36,8 @@ pub struct ActiveArrays {
     pub vectors: Option<String>,
     /// Attribute `Tensors`.
     pub tensors: Option<String>,
+    /// Attributes `Normals`, `TCoords`, `GlobalIds` and `PedigreeIds`: neither tensors nor vectors of a field.
+    pub marks: Vec<String>,
 }
 
 /// One array: tuples of `components` numbers.

@@ -157,6 +157,14 @@ fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
     }
 }
 
+/// Names of the arrays that hold tensors, too, where the usual one of `image` is called `chosen`.
+pub(crate) fn left_aside<'a>(image: &'a ImageData, wanted: Wanted, chosen: &str) -> Vec<&'a str> {
+    let is_another = |on: Association, array: &DataArray| {
+        wanted == Wanted::Tensors && array.name != chosen && wanted.suits(array, of(image, on).1) > 1
+    };
+    all(image).filter(|(on, array)| is_another(*on, array)).map(|(_, array)| array.name.as_str()).collect()
+}
+
 /// The only one of those that fit, where there is any.
 fn only(mut found: Vec<Found>) -> Result<Option<Found>, IoError> {
     match found.len() {

@@ -10,7 +10,7 @@ mod wanted;
 pub(crate) use arrays::{GHOSTS, VALID_POINTS};
 pub use arrays::{LTG_ARRAY, PROVENANCE, TENSOR_ARRAY};
 pub use choice::ArrayChoice;
-pub(crate) use choice::choose_array;
+pub(crate) use choice::{choose_array, left_aside};
 pub use light::{image_from_light, image_of_energy};
 pub use ltg::{LtgImage, SLICES, image_from_ltg, ltg_from_image};
 pub use rows::Rows;

@@ -1,9 +1,9 @@
 //! What the tuples of an array are to be, and how well arrays suit.
 
 use super::arrays::{GHOSTS, VALID_POINTS};
-use crate::DataArray;
 use crate::image::ActiveArrays;
 use crate::volume::{Naming, names_eigenvectors, names_principal_values, naming};
+use crate::{DataArray, ScalarType};
 
 /// Where the tuples of an array sit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,6 +67,11 @@ impl Wanted {
     pub(super) fn suits(self, array: &DataArray, active: &ActiveArrays) -> u8 {
         let data = ![VALID_POINTS, GHOSTS].contains(&array.name.as_str());
         if !data || !self.fits(array.components) {
+            return 0;
+        }
+        // Three or four bytes are a colour.
+        let is_colour = array.scalar == ScalarType::UInt8 && matches!(array.components, 3 | 4);
+        if active.marks.contains(&array.name) || self == Self::Tensors && is_colour {
             return 0;
         }
         let is_vector = active.vectors.as_ref() == Some(&array.name);

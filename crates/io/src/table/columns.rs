@@ -189,6 +189,16 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
         let (taken, aside) = (taken.join(", "), aside.join(", "));
         lattice.warnings.push(format!("positions of the columns {taken} taken; {aside} left aside"));
     }
+    let is_pixel = |c: &usize| {
+        header.columns[*c].unit.as_ref().is_some_and(|u| u.starts_with("px") || u.starts_with("pix"))
+    };
+    if places[1].as_ref().is_some_and(is_pixel) {
+        lattice.warnings.push(
+            "positions are in pixels: y taken to run upwards; where it runs downwards, as rows of an image do, the picture is \
+             upside down and xy has the other sign"
+                .to_owned(),
+        );
+    }
     if let Some(name) =
         names.iter().find(|name| ["mask", "valid", "flag", "flags"].contains(&name.to_lowercase().as_str()))
     {
@@ -321,6 +331,8 @@ mod tests {
         assert!(two.contains("columns x, y taken; X, Y left aside"), "{two}");
         let units = one("x,y,S11 [Pa],S22 [Pa],S12 [kPa]\n", |x, y| format!("{x},{y},1,2,3"));
         assert!(units.contains("Pa, Pa, kPa"), "{units}");
+        let pixels = one("x [px],y [px],exx,eyy,exy\n", |x, y| format!("{x},{y},1,2,3"));
+        assert!(pixels.contains("xy has the other sign"), "{pixels}");
         let thousands = one("x\ty\tS11\tS22\tS12\n", |x, y| format!("{x}\t{y}\t1,200\t5,000\t3"));
         assert!(thousands.contains("separators of thousands"), "{thousands}");
     }

@@ -7,7 +7,7 @@ use super::meaning::{Frame, Known, World};
 use super::names::{Naming, naming};
 use super::tensors::TensorVolume;
 use crate::convert::{
-    ArrayChoice, Association, GHOSTS, Rows, TENSOR_ARRAY, VALID_POINTS, Wanted, choose_array,
+    ArrayChoice, Association, GHOSTS, Rows, TENSOR_ARRAY, VALID_POINTS, Wanted, choose_array, left_aside,
 };
 use crate::points::PointLattice;
 use crate::{DataArray, ImageData, IoError, PolyData};
@@ -67,7 +67,17 @@ pub fn lattice_from_image<'a>(
     array: impl Into<ArrayChoice<'a>>,
     wanted: Wanted,
 ) -> Result<Lattice, IoError> {
-    let (association, array) = choose_array(image, array.into(), wanted)?;
+    let choice = array.into();
+    let (association, array) = choose_array(image, choice, wanted)?;
+    let mut remarks = Vec::new();
+    if matches!(choice, ArrayChoice::Usual) {
+        let others = left_aside(image, wanted, &array.name);
+        if !others.is_empty() {
+            let others = others.join("`, `");
+            remarks
+                .push(format!("took the active tensors `{}`; left aside: `{others}` (--array)", array.name));
+        }
+    }
     let size = match association {
         Association::Points => image.dimensions,
         Association::Cells => image.cell_dimensions(),
@@ -94,6 +104,7 @@ pub fn lattice_from_image<'a>(
     let kind = if association == Association::Points { "point" } else { "cell" };
     let notes = vec![format!("an array of the {kind}s")];
     let (mask, said) = mask_of(image, association);
+    remarks.extend(said);
     let (content, order) = meaning(image, association, &array);
     let array = array.into_owned();
     Ok(Lattice {
@@ -111,7 +122,7 @@ pub fn lattice_from_image<'a>(
         array: array.name,
         component_names: array.component_names,
         notes,
-        remarks: said.into_iter().collect(),
+        remarks,
         warnings: Vec::new(),
     })
 }

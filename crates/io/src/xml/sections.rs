@@ -47,8 +47,9 @@ pub(crate) fn read_arrays(
     skipped: &mut Vec<String>,
 ) -> Result<(ActiveArrays, Vec<DataArray>), IoError> {
     let active = |kind: &str| element.attribute(kind).filter(|n| !n.is_empty()).map(str::to_owned);
-    let active =
-        ActiveArrays { scalars: active("Scalars"), vectors: active("Vectors"), tensors: active("Tensors") };
+    let marks = ["Normals", "TCoords", "GlobalIds", "PedigreeIds"].into_iter().filter_map(active).collect();
+    let (scalars, vectors, tensors) = (active("Scalars"), active("Vectors"), active("Tensors"));
+    let active = ActiveArrays { scalars, vectors, tensors, marks };
     let mut list = Vec::new();
     for child in &element.children {
         if child.name != "DataArray" && child.name != "Array" {

@@ -167,6 +167,28 @@ fn the_tensor_is_taken_before_vectors_and_ids() {
     assert!(matches!(&several, IoError::AmbiguousArray { candidates } if candidates.len() == 2), "{several}");
 }
 
+/// Colours and normals are no tensors, and a tensor beside the active one is said to be left aside.
+#[test]
+fn what_is_beside_the_tensor_is_known() {
+    let mut image = ImageData::empty([2, 1, 1]);
+    image
+        .point_arrays
+        .push(DataArray { scalar: ScalarType::UInt8, ..DataArray::new("rgb", 3, vec![9.0; 6]) });
+    image.point_arrays.push(DataArray::new("N", 3, vec![1.0; 6]));
+    image.point_active.marks.push("N".to_owned());
+    let refused = lattice_from_image(&image, None, Wanted::Tensors).unwrap_err();
+    assert!(matches!(refused, IoError::NoArray { .. }), "{refused}");
+    for name in ["a", "b"] {
+        image.point_arrays.push(DataArray::new(name, 9, vec![1.0; 18]));
+    }
+    image.point_active.tensors = Some("b".to_owned());
+    let found = lattice_from_image(&image, None, Wanted::Tensors).unwrap();
+    assert_eq!(found.array, "b");
+    assert!(found.remarks.iter().any(|r| r.contains("left aside: `a`")), "{:?}", found.remarks);
+    let named = lattice_from_image(&image, ArrayChoice::Named("a"), Wanted::Tensors).unwrap();
+    assert_eq!((named.array.as_str(), named.remarks.len()), ("a", 0));
+}
+
 #[test]
 fn separate_arrays_are_one_tensor() {
     let mut parts = ImageData::empty([3, 2, 1]);

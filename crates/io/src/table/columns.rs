@@ -198,19 +198,35 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
              upside down and xy has the other sign"
                 .to_owned(),
         );
-    }
-    if let Some(name) =
-        names.iter().find(|name| ["mask", "valid", "flag", "flags"].contains(&name.to_lowercase().as_str()))
-    {
-        let said = format!("the column {name} is not used: tensors to leave out are written as nan");
-        lattice.warnings.push(said);
+    } else if lattice.size[2] == 1 && wanted == Wanted::Tensors {
+        lattice.remarks.push(
+            "y taken to run upwards; where a file has y downwards the picture is upside down".to_owned(),
+        );
     }
     let read =
         |name: &str| arrays.iter().find(|(n, _)| n == name).map(|(_, c)| c.clone()).unwrap_or_default();
     let of_array: Vec<usize> = lattice.array.split(", ").flat_map(read).collect();
     let of_places: Vec<usize> = places.into_iter().flatten().collect();
+    let is_read = |c: &usize| of_array.contains(c) || of_places.contains(c) || header.doubled.contains(c);
+    let unread: Vec<&str> = (0..names.len()).filter(|c| !is_read(c)).map(|c| names[c]).collect();
+    if !unread.is_empty() {
+        lattice.remarks.push(unread_words(&unread));
+    }
     lattice.warnings.extend([of_places, of_array].iter().filter_map(|of| header.unequal_units(of)));
     Ok(lattice)
+}
+
+/// Most columns that a message names.
+const MOST_NAMED: usize = 12;
+
+/// What is said of columns that are not read. Some may tell of points that are invalid.
+fn unread_words(unread: &[&str]) -> String {
+    let named = unread[..unread.len().min(MOST_NAMED)].join(", ");
+    let more = unread.len().saturating_sub(MOST_NAMED);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!(
+        "columns not read, whatever they say of the points: {named}{more} (points to leave out are written as nan)"
+    )
 }
 
 /// The numbers of a line. Words are no number but at the needed columns.
@@ -335,6 +351,18 @@ mod tests {
         assert!(pixels.contains("xy has the other sign"), "{pixels}");
         let thousands = one("x\ty\tS11\tS22\tS12\n", |x, y| format!("{x}\t{y}\t1,200\t5,000\t3"));
         assert!(thousands.contains("separators of thousands"), "{thousands}");
+    }
+
+    #[test]
+    fn columns_that_are_not_read_are_named() {
+        let line = |x: f64, y: f64| format!("{x},{y},1,2,3,1,7");
+        let bytes = table("x,y,S11,S22,S12,isValid,Mises\n", line);
+        let remarks = read(&bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap().remarks;
+        assert!(
+            remarks.iter().any(|r| r.contains("not read") && r.contains("isValid, Mises")),
+            "{remarks:?}"
+        );
+        assert!(remarks.iter().any(|r| r.contains("y taken to run upwards")), "{remarks:?}");
     }
 
     #[test]

@@ -17,11 +17,11 @@ pub struct Format {
     pub extensions: &'static [&'static str],
     /// Whether a file may hold several arrays with names, so that one can be chosen.
     pub has_names: bool,
-    /// What files are read as, in Markdown; empty for formats that are not read.
+    /// What files are read as, in Markdown.
     pub read_as: &'static str,
     /// What is written, in Markdown; empty for formats that are not written.
     pub written_for: &'static str,
-    read: Option<Reader>,
+    read: Reader,
     /// The name of the file that holds the numbers, where bytes are a header.
     detached: Option<Names>,
     /// How tensors are written.
@@ -34,15 +34,22 @@ type Reader = fn(&Request<'_>) -> Result<Found, InputError>;
 /// From the bytes of a header to the name of the file that holds the numbers, if there is one.
 type Names = fn(&[u8], Limits) -> Result<Option<String>, IoError>;
 
-/// How tensors are written: what the format has room for.
+/// How tensors are written.
 #[derive(Clone, Copy, Debug)]
 pub enum TensorWriter {
     /// A plane without a place.
     Plane(fn(&Field<Tensor2>) -> Result<Vec<u8>, IoError>),
+    /// A volume, or a plane as a volume of one layer.
+    Volume(VolumeWriter),
+}
+
+/// How volumes are written: what the format has room for.
+#[derive(Clone, Copy, Debug)]
+pub enum VolumeWriter {
     /// An image with arrays beside the tensors; the second argument is a title in words, for formats without texts.
     Image(fn(ImageData, &str) -> Result<Vec<u8>, IoError>),
-    /// A volume in a frame, with a story of how it was made.
-    Volume(fn(&TensorVolume, Frame, &str) -> Result<Vec<u8>, IoError>),
+    /// Tensors in a frame, with a story of how they were made.
+    Framed(fn(&TensorVolume, Frame, &str) -> Result<Vec<u8>, IoError>),
     /// The same along the voxel axes, with the components in one of several layouts.
     Layouts(fn(&TensorVolume, nifti::WrittenAs, &str) -> Result<Vec<u8>, IoError>),
 }
@@ -66,23 +73,23 @@ pub const TEXT_MATRICES: &str = "text matrices";
 /// A table, one point a line.
 const TABLE: &str = "table";
 
-/// Every format that tensors are read from or written to, and the others that the program writes.
+/// Every format that tensors, or what they are derived from, are read from.
 pub const FORMATS: &[Format] = &[
     Format {
         extensions: &["txt"],
         has_names: true,
         read_as: "tensors: 2x2 blocks, 2H rows of 2W numbers; tables as below; rows of numbers (`--derive`)",
         written_for: "tensors (`convert`)",
-        read: Some(read_text),
+        read: read_text,
         detached: None,
         tensors: Some(TensorWriter::Plane(matrices::write)),
     },
     Format {
         extensions: &["csv", "dat", "vec", "jvc"],
         has_names: true,
-        read_as: "tables, one point a line: tensors by names of columns (x, y, S11, S22, S12); vectors (x y u v, `--derive`)",
+        read_as: "tables, one point per line: tensors by names of columns (x, y, S11, S22, S12); vectors (x y u v, `--derive`)",
         written_for: "",
-        read: Some(|r| Ok((TABLE, read_table(r)?))),
+        read: |r| Ok((TABLE, read_table(r)?)),
         detached: None,
         tensors: None,
     },
@@ -91,7 +98,7 @@ pub const FORMATS: &[Format] = &[
         has_names: false,
         read_as: "tensors (H, W, 2, 2) and [other shapes](../../crates/io/src/npy/mod.rs); numbers and vectors (`--derive`)",
         written_for: "light (H, W, S); gradient (S, H, W); tensors (H, W, 2, 2)",
-        read: Some(|r| Ok(("NumPy array", npy::read_lattice(r.bytes, r.wanted)?))),
+        read: |r| Ok(("NumPy array", npy::read_lattice(r.bytes, r.wanted)?)),
         detached: None,
         tensors: Some(TensorWriter::Plane(|field| Ok(npy::write_tensors(field)))),
     },
@@ -100,7 +107,7 @@ pub const FORMATS: &[Format] = &[
         has_names: true,
         read_as: "the same, placed by the arrays x and y beside them",
         written_for: "",
-        read: Some(|r| Ok(("NumPy archive", npy::read_archive(r.bytes, r.array, r.wanted)?))),
+        read: |r| Ok(("NumPy archive", npy::read_archive(r.bytes, r.array, r.wanted)?)),
         detached: None,
         tensors: None,
     },
@@ -109,52 +116,54 @@ pub const FORMATS: &[Format] = &[
         has_names: true,
         read_as: "tensors (an array of 9, 7, 6, 4 or 3 components), flat or a volume; results, for `compare`",
         written_for: "light: energy, intensity, flux; gradient; tensors",
-        read: Some(|r| {
+        read: |r| {
             let image = vti::read_with_limits(r.bytes, r.limits)?;
             Ok(("VTK image data", lattice_from_image(&image, r.array, r.wanted)?))
-        }),
+        },
         detached: None,
-        tensors: Some(TensorWriter::Image(|image, _| vti::write(&image))),
+        tensors: Some(TensorWriter::Volume(VolumeWriter::Image(|image, _| vti::write(&image)))),
     },
     Format {
         extensions: &["vtp"],
         has_names: true,
         read_as: "tensors on points that form a lattice, row by row in any direction, or along the world's axes in any order",
         written_for: "tensors; lines, glyphs, ridges",
-        read: Some(|r| {
+        read: |r| {
             let data = vtp::read_with_limits(r.bytes, r.limits)?;
             Ok(("VTK poly data", lattice_from_points(data, r.array, r.wanted)?))
-        }),
+        },
         detached: None,
-        tensors: Some(TensorWriter::Image(|image, _| vtp::write(&points_from_image(image)))),
+        tensors: Some(TensorWriter::Volume(VolumeWriter::Image(|image, _| {
+            vtp::write(&points_from_image(image))
+        }))),
     },
     Format {
         extensions: &["vtk"],
         has_names: true,
         read_as: "tensors on structured points, or on grids whose points form a lattice: TENSORS, TENSORS6, FIELD; ASCII and binary",
         written_for: "tensors",
-        read: Some(|r| {
+        read: |r| {
             let image = legacy::read_with_limits(r.bytes, r.limits)?;
             Ok(("legacy VTK", lattice_from_image(&image, r.array, r.wanted)?))
-        }),
+        },
         detached: None,
-        tensors: Some(TensorWriter::Image(|image, title| legacy::write(&image, title))),
+        tensors: Some(TensorWriter::Volume(VolumeWriter::Image(|image, title| legacy::write(&image, title)))),
     },
     Format {
         extensions: &["nrrd"],
         has_names: false,
         read_as: "tensors: the format's tensor kinds, with or without mask; raw, gzip, ascii",
         written_for: "tensors, gzip, along the world's axes",
-        read: Some(read_nrrd),
+        read: read_nrrd,
         detached: Some(nrrd::data_file),
-        tensors: Some(TensorWriter::Volume(nrrd::write)),
+        tensors: Some(TensorWriter::Volume(VolumeWriter::Framed(nrrd::write))),
     },
     Format {
         extensions: &["nhdr"],
         has_names: false,
         read_as: "the same, with the numbers in a file beside it",
         written_for: "",
-        read: Some(read_nrrd),
+        read: read_nrrd,
         detached: Some(nrrd::data_file),
         tensors: None,
     },
@@ -163,25 +172,25 @@ pub const FORMATS: &[Format] = &[
         has_names: false,
         read_as: "tensors: symmetric and general matrices (5-D), six or nine components (4-D)",
         written_for: "tensors: matrices (5-D), along the voxel axes; six components (4-D) with `--write-order`",
-        read: Some(read_nifti),
+        read: read_nifti,
         detached: None,
-        tensors: Some(TensorWriter::Layouts(nifti::write)),
+        tensors: Some(TensorWriter::Volume(VolumeWriter::Layouts(nifti::write))),
     },
     Format {
         extensions: &["nii.gz"],
         has_names: false,
         read_as: "the same",
         written_for: "the same",
-        read: Some(read_nifti),
+        read: read_nifti,
         detached: None,
-        tensors: Some(TensorWriter::Layouts(nifti::write_packed)),
+        tensors: Some(TensorWriter::Volume(VolumeWriter::Layouts(nifti::write_packed))),
     },
     Format {
         extensions: &["png"],
         has_names: false,
         read_as: "brightness, with `--derive`; bitmaps of scenes",
         written_for: "pictures",
-        read: Some(|r| Ok(("PNG picture", picture::read_png(r.bytes)?))),
+        read: |r| Ok(("PNG picture", picture::read_png(r.bytes)?)),
         detached: None,
         tensors: None,
     },
@@ -210,12 +219,9 @@ impl Format {
         self.detached.map_or(Ok(None), |named| named(bytes, limits))
     }
 
-    /// Reads a file, or says that the format is not read.
+    /// Reads a file.
     pub(crate) fn read(&self, request: &Request<'_>) -> Result<Found, InputError> {
-        match self.read {
-            Some(read) => read(request),
-            None => Err(InputError::Extension { expected: readable_extensions() }),
-        }
+        (self.read)(request)
     }
 }
 
@@ -223,13 +229,13 @@ impl TensorWriter {
     /// Whether there is room for arrays beside the tensors.
     #[must_use]
     pub const fn has_arrays(&self) -> bool {
-        matches!(self, Self::Image(_))
+        matches!(self, Self::Volume(VolumeWriter::Image(_)))
     }
 
     /// Whether the components may be written in several layouts.
     #[must_use]
     pub const fn has_layouts(&self) -> bool {
-        matches!(self, Self::Layouts(_))
+        matches!(self, Self::Volume(VolumeWriter::Layouts(_)))
     }
 }
 
@@ -247,7 +253,7 @@ pub fn format_of(name: &str) -> String {
 /// Whether [`crate::open`] knows what to do with a file of this name.
 #[must_use]
 pub fn is_readable(name: &str) -> bool {
-    Format::of(name).is_some_and(|format| format.read.is_some())
+    Format::of(name).is_some()
 }
 
 /// The extensions of the formats that `has` something, in words: `.a, .b or .c`.
@@ -263,7 +269,7 @@ fn extensions(has: impl Fn(&Format) -> bool) -> String {
 /// The extensions of files that are read, in words.
 #[must_use]
 pub fn readable_extensions() -> String {
-    extensions(|f| f.read.is_some())
+    extensions(|_| true)
 }
 
 /// The extensions of files that tensors are written to and whose writer is as wanted, in words.
@@ -280,7 +286,7 @@ pub fn documentation() -> String {
 
 <!-- Made from crates/input/src/formats.rs by `TIGEREYE_BLESS=1 cargo test -p tigereye-input`. -->
 
-The extension of a file's name tells its format.
+The extension of a file name determines the format.
 
 | extension | read as | written for |
 | --- | --- | --- |
@@ -367,7 +373,7 @@ mod tests {
     fn rows_say_what_they_do() {
         for format in FORMATS {
             let name = format.extensions[0];
-            assert_eq!(format.read.is_some(), !format.read_as.is_empty(), "{name}");
+            assert!(!format.read_as.is_empty(), "{name}");
             assert!(
                 format.tensors.is_none()
                     || format.written_for.contains("tensors")

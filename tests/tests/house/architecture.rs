@@ -1,5 +1,6 @@
 //! The layering and the house rules, checked.
 
+use crate::root;
 use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -79,10 +80,6 @@ const NAMED_BY_THE_THESIS: &[&str] = &["drain_old.rs", "drain_alt.rs"];
 
 /// Where the snapshots of experiments lie.
 const SNAPSHOTS: &str = "crates/experiments/tests/snapshots";
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace").to_path_buf()
-}
 
 /// Everything but what programs wrote: `.gitignore` names the same.
 fn tracked_files() -> Vec<PathBuf> {

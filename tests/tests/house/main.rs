@@ -3,3 +3,10 @@
 mod architecture;
 mod modules;
 mod pages;
+
+use std::path::{Path, PathBuf};
+
+/// The project's root.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace").to_path_buf()
+}

@@ -4,6 +4,7 @@
 //! it names. A child that takes a type of its parent, whose functions call the child, is a circle like any other: the
 //! type belongs in a leaf of its own. Unit tests are not counted.
 
+use crate::root;
 use proc_macro2::{TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -270,7 +271,7 @@ fn from_tokens(tokens: TokenStream, paths: &mut Vec<Vec<String>>) {
 
 #[test]
 fn modules_do_not_import_each_other_in_a_circle() {
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace").join("crates");
+    let crates = root().join("crates");
     let mut found = Vec::new();
     let mut modules = 0;
     for entry in std::fs::read_dir(crates).expect("the crates").flatten() {
@@ -288,7 +289,7 @@ const FASTER: [&str; 8] = ["kernel", "reduced", "scattering", "sectors", "pulses
 
 #[test]
 fn the_oracle_shares_nothing_with_the_engines_it_judges() {
-    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace").join("crates");
+    let crates = root().join("crates");
     let transport = Crate::read(&crates.join("transport/src"));
     let oracle: ModulePath = vec!["oracle".to_owned()];
     assert!(transport.0.contains_key(&oracle));

@@ -1,11 +1,8 @@
 //! Pages of the documentation: every one is in the book, and every link leads somewhere.
 
+use crate::root;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace").to_path_buf()
-}
 
 /// Files that end in `.md` in the root, `docs` and what is below it.
 fn pages() -> Vec<PathBuf> {

@@ -7,7 +7,7 @@ use crate::input::{Input, Source, insert_reading};
 use crate::{files, interrupt};
 use serde_json::json;
 use tigereye_core::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
-use tigereye_input::formats::{Format, TensorWriter, writable_extensions};
+use tigereye_input::formats::{Format, TensorWriter, VolumeWriter, writable_extensions};
 use tigereye_input::provenance::provenance;
 use tigereye_input::{Content, Reading, TensorFile, finite_volume, not_finite_words};
 use tigereye_io::volume::{Frame, Known, PlaneChoice, TensorVolume, image_from_volume};
@@ -26,7 +26,6 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
         let expected = writable_extensions(|_| true);
         return Err(CliError::input(&name, format!("unknown extension: expected {expected}")));
     };
-    let is_flat = matches!(writer, TensorWriter::Plane(_));
     files::check_writable(&args.output)?;
     if args.output.exists() && !args.force {
         return Err(CliError::input(&name, "exists already: expected another name, or --force"));
@@ -47,10 +46,11 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
         Source::File(file) => file.remarks(),
         Source::Generated(_) => Vec::new(),
     };
-    let bytes = match source {
-        Source::File(TensorFile { content: Content::Tensors(volume), name, blake3, .. })
-            if !is_flat && is_whole(&volume, &reading) =>
-        {
+    let bytes = match (source, writer) {
+        (
+            Source::File(TensorFile { content: Content::Tensors(volume), name, blake3, .. }),
+            TensorWriter::Volume(writer),
+        ) if is_whole(&volume, &reading) => {
             remarks.iter().for_each(|line| eprintln!("{name}: {line}"));
             if reading.zero_not_finite
                 && let Some((_, count)) = volume.not_finite()
@@ -61,7 +61,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             // Where the file states the frame, the option says how to write; where it does not, how to read. Formats
             // that state a frame keep the one of the input then, the others have no place for it.
             let is_stated = volume.lattice().frame.1 == Known::Stated;
-            let has_frames = matches!(writer, TensorWriter::Volume(_) | TensorWriter::Layouts(_));
+            let has_frames = !matches!(writer, VolumeWriter::Image(_));
             let by_voxels = (is_stated || has_frames) && reading.frame == Some(Frame::Voxel);
             let frame = if by_voxels { Frame::Voxel } else { Frame::World };
             if let Some(words) = unplaced(writer, &volume, frame) {
@@ -73,7 +73,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             // What the file states about its components stands; the option says how they are written.
             encoded(writer, &volume.as_stated(), frame, args, &blake3)
         }
-        source => {
+        (source, writer) => {
             let (scalar, world) = match &source {
                 Source::File(file) => (file.scalar(), Some(file.lattice().world.clone())),
                 Source::Generated(_) => (ScalarType::Float64, None),
@@ -84,6 +84,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             }
             let input = Input::of(source, &args.reading)?;
             input.tell();
+            let is_flat = matches!(writer, TensorWriter::Plane(_));
             if is_flat && input.geometry.is_placed() && input.geometry.is_oblique() {
                 eprintln!(
                     "{}: the plane is oblique, and the format has no place for its axes: components along those of the picture, x \
@@ -93,7 +94,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             }
             match writer {
                 TensorWriter::Plane(write) => write(&input.field),
-                _ => {
+                TensorWriter::Volume(writer) => {
                     let geometry = &input.geometry;
                     if geometry.is_placed() && !geometry.upright().is_placed() {
                         eprintln!(
@@ -120,10 +121,10 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
 }
 
 /// What is said where a volume is written along its own axes, without its place in the world.
-fn unplaced(writer: TensorWriter, volume: &TensorVolume, frame: Frame) -> Option<&'static str> {
+fn unplaced(writer: VolumeWriter, volume: &TensorVolume, frame: Frame) -> Option<&'static str> {
     let lattice = volume.lattice();
     let is_placed = lattice.origin != [0.0; 3] || lattice.has_turned_axes();
-    (writer.has_arrays() && frame == Frame::Voxel && is_placed).then_some(
+    (matches!(writer, VolumeWriter::Image(_)) && frame == Frame::Voxel && is_placed).then_some(
         "components along the voxel axes, which are x, y and z of what is written: origin and directions are left out (--frame \
          world keeps them)",
     )
@@ -131,7 +132,7 @@ fn unplaced(writer: TensorWriter, volume: &TensorVolume, frame: Frame) -> Option
 
 /// A volume in one of the formats that hold volumes.
 fn encoded(
-    writer: TensorWriter,
+    writer: VolumeWriter,
     volume: &TensorVolume,
     frame: Frame,
     args: &ConvertArgs,
@@ -150,13 +151,11 @@ fn encoded(
     };
     let title = format!("tigereye {}, input blake3 {blake3}", env!("CARGO_PKG_VERSION"));
     match writer {
-        TensorWriter::Image(write) => write(image()?, &title),
-        TensorWriter::Volume(write) => write(volume, frame, &story),
-        TensorWriter::Layouts(write) => {
+        VolumeWriter::Image(write) => write(image()?, &title),
+        VolumeWriter::Framed(write) => write(volume, frame, &story),
+        VolumeWriter::Layouts(write) => {
             write(volume, args.write_order.map(Into::into).unwrap_or_default(), &story)
         }
-        // A volume of one layer; its plane, where a caller takes it for one.
-        TensorWriter::Plane(write) => write(&volume.slice(PlaneChoice::default())?.field),
     }
 }
 

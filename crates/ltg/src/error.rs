@@ -43,7 +43,32 @@ pub enum LtgError {
         /// What is there.
         value: f64,
     },
-    /// A stopping rule out of range.
+    /// Too few sketches to say anything, or more than are worth their time.
+    #[error("{sketches} sketches: expected 16 to 1048576 (the exact gradient takes no longer than more)")]
+    Sketches {
+        /// How many were asked for, or would be needed.
+        sketches: u64,
+    },
+    /// An estimate from nothing.
+    #[error("no sketch is finished: expected at least one batch")]
+    NoSketches,
+    /// A stored sum that is not a whole number.
+    #[error("sum {index} is {value}: expected a whole number below 2^53")]
+    Sum {
+        /// Index into the sums.
+        index: usize,
+        /// What is there.
+        value: f64,
+    },
+    /// Sketches in both of two parts.
+    #[error("sketches {first} to {last} are in both parts")]
+    SketchedTwice {
+        /// First of a batch.
+        first: usize,
+        /// Last of it.
+        last: usize,
+    },
+    /// A stopping rule out of range, or a field without a stationary state.
     #[error(transparent)]
     Stopping(#[from] TransportError),
     /// A shard that does not exist.

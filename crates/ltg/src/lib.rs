@@ -13,6 +13,7 @@
 pub const NUMERICS: u32 = 2;
 
 mod error;
+mod linear;
 mod observer;
 mod partial;
 mod pass;
@@ -25,6 +26,10 @@ mod shard;
 mod sweep;
 
 pub use error::LtgError;
+pub use linear::{
+    Estimate, FEWEST_SKETCHES, MOST_SKETCHES, SketchObserver, SketchSettings, SketchSums, SketchedGradient,
+    check_linear_fit, linear_sweep_part,
+};
 pub use observer::{Phase, SweepObserver};
 pub use partial::{Finished, LtgOutcome, PartialVolume};
 pub use settings::{LtgSettings, Precision, omega_step_of_slices, omega_step_of_volumes};

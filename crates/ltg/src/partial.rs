@@ -213,6 +213,47 @@ impl PartialVolume {
         grid.iter().map(is_target).collect()
     }
 
+    /// For each cell of the grid whether `shard` has to compute it in any set.
+    pub(crate) fn all_targets(&self, shard: Shard) -> Vec<bool> {
+        let mut all = vec![false; self.grid.cells()];
+        for set in 0..self.sets.len() {
+            all.iter_mut().zip(self.targets(set, shard)).for_each(|(all, of_set)| *all |= of_set);
+        }
+        all
+    }
+
+    /// Takes the differences (along x, along y, in direction) of each slice at a cell over where `shard` lacks them.
+    pub(crate) fn finish_cell(
+        &mut self,
+        shard: Shard,
+        cell: Cell,
+        work: SweepWork,
+        differences: &dyn Fn(usize) -> [f64; 3],
+    ) {
+        let (grid, finished) = (self.grid, &mut self.finished);
+        let at = |slice: usize| slice * grid.cells() + grid.index(cell);
+        let range = shard.range(finished.done.len());
+        for (index, set) in self.sets.iter().enumerate() {
+            let mark = mark_of(grid, index, cell);
+            if !range.contains(&mark) || finished.done[mark] {
+                continue;
+            }
+            for slice in set.slice.iter().flatten() {
+                let [g_x, g_y, _] = differences(*slice);
+                finished.squares[at(*slice)] += g_x * g_x + g_y * g_y;
+            }
+            for turn in &set.turns {
+                let [_, _, g_w] = differences(turn.slice);
+                finished.squares[at(turn.slice)] += g_w * g_w;
+            }
+            finished.done[mark] = true;
+            // Counted with the first set: shards that cut between the sets of a cell solve it twice.
+            if index == 0 {
+                finished.work.add(work);
+            }
+        }
+    }
+
     /// Takes the targets of row `y` of a pass over from its results.
     pub(crate) fn finish_row(&mut self, pass: &Pass<'_>, y: usize, results: &RowResults) {
         let (grid, finished) = (self.grid, &mut self.finished);

@@ -3,7 +3,7 @@
 //! Everything is computed on the tensor scaled by a power of two so that its largest component lies in [0.5, 1):
 //! entries near 1e-300 or 1e200 are as accurate as those near 1.
 
-use crate::{Tensor2, math};
+use crate::{Tensor2, Vector, math};
 use nalgebra::{Matrix2, Vector2};
 
 /// `A = U diag(s1, s2) V^T` with `s1 >= s2 >= 0`, `U` a rotation, `V` a rotation (det A >= 0) or a reflection.
@@ -59,10 +59,10 @@ impl Svd {
         math::atan2(self.u[(1, 0)], self.u[(0, 0)])
     }
 
-    /// Unit vector of the major semi-axis (x right, y up); its sign is arbitrary.
+    /// Unit vector of the major semi-axis; its sign is arbitrary.
     #[must_use]
-    pub fn major(&self) -> [f64; 2] {
-        [self.u[(0, 0)], self.u[(1, 0)]]
+    pub fn major(&self) -> Vector {
+        Vector::new(self.u[(0, 0)], self.u[(1, 0)])
     }
 
     /// `s2 / s1` in [0, 1]; 1 for a zero tensor.
@@ -272,7 +272,7 @@ mod tests {
         #[test]
         fn svd_finds_the_axes_it_was_built_from(phi in -3.1..3.1f64, s2 in 0.0..0.999f64) {
             let svd = Svd::of(&Tensor2::from_axes(phi, 1.0, s2));
-            let [x, y] = svd.major();
+            let [x, y] = svd.major().to_array();
             let off_axis = x * math::sin(phi) - y * math::cos(phi);
             prop_assert!(off_axis.abs() < 4e-16 / (1.0 - s2) + 1e-15);
             prop_assert!((svd.s[1] - s2).abs() < 1e-15);

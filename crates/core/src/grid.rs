@@ -1,6 +1,6 @@
 //! Cells, their order and their neighbours.
 
-use crate::CoreError;
+use crate::{CoreError, Point};
 
 /// One cell: column `x` to the right, row `y` downwards, both from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -16,6 +16,12 @@ impl Cell {
     #[must_use]
     pub const fn new(x: usize, y: usize) -> Self {
         Self { x, y }
+    }
+
+    /// The centre of the cell.
+    #[must_use]
+    pub const fn centre(self) -> Point {
+        Point::new(self.x as f64, self.y as f64)
     }
 }
 

@@ -1,7 +1,7 @@
 //! How far scalars and their ridges agree.
 
 use crate::{NearestSegment, Polyline, Polylines, RidgeOptions, Threshold};
-use tigereye_core::{Field, Grid};
+use tigereye_core::{Field, Grid, Point, length};
 
 /// Cells along the border that no ridge is compared in: gradients are 0 in the outermost ones, and ridges need others
 /// around them.
@@ -49,18 +49,18 @@ impl Distances {
     #[must_use]
     pub fn between(of: &Polylines, from: &Polylines, grid: Grid) -> Self {
         let near = NearestSegment::new(from);
-        let limits = [grid.width(), grid.height()].map(|n| (n - 1) as f64 - MARGIN);
+        let [right, bottom] = [grid.width(), grid.height()].map(|n| (n - 1) as f64 - MARGIN);
         let mut pieces = Vec::new();
         for [a, b] in of.lines.iter().flat_map(Polyline::segments) {
             let (p, q) = (of.points[a as usize], of.points[b as usize]);
-            let length = tigereye_core::math::hypot(q[0] - p[0], q[1] - p[1]);
-            let count = (length / PIECE).ceil().max(1.0) as usize;
+            let extent = length(q - p);
+            let count = (extent / PIECE).ceil().max(1.0) as usize;
             for k in 0..count {
                 let t = (k as f64 + 0.5) / count as f64;
-                let at = [0, 1].map(|i| p[i] + t * (q[i] - p[i]));
-                if (0..2).all(|i| (MARGIN..=limits[i]).contains(&at[i])) {
+                let at = p + (q - p) * t;
+                if (MARGIN..=right).contains(&at.x) && (MARGIN..=bottom).contains(&at.y) {
                     let distance = near.distance(at).unwrap_or(f64::INFINITY);
-                    pieces.push((distance, length / count as f64));
+                    pieces.push((distance, extent / count as f64));
                 }
             }
         }
@@ -109,8 +109,8 @@ impl Distances {
 pub fn chance(lines: &Polylines, grid: Grid, within: f64) -> f64 {
     let near = NearestSegment::new(lines);
     let steps = [grid.width(), grid.height()].map(|n| (((n - 1) as f64 - 2.0 * MARGIN) / PIECE) as usize + 1);
-    let places =
-        (0..steps[1]).flat_map(|j| (0..steps[0]).map(move |i| [i, j].map(|k| MARGIN + k as f64 * PIECE)));
+    let along = |k: usize| MARGIN + k as f64 * PIECE;
+    let places = (0..steps[1]).flat_map(|j| (0..steps[0]).map(move |i| Point::new(along(i), along(j))));
     let met = places.filter(|&p| near.distance(p).is_some_and(|d| d <= within)).count();
     met as f64 / (steps[0] * steps[1]) as f64
 }
@@ -131,9 +131,12 @@ pub fn correlation(a: &Field<f64>, b: &Field<f64>) -> Option<f64> {
 mod tests {
     use super::*;
 
-    fn line(points: &[[f64; 2]]) -> Polylines {
-        let indices = (0..points.len() as u32).collect();
-        Polylines { points: points.to_vec(), lines: vec![Polyline { points: indices, closed: false }] }
+    fn line<const N: usize>(points: [(f64, f64); N]) -> Polylines {
+        let indices = (0..N as u32).collect();
+        Polylines {
+            points: points.map(Point::from).to_vec(),
+            lines: vec![Polyline { points: indices, closed: false }],
+        }
     }
 
     fn grid() -> Grid {
@@ -142,7 +145,7 @@ mod tests {
 
     #[test]
     fn distances_are_measured_along_the_first() {
-        let (a, b) = (line(&[[10.0, 10.0], [30.0, 10.0]]), line(&[[10.0, 12.0], [20.0, 12.0]]));
+        let (a, b) = (line([(10.0, 10.0), (30.0, 10.0)]), line([(10.0, 12.0), (20.0, 12.0)]));
         let forth = Distances::between(&a, &b, grid());
         // Half of it is 2 away; the rest goes on to (30, 10), which is hypot(10, 2) away.
         assert!((forth.length() - 20.0).abs() < 1e-9 && forth.quantile(0.4) == 2.0);
@@ -154,8 +157,8 @@ mod tests {
 
     #[test]
     fn borders_and_nothing_are_left_out() {
-        let rim = line(&[[0.0, 2.0], [40.0, 2.0]]);
-        let inside = line(&[[0.0, 20.0], [40.0, 20.0]]);
+        let rim = line([(0.0, 2.0), (40.0, 2.0)]);
+        let inside = line([(0.0, 20.0), (40.0, 20.0)]);
         assert!(Distances::between(&rim, &inside, grid()).mean().is_nan());
         let cut = Distances::between(&inside, &rim, grid());
         assert!((cut.length() - 32.0).abs() < 0.3 && (cut.mean() - 18.0).abs() < 1e-9, "{}", cut.length());
@@ -165,16 +168,16 @@ mod tests {
 
     #[test]
     fn parts_are_put_together() {
-        let mut all = line(&[[1.0, 1.0], [2.0, 2.0]]);
-        append(&mut all, &line(&[[4.0, 6.0], [8.0, 10.0]]));
-        assert_eq!(all.points[2..], [[4.0, 6.0], [8.0, 10.0]]);
+        let mut all = line([(1.0, 1.0), (2.0, 2.0)]);
+        append(&mut all, &line([(4.0, 6.0), (8.0, 10.0)]));
+        assert_eq!(all.points[2..], [(4.0, 6.0), (8.0, 10.0)].map(Point::from));
         assert_eq!(all.lines[1].points, [2, 3]);
     }
 
     #[test]
     fn chance_is_the_share_of_the_area() {
         // A band of two cells in the middle 32.
-        let found = chance(&line(&[[0.0, 20.0], [40.0, 20.0]]), grid(), 1.0);
+        let found = chance(&line([(0.0, 20.0), (40.0, 20.0)]), grid(), 1.0);
         assert!((found - 2.0 / 32.0).abs() < 0.01, "{found}");
         assert_eq!(chance(&Polylines::default(), grid(), 1.0), 0.0);
     }

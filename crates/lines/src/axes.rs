@@ -24,7 +24,7 @@
 //! long. Eigenvectors by magnitude, and semi-axes of tensors that are not symmetric by value, change places where the
 //! trace is zero: their lines end there.
 
-use tigereye_core::{Tensor2, math};
+use tigereye_core::{Tensor2, Vector, math, quarter_turned};
 
 /// Which of the two axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -161,8 +161,8 @@ impl Decomposition {
 /// The axes of one tensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// Unit vectors, major first, in the tensor's frame (y up), each with either sign.
-    pub axes: [[f64; 2]; 2],
+    /// Unit vectors, major first, each with either sign.
+    pub axes: [Vector; 2],
     /// Their lengths, never negative, in the order of the axes; for [`Axes::Eigenvectors`] the eigenvalues with their
     /// signs, or their real part where they are complex; for dual eigenvectors the semi-axes of the stretching and
     /// turning part.
@@ -294,7 +294,7 @@ fn longer_and_shorter(a: f64, b: f64) -> [f64; 2] {
 }
 
 /// Axes, and what tells them apart.
-type AxesAndContrast = ([[f64; 2]; 2], f64);
+type AxesAndContrast = ([Vector; 2], f64);
 
 fn semi_axes(numbers: &Numbers, by: Major, least: f64) -> Option<AxesAndContrast> {
     let Numbers { f, e } = numbers;
@@ -342,7 +342,7 @@ fn eigenvectors(Numbers { f, e }: &Numbers, by: Major, least: f64) -> Option<Axe
     let bisector = half_angle(*f);
     let diagonal = core::f64::consts::FRAC_1_SQRT_2;
     let about = |cos: f64, sin: f64| {
-        [bisector[0] * cos - side * bisector[1] * sin, bisector[1] * cos + side * bisector[0] * sin]
+        Vector::new(bisector.x * cos - side * bisector.y * sin, bisector.y * cos + side * bisector.x * sin)
     };
     let major = about(diagonal * (c + s), diagonal * (c - s));
     let minor = about(diagonal * (c - s), diagonal * (c + s));
@@ -368,23 +368,19 @@ fn size(z: [f64; 2]) -> f64 {
 }
 
 /// The unit vector at half the angle of a number, without the angle.
-fn half_angle(z: [f64; 2]) -> [f64; 2] {
+fn half_angle(z: [f64; 2]) -> Vector {
     let r = size(z);
     if z[0] >= 0.0 {
         let c = (0.5 * (r + z[0])).sqrt();
         let s = 0.5 * z[1] / c;
         let n = r.sqrt();
-        [c / n, s / n]
+        Vector::new(c / n, s / n)
     } else {
         let s = (0.5 * (r - z[0])).sqrt();
         let c = 0.5 * z[1] / s;
         let n = r.sqrt();
-        [c / n, s / n]
+        Vector::new(c / n, s / n)
     }
-}
-
-const fn quarter_turned(v: [f64; 2]) -> [f64; 2] {
-    [-v[1], v[0]]
 }
 
 #[cfg(test)]
@@ -414,12 +410,12 @@ mod tests {
         all
     }
 
-    fn sine_between(a: [f64; 2], b: [f64; 2]) -> f64 {
-        (a[0] * b[1] - a[1] * b[0]).abs()
+    fn sine_between(a: Vector, b: Vector) -> f64 {
+        a.cross(b).abs()
     }
 
-    fn applied(t: &Tensor2, v: [f64; 2]) -> [f64; 2] {
-        [t.xx() * v[0] + t.xy() * v[1], t.yx() * v[0] + t.yy() * v[1]]
+    fn applied(t: &Tensor2, v: Vector) -> Vector {
+        Vector::new(t.xx() * v.x + t.xy() * v.y, t.yx() * v.x + t.yy() * v.y)
     }
 
     #[test]
@@ -440,8 +436,8 @@ mod tests {
         for t in tensors().into_iter().filter(|t| Decomposition::of(t).domain() == Domain::Real) {
             let (frame, values) = (Axes::Eigenvectors.of(&t, 0.0).expect("axes"), Eigenvalues::of(&t));
             for (axis, value) in frame.axes.into_iter().zip(frame.values) {
-                let image = applied(&t, axis);
-                let off = (0..2).map(|i| (image[i] - value * axis[i]).abs()).fold(0.0, f64::max);
+                let off = (applied(&t, axis) - axis * value).abs();
+                let off = off.x.max(off.y);
                 // Eigenvectors are as uncertain as the square root of what separates their eigenvalues.
                 assert!(off < 1e-13 * t.max_abs(), "{t:?}: {off}");
             }
@@ -458,9 +454,9 @@ mod tests {
     fn symmetric_tensors_are_ordered_with_their_signs() {
         let t = Tensor2::symmetric(-1.0, 0.0, -3.0);
         let frame = Axes::Eigenvectors.of(&t, 0.0).expect("axes");
-        assert_eq!((frame.values, frame.axes[0][0].abs()), ([-1.0, -3.0], 1.0));
+        assert_eq!((frame.values, frame.axes[0].x.abs()), ([-1.0, -3.0], 1.0));
         let half = Axes::HalfAxes.of(&t, 0.0).expect("axes");
-        assert_eq!((half.values, half.axes[0][1].abs()), ([3.0, 1.0], 1.0));
+        assert_eq!((half.values, half.axes[0].y.abs()), ([3.0, 1.0], 1.0));
         assert_eq!(Axes::DualEigenvectors.of(&t, 1e-12), None, "nothing turns");
     }
 
@@ -470,7 +466,7 @@ mod tests {
             let Some(dual) = Axes::DualEigenvectors.of(&t, 1e-6) else { continue };
             let frame = Axes::Eigenvectors.of(&t, 0.0).expect("axes");
             let [a, b] = frame.axes;
-            let cosine = |v: [f64; 2]| (v[0] * dual.axes[0][0] + v[1] * dual.axes[0][1]).abs();
+            let cosine = |v: Vector| v.dot(dual.axes[0]).abs();
             assert!((cosine(a) - cosine(b)).abs() < 1e-12, "{t:?}");
         }
     }
@@ -480,14 +476,14 @@ mod tests {
     fn dual_eigenvectors_are_the_axes_of_elliptic_flow() {
         // x' = -2 y, y' = x keeps x^2 + 2 y^2: the longer axis lies along x.
         let flat = Axes::DualEigenvectors.of(&Tensor2::new(0.0, -2.0, 1.0, 0.0), 0.0).expect("axes");
-        assert!(sine_between(flat.axes[0], [1.0, 0.0]) < 1e-15);
+        assert!(sine_between(flat.axes[0], Vector::new(1.0, 0.0)) < 1e-15);
         // Clockwise the same.
         let back = Axes::DualEigenvectors.of(&Tensor2::new(0.0, 2.0, -1.0, 0.0), 0.0).expect("axes");
-        assert!(sine_between(back.axes[0], [1.0, 0.0]) < 1e-15);
+        assert!(sine_between(back.axes[0], Vector::new(1.0, 0.0)) < 1e-15);
         // The rectangle around that ellipse has sides sqrt(2) : 1.
         let frame = Axes::Eigenvectors.of(&Tensor2::new(0.0, -2.0, 1.0, 0.0), 0.0).expect("axes");
         for axis in frame.axes {
-            assert!((axis[0].abs() / axis[1].abs() - 2.0_f64.sqrt()).abs() < 1e-14, "{axis:?}");
+            assert!((axis.x.abs() / axis.y.abs() - 2.0_f64.sqrt()).abs() < 1e-14, "{axis:?}");
         }
     }
 

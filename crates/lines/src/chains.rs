@@ -1,6 +1,7 @@
 //! Segments to connected lines.
 
 use crate::Polyline;
+use tigereye_core::Point;
 
 /// No neighbour.
 const NONE: u32 = u32::MAX;
@@ -45,10 +46,10 @@ fn walk(neighbours: &[[u32; 2]], seen: &mut [bool], start: usize) -> Vec<u32> {
 
 /// Takes points away that lie where their predecessor lies, to `reach` along each axis: lines through nodes of a mesh
 /// cross several edges there. What is left of a closed line by fewer than three points is no line.
-pub(crate) fn without_repetitions(lines: &mut Vec<Polyline>, points: &[[f64; 2]], reach: f64) {
+pub(crate) fn without_repetitions(lines: &mut Vec<Polyline>, points: &[Point], reach: f64) {
     let same = |a: u32, b: u32| {
         let (p, q) = (points[a as usize], points[b as usize]);
-        (p[0] - q[0]).abs() <= reach && (p[1] - q[1]).abs() <= reach
+        (p.x - q.x).abs() <= reach && (p.y - q.y).abs() <= reach
     };
     for line in lines.iter_mut() {
         line.points.dedup_by(|a, b| same(*a, *b));
@@ -79,7 +80,7 @@ mod tests {
 
     #[test]
     fn repeated_points_are_left_out() {
-        let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
+        let points = [(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.0, 0.0)].map(Point::from);
         let mut lines = vec![
             Polyline { points: vec![0, 1, 2, 3, 4], closed: true },
             Polyline { points: vec![1, 2], closed: false },

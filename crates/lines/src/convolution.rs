@@ -4,7 +4,7 @@ use crate::ftle::{MAX_SAMPLES_A_CELL, check_length, check_work};
 use crate::{Family, Interpolated, SamplingError, fine_grid};
 use core::f64::consts::PI;
 use rayon::prelude::*;
-use tigereye_core::{CellShape, Field, Grid, math};
+use tigereye_core::{Cell, CellShape, Field, Grid, Point, Vector, math};
 
 /// How noise is smeared.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,7 +59,7 @@ pub fn convolved(
     let (grid, step) = sampled(field, options)?;
     let noise = noise(grid, options.seed);
     let walk = Walk { field, family, straight: None, step, samples: per_cell(field, options) };
-    let length = |_: [f64; 2]| options.half_length;
+    let length = |_: Point| options.half_length;
     Ok(stretched(smeared(&noise, &walk, &length)))
 }
 
@@ -76,9 +76,11 @@ pub fn hyper_convolved(
 ) -> Result<Field<f64>, SamplingError> {
     let (grid, step) = sampled(field, options)?;
     let mut texture = noise(grid, options.seed);
-    for (family, straight) in [(Family::Minor, [0.0, 1.0]), (Family::Major, [1.0, 0.0])] {
+    for (family, straight) in
+        [(Family::Minor, Vector::new(0.0, -1.0)), (Family::Major, Vector::new(1.0, 0.0))]
+    {
         let walk = Walk { field, family, straight: Some(straight), step, samples: per_cell(field, options) };
-        let length = |at: [f64; 2]| {
+        let length = |at: Point| {
             let Some(frame) = field.frame(at, 0.0) else { return options.half_length };
             let [own, other] = [family as usize, 1 - family as usize].map(|i| frame.values[i].abs());
             let longer = own.max(other);
@@ -117,51 +119,51 @@ struct Walk<'a> {
     field: &'a Interpolated<'a>,
     family: Family,
     /// The direction to take where there is no axis; lines end there without.
-    straight: Option<[f64; 2]>,
+    straight: Option<Vector>,
     step: f64,
     /// Samples a cell along x and y.
     samples: [f64; 2],
 }
 
 impl Walk<'_> {
-    fn direction(&self, at: [f64; 2]) -> Option<[f64; 2]> {
+    fn direction(&self, at: Point) -> Option<Vector> {
         let found = self.field.direction(at, self.family, LEAST);
         found.or_else(|| self.straight.filter(|_| self.field.at(at).is_some_and(|t| !t.is_zero())))
     }
 
     /// A step of the midpoint rule: where it leads, and the direction there.
-    fn next(&self, at: [f64; 2], towards: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
-        let half = self.field.ahead(at, towards, 0.5 * self.step);
+    fn next(&self, at: Point, towards: Vector) -> Option<(Point, Vector)> {
+        let half = self.field.cell().ahead(at, towards, 0.5 * self.step);
         let middle = along(self.direction(half)?, towards)?;
-        let to = self.field.ahead(at, middle, self.step);
+        let to = self.field.cell().ahead(at, middle, self.step);
         Some((to, along(self.direction(to)?, middle)?))
     }
 
     /// The sample nearest to a point.
-    fn sample(&self, texture: &Field<f64>, at: [f64; 2]) -> f64 {
+    fn sample(&self, texture: &Field<f64>, at: Point) -> f64 {
         let grid = texture.grid();
-        let index =
-            |axis: usize, n: usize| ((at[axis] * self.samples[axis]).round().max(0.0) as usize).min(n - 1);
-        texture.values()[index(1, grid.height()) * grid.width() + index(0, grid.width())]
+        let index = |v: f64, samples: f64, n: usize| ((v * samples).round().max(0.0) as usize).min(n - 1);
+        let [per_x, per_y] = self.samples;
+        *texture.at(Cell::new(index(at.x, per_x, grid.width()), index(at.y, per_y, grid.height())))
     }
 }
 
 /// A direction with the sign of another; none where they differ by more than 60 degrees.
-fn along(d: [f64; 2], towards: [f64; 2]) -> Option<[f64; 2]> {
-    let cosine = d[0] * towards[0] + d[1] * towards[1];
+fn along(d: Vector, towards: Vector) -> Option<Vector> {
+    let cosine = d.dot(towards);
     if cosine.abs() < LARGEST_TURN {
         return None;
     }
-    Some(if cosine < 0.0 { [-d[0], -d[1]] } else { d })
+    Some(if cosine < 0.0 { -d } else { d })
 }
 
 /// The texture averaged along the lines through its samples, as far as `length` says for each.
-fn smeared(texture: &Field<f64>, walk: &Walk<'_>, length: &(dyn Fn([f64; 2]) -> f64 + Sync)) -> Field<f64> {
+fn smeared(texture: &Field<f64>, walk: &Walk<'_>, length: &(dyn Fn(Point) -> f64 + Sync)) -> Field<f64> {
     let grid = texture.grid();
     let value = |i: usize| {
         let cell = grid.cell(i);
         let own = texture.values()[i];
-        let at = [cell.x as f64 / walk.samples[0], cell.y as f64 / walk.samples[1]];
+        let at = Point::new(cell.x as f64 / walk.samples[0], cell.y as f64 / walk.samples[1]);
         match walk.field.at(at) {
             Some(t) if !t.is_zero() => {}
             _ => return f64::NAN,
@@ -170,7 +172,7 @@ fn smeared(texture: &Field<f64>, walk: &Walk<'_>, length: &(dyn Fn([f64; 2]) -> 
         let half = length(at);
         let steps = (half / walk.step) as usize;
         let (mut sum, mut weights) = (own, 1.0);
-        for start in [start, start.map(|v| -v)] {
+        for start in [start, -start] {
             let (mut p, mut d) = (at, start);
             for k in 1..=steps {
                 let Some((to, direction)) = walk.next(p, d) else { break };
@@ -203,7 +205,7 @@ fn stretched(texture: Field<f64>) -> Field<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tigereye_core::{Cell, Tensor2};
+    use tigereye_core::Tensor2;
 
     fn field(size: [usize; 2], t: impl Fn(f64, f64) -> Tensor2) -> Field<Tensor2> {
         Field::from_fn(Grid::new(size[0], size[1]).expect("a size"), |c| t(c.x as f64, c.y as f64))

@@ -7,7 +7,7 @@
 //! (Delmarcelle and Hesselink 1994).
 
 use core::f64::consts::TAU;
-use tigereye_core::{Cell, Field, Grid, Tensor2, math};
+use tigereye_core::{Cell, Field, Grid, Point, Tensor2, math};
 
 /// What lines do around a degenerate point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,8 +23,8 @@ pub enum DegenerateKind {
 /// A point without axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DegeneratePoint {
-    /// Where, in cells (y downwards).
-    pub position: [f64; 2],
+    /// Where it is.
+    pub position: Point,
     /// What it is.
     pub kind: DegenerateKind,
 }
@@ -73,7 +73,7 @@ fn zeros(field: &Field<Tensor2>, numbers: &[Field<[f64; 2]>]) -> Vec<DegenerateP
     }
     let mut found: Vec<DegeneratePoint> = numbers.iter().flat_map(|n| Plane::new(field, n).zeros()).collect();
     found.sort_by(|a, b| {
-        let key = |p: &DegeneratePoint| (p.position[1], p.position[0]);
+        let key = |p: &DegeneratePoint| (p.position.y, p.position.x);
         key(a).partial_cmp(&key(b)).unwrap_or(core::cmp::Ordering::Equal)
     });
     found
@@ -155,7 +155,7 @@ impl<'a> Plane<'a> {
         let mut quads = vec![first];
         let (mut total, mut next, mut leaves) = (0.0, 0, false);
         // Where the number vanishes on edges.
-        let (mut middle, mut count) = ([0.0; 2], 0.0);
+        let (mut middle, mut count) = (Point::zero(), 0.0);
         while next < quads.len() {
             let corners = self.corners(quads[next]);
             for (i, beyond) in self.beyond(quads[next]).into_iter().enumerate() {
@@ -169,8 +169,8 @@ impl<'a> Plane<'a> {
                 // Paths around cells that are not finite are undefined.
                 leaves |= !(a + b).is_finite();
                 let t = if a + b > 0.0 { a / (a + b) } else { 0.5 };
-                middle[0] += (1.0 - t) * from.x as f64 + t * to.x as f64;
-                middle[1] += (1.0 - t) * from.y as f64 + t * to.y as f64;
+                middle.x += (1.0 - t) * from.x as f64 + t * to.x as f64;
+                middle.y += (1.0 - t) * from.y as f64 + t * to.y as f64;
                 count += 1.0;
                 match beyond {
                     None => leaves = true,
@@ -187,12 +187,12 @@ impl<'a> Plane<'a> {
         if leaves || half_turns == 0 {
             return None;
         }
-        let position = if count > 0.0 { middle.map(|v| v / count) } else { self.zero_in(first) };
+        let position = if count > 0.0 { middle / count } else { self.zero_in(first) };
         Some(DegeneratePoint { position, kind: kind_of(half_turns) })
     }
 
     /// Where the bilinear number vanishes in a quad, by Newton's method; the middle where it does not get there.
-    fn zero_in(&self, quad: Cell) -> [f64; 2] {
+    fn zero_in(&self, quad: Cell) -> Point {
         let at = |dx: usize, dy: usize| *self.numbers.at(Cell::new(quad.x + dx, quad.y + dy));
         let (a, b, c, d) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1));
         // p + q u + r v + s u v
@@ -211,7 +211,7 @@ impl<'a> Plane<'a> {
         };
         let starts = [[0.5, 0.5], [0.1, 0.1], [0.9, 0.1], [0.1, 0.9], [0.9, 0.9]];
         let [u, v] = starts.into_iter().find_map(newton).unwrap_or([0.5; 2]);
-        [quad.x as f64 + u, quad.y as f64 + v]
+        Point::new(quad.x as f64 + u, quad.y as f64 + v)
     }
 }
 
@@ -253,7 +253,10 @@ mod tests {
             assert_eq!(found[0].kind, kind, "{spec}");
             let side: f64 = if spec.ends_with("20") { 20.0 } else { 21.0 };
             let middle = 0.5 * (side - 1.0);
-            assert!(found[0].position.iter().all(|v| (v - middle).abs() < 1e-9), "{spec}: {found:?}");
+            assert!(
+                found[0].position.to_array().iter().all(|v| (v - middle).abs() < 1e-9),
+                "{spec}: {found:?}"
+            );
         }
         // A rotation times a diagonal matrix is not symmetric: both of its numbers turn, each by its own point.
         for (spec, half_turns) in [("inverse:size=21", -2), ("star:size=21", 2), ("rings:size=21", 2)] {
@@ -263,7 +266,7 @@ mod tests {
                 half_turns,
                 "{spec}: {found:?}"
             );
-            assert!(found.iter().all(|p| (p.position[0] - 10.0).abs() < 1.0), "{spec}: {found:?}");
+            assert!(found.iter().all(|p| (p.position.x - 10.0).abs() < 1.0), "{spec}: {found:?}");
         }
         // What the pictures show: their ellipses.
         for (spec, half_turns) in [
@@ -279,7 +282,7 @@ mod tests {
             assert_eq!(found.len(), 1, "{}: {found:?}", spec.name);
             assert_eq!(
                 (found[0].position, found[0].half_turns()),
-                ([10.0, 10.0], half_turns),
+                (Point::new(10.0, 10.0), half_turns),
                 "{}",
                 spec.name
             );
@@ -299,7 +302,7 @@ mod tests {
         let found = degenerate_points(&field);
         assert_eq!(found.len(), 1);
         assert!(
-            (found[0].position[0] - 6.3).abs() < 1e-9 && (found[0].position[1] - 4.45).abs() < 1e-9,
+            (found[0].position.x - 6.3).abs() < 1e-9 && (found[0].position.y - 4.45).abs() < 1e-9,
             "{found:?}"
         );
     }

@@ -4,7 +4,7 @@ use crate::flow_map::{exponent_of, gradient_at};
 use crate::{Family, Interpolated, LineEnd, LineOptions, half_line_end};
 use rayon::prelude::*;
 use thiserror::Error;
-use tigereye_core::{Cell, CellShape, Field, Grid};
+use tigereye_core::{Cell, CellShape, Field, Grid, PhysicalPoint, Point, Vector};
 
 /// How the exponent is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -149,9 +149,9 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
         ..LineOptions::default()
     };
     let start = |cell: Cell| {
-        let at = [cell.x as f64 / samples, cell.y as f64 / samples];
+        let at = Point::new(cell.x as f64 / samples, cell.y as f64 / samples);
         let direction = field.direction(at, family, options.least_anisotropy)?;
-        let ends = [direction, direction.map(|v| -v)].map(|towards| {
+        let ends = [direction, -direction].map(|towards| {
             let (end, why) = half_line_end(field, at, towards, family, &follow);
             (why != LineEnd::Border).then(|| field.cell().physical(end))
         });
@@ -176,9 +176,9 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
 
 /// Where the line of a sample leads.
 struct Start {
-    direction: [f64; 2],
-    /// Along that direction, and against it, physical; none where the line leaves.
-    ends: [Option<[f64; 2]>; 2],
+    direction: Vector,
+    /// Along that direction, and against it; `None` where the line leaves the field.
+    ends: [Option<PhysicalPoint>; 2],
 }
 
 fn both_exponents(
@@ -188,11 +188,11 @@ fn both_exponents(
     (shape, options): (CellShape, &FtleOptions),
 ) -> [f64; 2] {
     let Some(own) = &starts[grid.index(cell)] else { return [f64::NAN; 2] };
-    let spacing = shape.physical([1.0 / options.samples as f64; 2]);
+    let spacing = shape.sides().map(|side| side * (1.0 / options.samples as f64));
     [0, 1].map(|side| {
         let end = |c: Cell| {
             let s = starts[grid.index(c)].as_ref()?;
-            let along = s.direction[0] * own.direction[0] + s.direction[1] * own.direction[1];
+            let along = s.direction.dot(own.direction);
             s.ends[if along < 0.0 { 1 - side } else { side }]
         };
         let gradient = gradient_at(cell, grid, spacing, &end);

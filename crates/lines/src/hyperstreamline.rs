@@ -1,6 +1,7 @@
 //! Hyperstreamlines: lines along one axis, as wide as the other.
 
 use crate::{Family, Interpolated, TensorLine};
+use tigereye_core::Point;
 
 /// Half of a hyperstreamline's width at every point of its line, in the unit of [`tigereye_core::CellShape`]: `scale`
 /// times the half-length of the other axis, or the magnitude of the other eigenvalue (Delmarcelle and Hesselink,
@@ -8,7 +9,7 @@ use crate::{Family, Interpolated, TensorLine};
 /// as its cross section). 0 where the tensor is zero, not a number where it is none.
 #[must_use]
 pub fn half_widths(field: &Interpolated<'_>, line: &TensorLine, family: Family, scale: f64) -> Vec<f64> {
-    let width = |p: &[f64; 2]| {
+    let width = |p: &Point| {
         let values = field.at(*p).and_then(|t| field.axes().values(&t));
         values.map_or(f64::NAN, |v| scale * v[1 - family as usize].abs())
     };
@@ -29,15 +30,16 @@ mod tests {
         });
         for axes in [Axes::HalfAxes, Axes::Eigenvectors] {
             let between = Interpolated::new(&field).with_axes(axes);
-            let line =
-                tensor_line(&between, [2.0, 5.0], Family::Major, &LineOptions::default(), &mut |_| true);
+            let through = |family: Family| {
+                tensor_line(&between, Point::new(2.0, 5.0), family, &LineOptions::default(), &mut |_| true)
+            };
+            let line = through(Family::Major);
             let widths = half_widths(&between, &line, Family::Major, 0.1);
             assert!(line.points.len() > 50);
             for (p, w) in line.points.iter().zip(&widths) {
-                assert!((w - 0.1 * (1.0 + p[0])).abs() < 1e-12, "{p:?} {w}");
+                assert!((w - 0.1 * (1.0 + p.x)).abs() < 1e-12, "{p:?} {w}");
             }
-            let across =
-                tensor_line(&between, [2.0, 5.0], Family::Minor, &LineOptions::default(), &mut |_| true);
+            let across = through(Family::Minor);
             let widths = half_widths(&between, &across, Family::Minor, 0.1);
             assert!(widths.iter().all(|w| (w - 3.2).abs() < 1e-12));
         }

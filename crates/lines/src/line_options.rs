@@ -75,7 +75,3 @@ impl LineOptions {
         tolerance && self.step > 0.0 && self.step.is_finite() && self.length / self.step <= Self::MAX_STEPS
     }
 }
-
-pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    tigereye_core::math::hypot(a[0] - b[0], a[1] - b[1])
-}

@@ -1,13 +1,14 @@
 //! How far points are from lines.
 
 use crate::Polylines;
-use tigereye_core::math;
+use euclid::Vector2D;
+use tigereye_core::{Point, length};
 
 /// The segments of lines, sorted into squares, to ask for the nearest.
 #[derive(Clone, Debug)]
 pub struct NearestSegment {
-    segments: Vec<[[f64; 2]; 2]>,
-    low: [f64; 2],
+    segments: Vec<[Point; 2]>,
+    low: Point,
     side: f64,
     squares: [usize; 2],
     /// Segments of square i are `entries[starts[i]..starts[i + 1]]`.
@@ -25,17 +26,14 @@ impl NearestSegment {
             let single = (l.points.len() == 1).then(|| [l.points[0]; 2]);
             l.segments().chain(single)
         });
-        let segments: Vec<_> =
-            all.map(at).filter(|s| s.as_flattened().iter().all(|v| v.is_finite())).collect();
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for p in segments.iter().flatten() {
-            for d in 0..2 {
-                (low[d], high[d]) = (low[d].min(p[d]), high[d].max(p[d]));
-            }
+        let segments: Vec<_> = all.map(at).filter(|s| s.iter().all(|p| p.is_finite())).collect();
+        let (mut low, mut high) = (Point::splat(f64::INFINITY), Point::splat(f64::NEG_INFINITY));
+        for &p in segments.iter().flatten() {
+            (low, high) = (low.min(p), high.max(p));
         }
         let mut found =
             Self { segments, low, side: 1.0, squares: [1, 1], starts: Vec::new(), entries: Vec::new() };
-        found.choose_squares([0, 1].map(|d| (high[d] - low[d]).max(0.0)));
+        found.choose_squares((high - low).max(Vector2D::zero()).to_array());
         found.sort_in();
         found
     }
@@ -43,7 +41,7 @@ impl NearestSegment {
     /// Squares so large that there are about as many as segments, and no more pieces of segments than four times that.
     fn choose_squares(&mut self, extent: [f64; 2]) {
         let count = self.segments.len().max(1) as f64;
-        let total: f64 = self.segments.iter().map(|[p, q]| math::hypot(q[0] - p[0], q[1] - p[1])).sum();
+        let total: f64 = self.segments.iter().map(|[p, q]| length(*q - *p)).sum();
         let by_area = (extent[0] * extent[1] / count).sqrt();
         let side = by_area.max(total / (4.0 * count)).max(extent[0].max(extent[1]) / count);
         if side > 0.0 && side.is_finite() {
@@ -56,16 +54,18 @@ impl NearestSegment {
         }
     }
 
-    fn square(&self, p: [f64; 2]) -> [usize; 2] {
-        [0, 1].map(|d| (((p[d] - self.low[d]) / self.side).max(0.0) as usize).min(self.squares[d] - 1))
+    fn square(&self, p: Point) -> [usize; 2] {
+        let index = |offset: f64, squares: usize| ((offset / self.side).max(0.0) as usize).min(squares - 1);
+        let offset = p - self.low;
+        [index(offset.x, self.squares[0]), index(offset.y, self.squares[1])]
     }
 
     fn sort_in(&mut self) {
         let mut pairs: Vec<(u32, u32)> = Vec::new();
-        for (i, [p, q]) in self.segments.iter().enumerate() {
+        for (i, &[p, q]) in self.segments.iter().enumerate() {
             // Pieces no longer than a square touch at most four.
-            let pieces = (math::hypot(q[0] - p[0], q[1] - p[1]) / self.side).ceil().max(1.0);
-            let on = |t: f64| self.square([0, 1].map(|d| p[d] + t * (q[d] - p[d])));
+            let pieces = (length(q - p) / self.side).ceil().max(1.0);
+            let on = |t: f64| self.square(p + (q - p) * t);
             for n in 0..pieces as usize {
                 let (a, b) = (on(n as f64 / pieces), on((n + 1) as f64 / pieces));
                 for y in a[1].min(b[1])..=a[1].max(b[1]) {
@@ -90,8 +90,8 @@ impl NearestSegment {
     /// Distance of a point to the nearest segment, in cells; `None` where there is no segment or the point is not
     /// finite.
     #[must_use]
-    pub fn distance(&self, point: [f64; 2]) -> Option<f64> {
-        if self.segments.is_empty() || point.iter().any(|v| !v.is_finite()) {
+    pub fn distance(&self, point: Point) -> Option<f64> {
+        if self.segments.is_empty() || !point.is_finite() {
             return None;
         }
         let centre = self.square(point);
@@ -107,7 +107,7 @@ impl NearestSegment {
         Some(best)
     }
 
-    fn each_in_ring(&self, [cx, cy]: [usize; 2], ring: usize, mut f: impl FnMut([[f64; 2]; 2])) {
+    fn each_in_ring(&self, [cx, cy]: [usize; 2], ring: usize, mut f: impl FnMut([Point; 2])) {
         for y in cy.saturating_sub(ring)..=(cy + ring).min(self.squares[1] - 1) {
             let edge = y.abs_diff(cy) == ring;
             let inner = [cx.checked_sub(ring), Some(cx + ring).filter(|_| ring > 0)];
@@ -130,12 +130,11 @@ impl NearestSegment {
 }
 
 /// Distance of a point to a segment.
-fn distance_to([p, q]: [[f64; 2]; 2], point: [f64; 2]) -> f64 {
-    let along = [q[0] - p[0], q[1] - p[1]];
-    let to = [point[0] - p[0], point[1] - p[1]];
-    let size = along[0] * along[0] + along[1] * along[1];
-    let t = if size > 0.0 { ((to[0] * along[0] + to[1] * along[1]) / size).clamp(0.0, 1.0) } else { 0.0 };
-    math::hypot(to[0] - t * along[0], to[1] - t * along[1])
+fn distance_to([p, q]: [Point; 2], point: Point) -> f64 {
+    let (along, to) = (q - p, point - p);
+    let size = along.square_length();
+    let t = if size > 0.0 { (to.dot(along) / size).clamp(0.0, 1.0) } else { 0.0 };
+    length(to - along * t)
 }
 
 #[cfg(test)]
@@ -156,10 +155,10 @@ mod tests {
         let mut random = random();
         // Short steps, long ones, all in one row, all in one point.
         for (steps, width, height) in [(300, 0.4, 0.4), (40, 30.0, 20.0), (50, 10.0, 0.0), (5, 0.0, 0.0)] {
-            let mut at = [0.0, 0.0];
+            let mut at = Point::zero();
             let mut lines = Polylines::default();
             for i in 0..steps {
-                at = [at[0] + width * (random() - 0.4), at[1] + height * (random() - 0.5)];
+                at += Vector2D::new(width * (random() - 0.4), height * (random() - 0.5));
                 lines.points.push(at);
                 if i % 20 == 0 {
                     lines.lines.push(Polyline { points: Vec::new(), closed: i % 40 == 0 });
@@ -169,7 +168,7 @@ mod tests {
             let nearest = NearestSegment::new(&lines);
             assert!(nearest.entries.len() < 50 * steps as usize);
             for _ in 0..500 {
-                let p = [40.0 * random() - 20.0, 30.0 * random() - 15.0];
+                let p = Point::new(40.0 * random() - 20.0, 30.0 * random() - 15.0);
                 let brute = nearest.segments.iter().map(|s| distance_to(*s, p)).fold(f64::INFINITY, f64::min);
                 assert_eq!(nearest.distance(p), Some(brute));
             }
@@ -178,9 +177,9 @@ mod tests {
 
     #[test]
     fn nothing_is_near_to_nothing() {
-        assert_eq!(NearestSegment::new(&Polylines::default()).distance([0.0, 0.0]), None);
+        assert_eq!(NearestSegment::new(&Polylines::default()).distance(Point::zero()), None);
         let lines = Polylines {
-            points: vec![[1.0, 1.0], [f64::NAN, 0.0], [4.0, 5.0]],
+            points: [(1.0, 1.0), (f64::NAN, 0.0), (4.0, 5.0)].map(Point::from).to_vec(),
             lines: vec![
                 Polyline { points: vec![0, 1], closed: false },
                 Polyline { points: vec![], closed: true },
@@ -188,7 +187,7 @@ mod tests {
             ],
         };
         let nearest = NearestSegment::new(&lines);
-        assert_eq!(nearest.distance([1.0, 1.0]), Some(5.0));
-        assert_eq!(nearest.distance([f64::INFINITY, 1.0]), None);
+        assert_eq!(nearest.distance(Point::new(1.0, 1.0)), Some(5.0));
+        assert_eq!(nearest.distance(Point::new(f64::INFINITY, 1.0)), None);
     }
 }

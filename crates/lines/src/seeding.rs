@@ -1,8 +1,8 @@
 //! Lines that cover a field evenly.
 
-use crate::line_options::distance;
 use crate::{Family, Interpolated, LineEnd, LineOptions, TensorLine, tensor_line};
 use std::collections::VecDeque;
+use tigereye_core::{PhysicalPoint, Point, Vector, length};
 
 /// Lines end closer to each other than they begin, by this factor (Jobard and Lefer).
 const CLOSEST: f64 = 0.5;
@@ -25,18 +25,18 @@ pub fn evenly_spaced(
     options: &LineOptions,
 ) -> Vec<TensorLine> {
     let separation = if separation >= 0.1 { separation } else { 0.1 };
-    let [right, bottom] = field.extent();
+    let last = field.last();
     let cell = field.cell();
-    let mut covered = Covered::new(cell.physical([right, bottom]), separation);
+    let mut covered = Covered::new(cell.physical(last), separation);
     let mut lines: Vec<TensorLine> = Vec::new();
     let mut queue = VecDeque::new();
     let mut points = 0;
-    let middle = [0.5 * right, 0.5 * bottom];
+    let middle = last * 0.5;
     // Half a distance leaves no gap that a line would fit into.
     let stride = (0.5 * separation).max(1.0);
-    let [dx, dy] = cell.in_cells([stride; 2]);
+    let [dx, dy] = cell.sides().map(|side| stride / side);
     let along = move |last: f64, step: f64| (0..=(last / step) as usize).map(move |i| i as f64 * step);
-    let everywhere = along(bottom, dy).flat_map(|y| along(right, dx).map(move |x| [x, y]));
+    let everywhere = along(last.y, dy).flat_map(|y| along(last.x, dx).map(move |x| Point::new(x, y)));
     for start in std::iter::once(middle).chain(everywhere) {
         queue.push_back(start);
         while let Some(seed) = queue.pop_front() {
@@ -49,7 +49,7 @@ pub fn evenly_spaced(
             if line.points.len() < 2 || line.length(cell) < SHORTEST * separation {
                 continue;
             }
-            let physical: Vec<[f64; 2]> = line.points.iter().map(|p| cell.physical(*p)).collect();
+            let physical: Vec<PhysicalPoint> = line.points.iter().map(|p| cell.physical(*p)).collect();
             covered.add(&physical);
             queue.extend(beside(&physical, separation).into_iter().map(|p| cell.in_cells(p)));
             points += line.points.len();
@@ -62,16 +62,17 @@ pub fn evenly_spaced(
     lines
 }
 
-/// Points to both sides of a line, all physical.
-fn beside(line: &[[f64; 2]], separation: f64) -> Vec<[f64; 2]> {
+/// Points to both sides of a line.
+fn beside(line: &[PhysicalPoint], separation: f64) -> Vec<PhysicalPoint> {
     let mut seeds = Vec::new();
     for p in line.windows(2).step_by(4) {
-        let size = distance(p[0], p[1]);
+        let along = p[1] - p[0];
+        let size = length(along);
         if size > 0.0 {
-            let across = [-(p[1][1] - p[0][1]) / size, (p[1][0] - p[0][0]) / size];
+            let across = Vector::new(along.y, -along.x) / size;
             // A little more, so that rounding does not make it too near.
             for side in [1.0 + 1e-9, -1.0 - 1e-9] {
-                seeds.push([0, 1].map(|i| p[0][i] + side * separation * across[i]));
+                seeds.push(p[0] + across * (side * separation));
             }
         }
     }
@@ -80,7 +81,7 @@ fn beside(line: &[[f64; 2]], separation: f64) -> Vec<[f64; 2]> {
 
 /// Physical points of finished lines, in squares.
 struct Covered {
-    squares: Vec<Vec<[f64; 2]>>,
+    squares: Vec<Vec<PhysicalPoint>>,
     columns: usize,
     rows: usize,
     side: f64,
@@ -94,21 +95,23 @@ const MAX_SQUARES: f64 = 1024.0;
 const GRAIN: f64 = 0.1;
 
 impl Covered {
-    fn new([right, bottom]: [f64; 2], separation: f64) -> Self {
+    /// For points from the origin to `last`, which is to the right and below.
+    fn new(last: PhysicalPoint, separation: f64) -> Self {
+        let (right, bottom) = (last.x, -last.y);
         let side = separation.max(right.max(bottom) / MAX_SQUARES);
         let (columns, rows) = ((right / side) as usize + 1, (bottom / side) as usize + 1);
         Self { squares: vec![Vec::new(); columns * rows], columns, rows, side, grain: GRAIN * separation }
     }
 
-    fn square(&self, p: [f64; 2]) -> (usize, usize) {
+    fn square(&self, p: PhysicalPoint) -> (usize, usize) {
         let index = |v: f64, n: usize| ((v / self.side).max(0.0) as usize).min(n - 1);
-        (index(p[0], self.columns), index(p[1], self.rows))
+        (index(p.x, self.columns), index(-p.y, self.rows))
     }
 
-    fn add(&mut self, line: &[[f64; 2]]) {
+    fn add(&mut self, line: &[PhysicalPoint]) {
         let mut last = None;
         for (i, p) in line.iter().enumerate() {
-            if i + 1 < line.len() && last.is_some_and(|q| distance(*p, q) < self.grain) {
+            if i + 1 < line.len() && last.is_some_and(|q| length(*p - q) < self.grain) {
                 continue;
             }
             last = Some(*p);
@@ -118,11 +121,10 @@ impl Covered {
     }
 
     /// Whether a point is within `reach`, at most a square's side.
-    fn is_near(&self, p: [f64; 2], reach: f64) -> bool {
+    fn is_near(&self, p: PhysicalPoint, reach: f64) -> bool {
         let (x, y) = self.square(p);
         let around = |v: usize, n: usize| v.saturating_sub(1)..(v + 2).min(n);
-        let near =
-            |q: &[f64; 2]| (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) < reach * reach;
+        let near = |q: &PhysicalPoint| (p - *q).square_length() < reach * reach;
         around(y, self.rows)
             .any(|y| around(x, self.columns).any(|x| self.squares[y * self.columns + x].iter().any(near)))
     }
@@ -151,7 +153,7 @@ mod tests {
         let lines = evenly_spaced(&between, Family::Major, separation, &LineOptions::default());
         for (i, a) in lines.iter().enumerate() {
             for b in &lines[i + 1..] {
-                let closest = a.points.iter().flat_map(|p| b.points.iter().map(|q| distance(*p, *q)));
+                let closest = a.points.iter().flat_map(|p| b.points.iter().map(|q| length(*p - *q)));
                 // Half of a grain may lie between the points that are compared.
                 let least = (CLOSEST - 0.5 * GRAIN) * separation;
                 assert!(closest.fold(f64::INFINITY, f64::min) >= least);
@@ -159,8 +161,8 @@ mod tests {
         }
         for y in 0..21 {
             for x in 0..31 {
-                let p = [f64::from(x), f64::from(y)];
-                let near = lines.iter().flat_map(|l| &l.points).map(|q| distance(p, *q));
+                let p = Point::new(f64::from(x), f64::from(y));
+                let near = lines.iter().flat_map(|l| &l.points).map(|q| length(p - *q));
                 assert!(near.fold(f64::INFINITY, f64::min) < 1.5 * separation, "{p:?}");
             }
         }

@@ -1,10 +1,12 @@
 //! Lines and surfaces as points with lists of indices.
 
+use tigereye_core::{Point, math};
+
 /// Connected lines over shared points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polylines {
-    /// Points `[x, y]` in cells (y downwards).
-    pub points: Vec<[f64; 2]>,
+    /// The points.
+    pub points: Vec<Point>,
     /// The lines.
     pub lines: Vec<Polyline>,
 }
@@ -22,11 +24,10 @@ impl Polylines {
     /// Length of a line in cells, each axis counted `cell` times.
     #[must_use]
     pub fn length(&self, line: &Polyline, cell: [f64; 2]) -> f64 {
-        let scaled = |i: u32| self.points[i as usize];
         line.segments()
-            .map(|[a, b]| {
-                let (p, q) = (scaled(a), scaled(b));
-                tigereye_core::math::hypot(cell[0] * (q[0] - p[0]), cell[1] * (q[1] - p[1]))
+            .map(|ends| {
+                let [p, q] = ends.map(|i| self.points[i as usize]);
+                math::hypot(cell[0] * (q.x - p.x), cell[1] * (q.y - p.y))
             })
             .sum()
     }

@@ -5,7 +5,7 @@ use crate::{
     Axes, DegeneratePoint, Family, Interpolated, LineOptions, Major, TensorLine, degenerate_points, half_line,
 };
 use core::f64::consts::{PI, TAU};
-use tigereye_core::math;
+use tigereye_core::{Point, Vector, math};
 
 /// A line that leaves a degenerate point between two sectors of which one at least is hyperbolic.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,8 +76,8 @@ fn separatrices_of(
     // Near the point the axes differ by little; what ends a line there is another point, where they turn.
     let options = &LineOptions { least_anisotropy: LEAST, ..*options };
     let leave = |angle: f64| {
-        let direction = [math::cos(angle), -math::sin(angle)];
-        let start = field.ahead(centre, direction, radius);
+        let direction = Vector::new(math::cos(angle), math::sin(angle));
+        let start = field.cell().ahead(centre, direction, radius);
         let mut line = half_line(field, start, direction, family, options);
         line.points.insert(0, centre);
         line.seed = 0;
@@ -93,14 +93,14 @@ struct Ring {
 }
 
 impl Ring {
-    fn around(field: &Interpolated<'_>, centre: [f64; 2], radius: f64, family: Family) -> Option<Self> {
+    fn around(field: &Interpolated<'_>, centre: Point, radius: f64, family: Family) -> Option<Self> {
         let mut ahead: Vec<f64> = Vec::with_capacity(AROUND + 1);
         for i in 0..=AROUND {
             // Not at multiples of 45 degrees, where roots often are.
             let angle = TAU * (i as f64 + 0.37) / AROUND as f64;
-            let at = field.ahead(centre, [math::cos(angle), -math::sin(angle)], radius);
-            let [x, y] = field.direction(at, family, LEAST)?;
-            let off = math::atan2(-y, x) - angle;
+            let radial = Vector::new(math::cos(angle), math::sin(angle));
+            let axis = field.direction(field.cell().ahead(centre, radial, radius), family, LEAST)?;
+            let off = math::atan2(axis.y, axis.x) - angle;
             // The axis has no sign: the nearest of its angles.
             let last = ahead.last().copied().unwrap_or(off);
             ahead.push(off + PI * ((last - off) / PI).round());
@@ -152,7 +152,7 @@ mod tests {
         let angle = |s: &Separatrix| {
             let (a, b) = (s.line.points[0], s.line.points[1]);
             // 0 and not 360 where rounding is below 0.
-            (math::degrees(math::atan2(a[1] - b[1], b[0] - a[0])) + 1.0).rem_euclid(360.0) - 1.0
+            (math::degrees(math::atan2(a.y - b.y, b.x - a.x)) + 1.0).rem_euclid(360.0) - 1.0
         };
         let mut angles: Vec<f64> = topology.separatrices.iter().map(angle).collect();
         angles.sort_by(f64::total_cmp);

@@ -1,7 +1,7 @@
 //! Steps along an axis.
 
-use crate::line_options::distance;
 use crate::{Family, Interpolated, LineEnd, LineOptions, Method};
+use tigereye_core::{Point, Vector, length};
 
 /// Cosine of the largest turn from one stage of a step to the next, 30 degrees, which fourth order follows well.
 const LARGEST_TURN: f64 = 0.866;
@@ -25,8 +25,8 @@ pub(crate) struct Walk<'a> {
 /// ([`crate::Frame::contrast`]).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pose {
-    pub(crate) at: [f64; 2],
-    pub(crate) towards: [f64; 2],
+    pub(crate) at: Point,
+    pub(crate) towards: Vector,
     pub(crate) contrast: f64,
 }
 
@@ -58,7 +58,7 @@ struct Step {
 }
 
 /// An axis, and what tells it from the other one.
-type Slope = ([f64; 2], f64);
+type Slope = (Vector, f64);
 
 /// Coefficients of Dormand and Prince: of the slopes before each stage, and the difference of both orders.
 const STAGES: [&[f64]; 6] = [
@@ -74,7 +74,7 @@ const ERROR: [f64; 7] =
 
 impl Walk<'_> {
     /// The beginning of a line along the axis at a point, with the sign that is nearer to `towards`.
-    pub(crate) fn begin(&self, at: [f64; 2], towards: [f64; 2]) -> Result<Progress, LineEnd> {
+    pub(crate) fn begin(&self, at: Point, towards: Vector) -> Result<Progress, LineEnd> {
         let (towards, contrast) = self.slope(at, towards)?;
         let pose = Pose { at, towards, contrast };
         Ok(Progress { pose, gone: 0.0, step: self.options.step, shortened: false, tries: 0.0 })
@@ -136,7 +136,7 @@ impl Walk<'_> {
     }
 
     /// The direction at a point, coming from `towards`.
-    fn slope(&self, at: [f64; 2], towards: [f64; 2]) -> Result<Slope, LineEnd> {
+    fn slope(&self, at: Point, towards: Vector) -> Result<Slope, LineEnd> {
         let least = if self.options.inertia.is_some() { 0.0 } else { self.options.least_anisotropy };
         let Some(frame) = self.field.frame(at, least) else {
             return match (self.field.at(at), self.options.inertia) {
@@ -146,27 +146,25 @@ impl Walk<'_> {
                 (None, _) => Err(LineEnd::Border),
             };
         };
-        let downwards = |[x, y]: [f64; 2]| [x, -y];
-        let along = downwards(frame.axes[self.family as usize]);
-        let cosine = along[0] * towards[0] + along[1] * towards[1];
+        let along = frame.axes[self.family as usize];
+        let cosine = along.dot(towards);
         let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
-        let along = along.map(|v| sign * v);
+        let along = along * sign;
         let Some(inertia) = self.options.inertia else {
             let turns = cosine.abs() < LARGEST_TURN;
             return if turns { Err(LineEnd::Degenerate) } else { Ok((along, frame.contrast)) };
         };
-        let across = downwards(frame.axes[1 - self.family as usize]);
+        let across = frame.axes[1 - self.family as usize];
         let [longer, shorter] = {
             let [a, b] = frame.values.map(f64::abs);
             [a.max(b), a.min(b)]
         };
         let ratio = if longer > 0.0 { shorter / longer } else { 1.0 };
-        let other = across[0] * towards[0] + across[1] * towards[1];
+        let other = across.dot(towards);
         // The component along the line's own axis stays, the other one shrinks.
-        let turned = unit([0, 1].map(|i| cosine.abs() * along[i] + ratio * other * across[i]));
+        let turned = unit(along * cosine.abs() + across * (ratio * other));
         let w = inertia.puncture;
-        let mixed =
-            [0, 1].map(|i| (1.0 - ratio) * along[i] + ratio * ((1.0 - w) * towards[i] + w * turned[i]));
+        let mixed = along * (1.0 - ratio) + (towards * (1.0 - w) + turned * w) * ratio;
         Ok((unit(mixed), 0.0))
     }
 
@@ -181,35 +179,41 @@ impl Walk<'_> {
     }
 
     fn runge_kutta(&self, from: Pose, h: f64) -> Result<Step, LineEnd> {
-        let ahead = |k: [f64; 2], h: f64| self.field.ahead(from.at, k, h);
+        let ahead = |k: Vector, h: f64| self.field.cell().ahead(from.at, k, h);
         // The step before ended with the slope that this one begins with.
         let a = from.towards;
         let (b, first) = self.slope(ahead(a, 0.5 * h), a)?;
         let (c, second) = self.slope(ahead(b, 0.5 * h), b)?;
         let (d, _) = self.slope(ahead(c, h), c)?;
-        let mean = [0, 1].map(|i| (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]) / 6.0);
+        let mean = (a + b * 2.0 + c * 2.0 + d) / 6.0;
         let at = ahead(mean, h);
         let (towards, contrast) = self.slope(at, d)?;
         Ok(Step { pose: Pose { at, towards, contrast }, least: first.min(second).min(contrast), error: 0.0 })
     }
 
     fn dormand_prince(&self, from: Pose, h: f64, tolerance: f64) -> Result<Step, LineEnd> {
-        let mut slopes = [[0.0; 2]; 7];
+        let mut slopes = [Vector::zero(); 7];
         slopes[0] = from.towards;
         let (mut at, mut contrast, mut least) = (from.at, 0.0, f64::INFINITY);
         for (i, weights) in STAGES.iter().enumerate() {
-            let mean = |k: usize| weights.iter().zip(&slopes).map(|(w, s)| w * s[k]).sum::<f64>();
-            at = self.field.ahead(from.at, [0, 1].map(mean), h);
+            at = self.field.cell().ahead(from.at, weighted(weights, &slopes), h);
             (slopes[i + 1], contrast) = self.slope(at, slopes[i])?;
             least = least.min(contrast);
         }
-        let off = [0, 1].map(|k| h * ERROR.iter().zip(&slopes).map(|(w, s)| w * s[k]).sum::<f64>());
+        let off = weighted(&ERROR, &slopes) * h;
         let pose = Pose { at, towards: slopes[6], contrast };
-        Ok(Step { pose, least, error: distance(off, [0.0; 2]) / tolerance })
+        Ok(Step { pose, least, error: length(off) / tolerance })
     }
 }
 
-fn unit(v: [f64; 2]) -> [f64; 2] {
-    let size = distance(v, [0.0; 2]);
-    if size > 0.0 { v.map(|c| c / size) } else { v }
+fn weighted(weights: &[f64], slopes: &[Vector]) -> Vector {
+    let of = |component: fn(&Vector) -> f64| {
+        weights.iter().zip(slopes).map(|(w, s)| w * component(s)).sum::<f64>()
+    };
+    Vector::new(of(|s| s.x), of(|s| s.y))
+}
+
+fn unit(v: Vector) -> Vector {
+    let size = length(v);
+    if size > 0.0 { v / size } else { v }
 }

@@ -7,7 +7,7 @@ use crate::error::RenderError;
 use crate::font;
 use crate::legend::{self, Entry, Mark, SMALL_PX};
 use crate::map_frame::{MARGIN_PX, TITLE_PX};
-use crate::scene::{Anchor, Scene};
+use crate::scene::{Anchor, PagePoint, Scene};
 use crate::shapes::Marker;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint};
@@ -196,7 +196,7 @@ impl Plan {
         let area = plot.plotting_area();
         let place = |u: f64, v: f64| {
             let (x, y) = area.map_coordinate(&(u, v));
-            [f64::from(x) / f64::from(UNITS), f64::from(y) / f64::from(UNITS)]
+            PagePoint::new(f64::from(x) / f64::from(UNITS), f64::from(y) / f64::from(UNITS))
         };
         self.draw_markers(chart, &mut canvas.borrow_mut().scene, place);
         Ok(())
@@ -227,7 +227,7 @@ impl Plan {
         Ok(())
     }
 
-    fn draw_markers(&self, chart: &Chart, scene: &mut Scene, place: impl Fn(f64, f64) -> [f64; 2]) {
+    fn draw_markers(&self, chart: &Chart, scene: &mut Scene, place: impl Fn(f64, f64) -> PagePoint) {
         for (i, series) in chart.series.iter().enumerate() {
             let points: Vec<(f64, f64)> =
                 series.points.iter().copied().filter(|p| fits(*p, chart)).map(|p| self.position(p)).collect();

@@ -4,8 +4,8 @@ use crate::axis;
 use crate::colour::Rgba;
 use crate::font;
 use crate::legend::{self, Entry, SMALL_PX};
-use crate::scene::{Anchor, PathBuilder, Scene};
-use tigereye_core::{Cell, CellShape, Grid};
+use crate::scene::{Anchor, PagePoint, PathBuilder, Scene};
+use tigereye_core::{Cell, CellShape, Grid, Point};
 
 /// Margin around pictures in pixels.
 pub(crate) const MARGIN_PX: f64 = 16.0;
@@ -63,13 +63,14 @@ impl MapFrame {
     }
 
     /// Centre of a cell in pixels.
-    pub(crate) fn centre(&self, cell: Cell) -> [f64; 2] {
-        self.point(cell.x as f64, cell.y as f64)
+    pub(crate) fn centre(&self, cell: Cell) -> PagePoint {
+        self.point(cell.centre())
     }
 
-    /// Pixels of a point given in cells: (0, 0) is the centre of the upper left cell, y downwards.
-    pub(crate) fn point(&self, x: f64, y: f64) -> [f64; 2] {
-        [self.left + (x + 0.5) * self.cell[0], self.top + (y + 0.5) * self.cell[1]]
+    /// Where a point of the grid lies on the page.
+    pub(crate) fn point(&self, p: Point) -> PagePoint {
+        let [width, height] = self.cell;
+        PagePoint::new(self.left + (p.x + 0.5) * width, self.top + (p.y + 0.5) * height)
     }
 
     /// The outlines of `cells`.
@@ -89,7 +90,7 @@ impl MapFrame {
         }
         let mut path = PathBuilder::default();
         for c in cells {
-            let [x, y] = self.centre(*c);
+            let PagePoint { x, y, .. } = self.centre(*c);
             let [r, s] = self.cell.map(|side| 0.5 * side);
             path.line([x - r, y + s], [x + r, y - s]);
         }
@@ -140,12 +141,12 @@ impl MapFrame {
         frame.rect(left, top, width, height);
         let mut numbers = Vec::new();
         for x in axis::cell_ticks(self.grid.width(), self.cell[0], 40.0) {
-            let at = self.point(x as f64, 0.0)[0];
+            let at = self.point(Point::new(x as f64, 0.0)).x;
             frame.line([at, top + height], [at, top + height + 4.0]);
             numbers.push(([at, top + height + 16.0], x.to_string(), Anchor::Middle));
         }
         for y in axis::cell_ticks(self.grid.height(), self.cell[1], 40.0) {
-            let at = self.point(0.0, y as f64)[1];
+            let at = self.point(Point::new(0.0, y as f64)).y;
             frame.line([left - 4.0, at], [left, at]);
             let baseline = at + 0.5 * font::CAP_HEIGHT_EM * SMALL_PX;
             numbers.push(([left - 7.0, baseline], y.to_string(), Anchor::End));

@@ -4,7 +4,7 @@ use crate::legend::Entry;
 use crate::map_frame::{self, MapFrame};
 use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
-use crate::scene::{PathBuilder, Scene};
+use crate::scene::{PagePoint, PathBuilder, Scene};
 use crate::{Rgba, legend::Mark};
 use tigereye_core::{Cell, CellShape, Grid};
 
@@ -45,7 +45,7 @@ pub fn plain_map(grid: Grid, options: &PlainOptions) -> Scene {
     for (cells, colour) in [(&options.shaded, SHADE), (&options.missing, Rgba::NOT_FINITE)] {
         let mut squares = PathBuilder::default();
         for c in cells {
-            let ([x, y], [width, height]) = (page.centre(*c), cell);
+            let (PagePoint { x, y, .. }, [width, height]) = (page.centre(*c), cell);
             squares.rect(x - 0.5 * width, y - 0.5 * height, width, height);
         }
         if !squares.is_empty() {
@@ -70,10 +70,11 @@ pub fn plain_map(grid: Grid, options: &PlainOptions) -> Scene {
 mod tests {
     use super::*;
     use crate::scene::Item;
+    use tigereye_core::Point;
 
     #[test]
     fn lines_and_points_are_there_with_their_names() {
-        let overlay = |label: &str, points: &[[f64; 2]]| Overlay {
+        let overlay = |label: &str, points: &[Point]| Overlay {
             label: label.to_owned(),
             points: points.to_vec(),
             ..Overlay::default()
@@ -81,7 +82,7 @@ mod tests {
         let options = PlainOptions {
             title: "a field".to_owned(),
             description: "Lines".to_owned(),
-            overlays: vec![overlay("a line", &[[0.0, 0.0], [3.0, 2.0]])],
+            overlays: vec![overlay("a line", &[Point::new(0.0, 0.0), Point::new(3.0, 2.0)])],
             missing: vec![Cell::new(1, 1)],
             missing_label: "no tensor".to_owned(),
             shaded: vec![Cell::new(2, 1)],

@@ -3,7 +3,7 @@
 use crate::colour::Rgba;
 use crate::error::RenderError;
 use crate::font;
-use crate::scene::{Item, Path, Raster, Scene, Segment, Stroke, Text};
+use crate::scene::{Item, PagePoint, Path, Raster, Scene, Segment, Stroke, Text};
 use tigereye_core::math;
 use tiny_skia::{
     Color, FillRule, FilterQuality, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PixmapPaint, StrokeDash,
@@ -150,7 +150,7 @@ fn skia_stroke(stroke: &Stroke) -> tiny_skia::Stroke {
 
 fn skia_path(segments: &[Segment]) -> Option<tiny_skia::Path> {
     let mut path = PathBuilder::new();
-    let point = |p: [f64; 2]| (p[0] as f32, p[1] as f32);
+    let point = |p: PagePoint| (p.x as f32, p.y as f32);
     for segment in segments {
         match *segment {
             Segment::Move(p) => {

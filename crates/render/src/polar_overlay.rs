@@ -4,7 +4,7 @@ use crate::colour::Rgba;
 use crate::legend::{Entry, Mark};
 use crate::map_frame::{self, MapFrame};
 use crate::overlay::{self, Overlay};
-use crate::scene::{PathBuilder, Scene};
+use crate::scene::{PagePoint, PathBuilder, Scene};
 use crate::shapes;
 use crate::walls;
 use tigereye_core::{
@@ -262,7 +262,7 @@ fn outlined(colour: Rgba, opacity: f64, text: String) -> Entry {
 /// Adds a closed polar curve whose largest sample is `longest` pixels long.
 fn add_curve(
     path: &mut PathBuilder,
-    [x, y]: [f64; 2],
+    PagePoint { x, y, .. }: PagePoint,
     samples: &[f64],
     directions: Directions,
     longest: f64,
@@ -271,11 +271,11 @@ fn add_curve(
     if largest <= 0.0 || longest < INVISIBLE_PX {
         return;
     }
-    let mut points: Vec<[f64; 2]> = (0..samples.len())
+    let mut points: Vec<PagePoint> = (0..samples.len())
         .map(|t| {
             let share = if samples[t].is_finite() { (samples[t] / largest).clamp(0.0, 1.0) } else { 0.0 };
             let [ux, uy] = directions.unit(t);
-            [x + longest * share * ux, y - longest * share * uy]
+            PagePoint::new(x + longest * share * ux, y - longest * share * uy)
         })
         .collect();
     points.push(points[0]);

@@ -152,7 +152,7 @@ mod tests {
             ];
             let ends = [page.centre(Cell::new(0, 0)), page.centre(Cell::new(cells.0 - 1, cells.1 - 1))];
             // Rounding of some hundred pixels.
-            for (a, b) in [first, last].into_iter().flatten().zip(ends.into_iter().flatten()) {
+            for (a, b) in [first, last].into_iter().flatten().zip(ends.iter().flat_map(|p| p.to_array())) {
                 assert!((a - b).abs() < 1e-9, "{cells:?} {n}: {first:?} {last:?} {ends:?}");
             }
         }

@@ -4,7 +4,7 @@ use crate::colour::Rgba;
 use crate::error::RenderError;
 use crate::font;
 use crate::png_export::raster_png;
-use crate::scene::{Item, Path, Raster, Scene, Segment, Text};
+use crate::scene::{Item, PagePoint, Path, Raster, Scene, Segment, Text};
 use base64::Engine;
 use std::fmt::Write;
 
@@ -117,7 +117,8 @@ fn path_data(segments: &[Segment], unit: f64) -> String {
     let mut out = String::new();
     let mut pen = [0_i64; 2];
     let mut start = pen;
-    let rounded = |p: [f64; 2]| p.map(|v| if v.is_finite() { (v * unit).round() as i64 } else { 0 });
+    let rounded =
+        |p: PagePoint| p.to_array().map(|v| if v.is_finite() { (v * unit).round() as i64 } else { 0 });
     for segment in segments {
         match *segment {
             Segment::Move(p) => {

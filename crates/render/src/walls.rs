@@ -3,7 +3,7 @@
 use crate::colour::Rgba;
 use crate::legend::{Entry, Mark};
 use crate::map_frame::MapFrame;
-use crate::scene::{PathBuilder, Scene};
+use crate::scene::{PagePoint, PathBuilder, Scene};
 use tigereye_core::{Cell, Field, Surface, math};
 
 const ABSORBING: Rgba = Rgba::hex(0x3b3b3b);
@@ -97,7 +97,7 @@ fn outline(page: &mut MapFrame, cells: &[Cell], belongs: &dyn Fn(Cell) -> bool) 
     let mut rim = PathBuilder::default();
     let [r, s] = page.cell.map(|side| 0.5 * side);
     for cell in cells {
-        let [x, y] = page.centre(*cell);
+        let PagePoint { x, y, .. } = page.centre(*cell);
         let beside = |dx: isize, dy: isize| {
             let next = cell.x.checked_add_signed(dx).zip(cell.y.checked_add_signed(dy));
             next.is_some_and(|(x, y)| belongs(Cell::new(x, y)))
@@ -124,17 +124,18 @@ struct Marks {
 }
 
 impl Marks {
-    fn add(&mut self, surface: &Surface, [x, y]: [f64; 2], r: f64) {
+    fn add(&mut self, surface: &Surface, centre: PagePoint, r: f64) {
+        let PagePoint { x, y, .. } = centre;
         match surface {
             Surface::Absorbing | Surface::Crystal => {}
             // It faces all sides.
-            Surface::Mirror { angle_deg: None } => self.mirrors.circle([x, y], 0.5 * r),
+            Surface::Mirror { angle_deg: None } => self.mirrors.circle(centre, 0.5 * r),
             Surface::Mirror { angle_deg: Some(angle_deg) } => {
                 let angle = math::radians(*angle_deg);
                 let (dx, dy) = (0.8 * r * math::cos(angle), -0.8 * r * math::sin(angle));
                 self.mirrors.line([x - dx, y - dy], [x + dx, y + dy]);
             }
-            Surface::Diffuse { .. } => self.dots.circle([x, y], 0.22 * r),
+            Surface::Diffuse { .. } => self.dots.circle(centre, 0.22 * r),
             Surface::Filter { .. } => {
                 self.filters.line([x - r, y - r], [x + r, y + r]);
                 self.filters.line([x, y - r], [x + r, y]);
@@ -176,7 +177,7 @@ fn swatch(kind: Kind) -> Mark {
             Kind::Filter => Surface::Filter { transmittance: 0.5 },
             Kind::Crystal => Surface::Crystal,
         };
-        marks.add(&surface, [x, 0.0], 5.5);
+        marks.add(&surface, PagePoint::new(x, 0.0), 5.5);
     }
     marks.draw(&mut scene);
     Mark::Drawing(scene.items)

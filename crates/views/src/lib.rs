@@ -16,7 +16,7 @@ pub use overlays::{line_overlay, point_overlays};
 pub use reel::Reel;
 
 use std::ops::Range;
-use tigereye_core::{CellShape, Field, Grid, Tensor2};
+use tigereye_core::{CellShape, Field, Grid, Point, Tensor2};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{DataArray, FieldEntry, FieldValues, ImageData, PROVENANCE, PolyData, Rows};
 use tigereye_lines::{Axes, Following, is_complex};
@@ -36,10 +36,10 @@ impl Placement {
         Self { geometry, height: grid.height() }
     }
 
-    /// The place of a point in cells, y downwards.
+    /// Where a point of the grid lies in the world.
     #[must_use]
-    pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 3] {
-        self.geometry.place([x, (self.height - 1) as f64 - y])
+    pub fn place(&self, p: Point) -> [f64; 3] {
+        self.geometry.place([p.x, (self.height - 1) as f64 - p.y])
     }
 
     /// The shape of a cell.

@@ -1,7 +1,7 @@
 //! Line integral convolution: textures smeared along axes.
 
 use serde_json::{Value, json};
-use tigereye_core::{Anisotropy, Cell, Field, Tensor2};
+use tigereye_core::{Anisotropy, Cell, Field, Point, Tensor2};
 use tigereye_lines::{
     ConvolutionOptions, Family, Followed, Following, Interpolated, SamplingError, convolved, hyper_convolved,
 };
@@ -57,7 +57,7 @@ pub fn picture(
     let samples = request.samples_a_cell();
     let tint = tinted.then(|| {
         let between = Interpolated::new(field);
-        let at = |c: Cell| [c.x as f64 / samples[0] as f64, c.y as f64 / samples[1] as f64];
+        let at = |c: Cell| Point::new(c.x as f64 / samples[0] as f64, c.y as f64 / samples[1] as f64);
         let anisotropy = |c: Cell| between.at(at(c)).map_or(f64::NAN, |t| Anisotropy::of(&t).linear);
         Tint {
             values: Field::from_fn(texture.grid(), anisotropy),

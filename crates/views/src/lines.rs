@@ -2,7 +2,7 @@
 
 use super::{Placement, counts, line_overlay, plain_options, push_line, push_story};
 use thiserror::Error;
-use tigereye_core::{Field, Tensor2};
+use tigereye_core::{Field, Point, Tensor2};
 use tigereye_io::{DataArray, PolyData};
 use tigereye_lines::{
     Family, LineEnd, LineOptions, MAX_POINTS, TensorLine, evenly_spaced, half_widths, tensor_line,
@@ -18,8 +18,8 @@ const RIBBONS: [Rgba; 2] = [Rgba::hex(0x0072b2), Rgba::hex(0xd55e00)];
 pub enum Seeds {
     /// All over the field, that far apart, in the unit of the smaller side of a cell.
     Even(f64),
-    /// At these points, in cells, y downwards.
-    At(Vec<[f64; 2]>),
+    /// At these points.
+    At(Vec<Point>),
 }
 
 /// Which lines of a field.
@@ -129,7 +129,7 @@ impl FieldLines {
             let ribbon = &mut ribbons[line.family as usize];
             ribbon.points.extend(&line.line.points);
             ribbon.half_widths.extend(&line.half_widths);
-            ribbon.points.push([f64::NAN; 2]);
+            ribbon.points.push(Point::splat(f64::NAN));
             ribbon.half_widths.push(f64::NAN);
         }
         ribbons.into_iter().filter(|r| !r.points.is_empty()).collect()
@@ -194,7 +194,9 @@ pub fn parameters(request: &LinesRequest) -> serde_json::Value {
     use tigereye_lines::Method;
     let seeds = match &request.seeds {
         Seeds::Even(separation) => serde_json::json!({ "separation": separation }),
-        Seeds::At(points) => serde_json::json!(points),
+        Seeds::At(points) => {
+            serde_json::json!(points.iter().map(|p| p.to_array()).collect::<Vec<_>>())
+        }
     };
     let o = &request.options;
     let (method, tolerance) = match o.method {

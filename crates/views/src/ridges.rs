@@ -3,7 +3,7 @@
 use super::{push_line, push_story};
 use serde_json::Value;
 use thiserror::Error;
-use tigereye_core::{Cell, CellShape, Field, Grid, math};
+use tigereye_core::{Cell, CellShape, Field, Grid, Point, math};
 use tigereye_io::{DataArray, ImageData, IoError, LTG_ARRAY, PROVENANCE, PolyData, Rows};
 use tigereye_lines::{
     ExtractionError, Polyline, Polylines, RidgeOptions, Surface, Volume, isolines, isosurface, ridge_lines,
@@ -277,7 +277,7 @@ impl Found {
                 for line in &lines.lines {
                     let closing = if line.closed { line.points.first() } else { None };
                     let indices = || line.points.iter().chain(closing).map(|&i| i as usize);
-                    let at = |i: usize| [lines.points[i][0], lines.points[i][1], *layer as f64];
+                    let at = |i: usize| [lines.points[i].x, lines.points[i].y, *layer as f64];
                     push_line(&mut data, indices().map(|i| image.place(at(i))));
                     value.extend(indices().map(|i| values[i]));
                     strength.extend(indices().filter_map(|i| strengths.get(i)));
@@ -317,7 +317,7 @@ impl Found {
         let Self::Lines { layer, lines, .. } = self else { return Ok(None) };
         // In cells, as the field's other pictures.
         let mut overlay = line_overlay(lines, label, Rgba::hex(0xd62728));
-        overlay.points.iter_mut().flatten().for_each(|v| *v /= image.samples_a_cell as f64);
+        overlay.points.iter_mut().for_each(|p| *p /= image.samples_a_cell as f64);
         let options = HeatOptions {
             title: title.to_owned(),
             quantity: image.array.clone(),
@@ -336,7 +336,7 @@ impl Found {
 pub fn line_overlay(lines: &Polylines, label: &str, colour: Rgba) -> Overlay {
     let mut points = Vec::new();
     for [a, b] in lines.lines.iter().flat_map(Polyline::segments) {
-        points.extend([lines.points[a as usize], lines.points[b as usize], [f64::NAN; 2]]);
+        points.extend([lines.points[a as usize], lines.points[b as usize], Point::splat(f64::NAN)]);
     }
     Overlay { label: label.to_owned(), points, colour, width_px: 1.4, ..Overlay::default() }
 }

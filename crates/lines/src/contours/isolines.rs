@@ -2,7 +2,7 @@
 
 use crate::Polylines;
 use crate::chains::{chained, without_repetitions};
-use tigereye_core::{Cell, Field};
+use tigereye_core::{Cell, Field, Point};
 
 /// Places this near to each other, in cells, are one.
 const SAME: f64 = 1e-9;
@@ -31,7 +31,7 @@ pub fn isolines(field: &Field<f64>, level: f64) -> Polylines {
                     && let Some(t) = crossing(at(x, y), at(x + dx, y + dy), level)
                 {
                     on_edges[y * width + x][d] = shape.points.len() as u32;
-                    shape.points.push([x as f64 + t * dx as f64, y as f64 + t * dy as f64]);
+                    shape.points.push(Point::new(x as f64 + t * dx as f64, y as f64 + t * dy as f64));
                 }
             }
         }

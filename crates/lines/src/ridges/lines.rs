@@ -6,7 +6,7 @@ use crate::chains::{chained, without_repetitions};
 use crate::tetrahedra::{Crossing, Edges};
 use crate::{ExtractionError, Polyline, Polylines, RidgeOptions, Volume};
 use rayon::prelude::*;
-use tigereye_core::Field;
+use tigereye_core::{Field, Point};
 
 /// Ridge lines of a field, the longest first.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,7 +53,7 @@ pub fn ridge_lines(field: &Field<f64>, options: &RidgeOptions) -> Result<RidgeLi
     let mut on_edges = vec![[NONE; 3]; nodes.len()];
     for (i, marks) in rows.into_iter().flatten().enumerate() {
         for (d, mark) in marks.into_iter().enumerate() {
-            if let Mark::Point { position, value, strength } = mark {
+            if let Mark::At { position, value, strength } = mark {
                 on_edges[i][d] = found.value.len() as u32;
                 found.shape.points.push(position);
                 found.value.push(value);
@@ -79,7 +79,7 @@ const REJECTED: u32 = u32::MAX - 1;
 enum Mark {
     None,
     Rejected,
-    Point { position: [f64; 2], value: f64, strength: f64 },
+    At { position: Point, value: f64, strength: f64 },
 }
 
 /// Whether the square right of and below a node is cut from its upper left to its lower right corner, instead of from
@@ -109,7 +109,7 @@ fn row_of_edges(mesh: &RidgeMesh, nodes: &[Node], j: usize) -> Vec<[Mark; 3]> {
                 let [i, j] = [0, 1].map(|d| from[d] as f64 + at * (to[d] as f64 - from[d] as f64));
                 let [x, y, _] = mesh.in_volume([i, j, 0.0]);
                 let [value, strength] = [value, strength].map(|v| mesh.unscaled(v));
-                Mark::Point { position: [x, y], value, strength }
+                Mark::At { position: Point::new(x, y), value, strength }
             }
         }
     };

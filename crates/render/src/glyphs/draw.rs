@@ -7,17 +7,18 @@ use super::scaling::Scaling;
 use super::{arrows, quadric, signed, turned};
 use crate::colour::{ColourMap, Rgba};
 use crate::legend::Entry;
-use crate::scene::Scene;
+use crate::scene::{PagePoint, PageVector, Scene};
 use crate::shapes;
 use tigereye_core::{Symmetry, Tensor2};
 
 impl Layers {
-    pub(super) fn add(&mut self, centre: [f64; 2], t: &Tensor2, scaling: &Scaling) {
+    pub(super) fn add(&mut self, centre: PagePoint, t: &Tensor2, scaling: &Scaling) {
         let size = self.kind.size(t);
         if !size.is_finite() {
             let r = (0.25 * scaling.radius).clamp(1.5, 4.0);
-            self.broken.line([centre[0] - r, centre[1] - r], [centre[0] + r, centre[1] + r]);
-            self.broken.line([centre[0] - r, centre[1] + r], [centre[0] + r, centre[1] - r]);
+            for diagonal in [PageVector::new(r, r), PageVector::new(r, -r)] {
+                self.broken.line(centre - diagonal, centre + diagonal);
+            }
             self.notes.insert(Note::Broken);
             return;
         }

@@ -3,12 +3,13 @@
 use super::layers::{Layers, Tone};
 use super::note::Note;
 use super::scaling::{Scaling, towards};
+use crate::scene::PagePoint;
 use tigereye_core::{Eigenvalues, PrincipalAxes, Tensor2, math};
 
 /// Smaller parts of the larger principal value are rounding.
 pub(super) const NEGLIGIBLE: f64 = Eigenvalues::ROUNDING;
 
-pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &Scaling) {
+pub(super) fn add(layers: &mut Layers, centre: PagePoint, t: &Tensor2, scaling: &Scaling) {
     let axes = PrincipalAxes::of(t);
     let [l1, l2] = axes.values;
     let size = l1.abs().max(l2.abs());
@@ -30,7 +31,7 @@ pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &
 }
 
 struct Curve<'a> {
-    centre: [f64; 2],
+    centre: PagePoint,
     axes: PrincipalAxes,
     /// Principal values, the larger first.
     l1: f64,
@@ -49,7 +50,7 @@ impl Curve<'_> {
 
     /// Outlines about the axis at `middle` (radians from the first one) and the opposite one, or one outline all
     /// around.
-    fn lobes(&self, middle: f64, half_angle: Option<f64>) -> Vec<Vec<[f64; 2]>> {
+    fn lobes(&self, middle: f64, half_angle: Option<f64>) -> Vec<Vec<PagePoint>> {
         let reach = self.scaling.length(self.size, self.size);
         // Straight pieces a quarter turn: their error is a few hundredths of a pixel.
         let pieces = (5.0 * reach.sqrt()).ceil().clamp(8.0, 96.0) as usize;
@@ -67,12 +68,11 @@ impl Curve<'_> {
     }
 
     /// The curve in the direction at `angle` radians from the first axis.
-    fn point(&self, angle: f64) -> [f64; 2] {
+    fn point(&self, angle: f64) -> PagePoint {
         let (c, s) = (math::cos(angle), math::sin(angle));
         // Divided first, and never above 1: the largest numbers would overflow.
         let share = (self.l1 / self.size * c * c + self.l2 / self.size * s * s).abs().min(1.0);
-        let ([ux, uy], [vx, vy]) = (self.axes.first, self.axes.second());
         let length = self.scaling.length(share * self.size, self.size);
-        towards(self.centre, [c * ux + s * vx, c * uy + s * vy], length)
+        towards(self.centre, self.axes.first * c + self.axes.second() * s, length)
     }
 }

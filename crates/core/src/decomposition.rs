@@ -3,8 +3,8 @@
 //! Everything is computed on the tensor scaled by a power of two so that its largest component lies in [0.5, 1):
 //! entries near 1e-300 or 1e200 are as accurate as those near 1.
 
-use crate::{Tensor2, Vector, math};
-use nalgebra::{Matrix2, Vector2};
+use crate::{Conformal, Tensor2, Vector, math};
+use nalgebra::{Complex, Matrix2, Vector2};
 
 /// `A = U diag(s1, s2) V^T` with `s1 >= s2 >= 0`, `U` a rotation, `V` a rotation (det A >= 0) or a reflection.
 ///
@@ -31,15 +31,14 @@ impl Svd {
             return Self { u: Matrix2::identity(), s: [s, s], v: Matrix2::identity() };
         }
         let [p, q, r, t] = a.components().map(|c| math::scale_by_power_of_two(c, -exponent));
-        // A = rotation-like part (e, h) + reflection-like part (f, g); their lengths add up to s1.
-        let (e, h) = (0.5 * (p + t), 0.5 * (r - q));
-        let (f, g) = (0.5 * (p - t), 0.5 * (r + q));
-        let s1 = math::hypot(e, h) + math::hypot(f, g);
+        let Conformal { e, f } = Conformal::of(&Tensor2::new(p, q, r, t));
+        let (e, f) = (e * 0.5, f * 0.5);
+        let s1 = math::hypot(e.re, e.im) + math::hypot(f.re, f.im);
         let det = math::difference_of_products(p, t, q, r);
         let s2 = (det.abs() / s1).min(s1);
 
-        // The product of both parts, as complex numbers, points to twice the angle of the major left vector.
-        let u1 = half_angle(e * f - h * g, e * g + h * f);
+        // The product of both parts points to twice the angle of the major left vector.
+        let u1 = half_angle(e * f);
         let u2 = Vector2::new(-u1.y, u1.x);
         let scaled = Matrix2::new(p, q, r, t);
         let v1 = (scaled.transpose() * u1) / s1;
@@ -72,8 +71,9 @@ impl Svd {
     }
 }
 
-/// Unit vector at half the angle of `(x, y)`, taken in (-pi/2, pi/2].
-pub(crate) fn half_angle(x: f64, y: f64) -> Vector2<f64> {
+/// Unit vector at half the argument of `z`, taken in (-pi/2, pi/2].
+pub(crate) fn half_angle(z: Complex<f64>) -> Vector2<f64> {
+    let (x, y) = (z.re, z.im);
     let r = math::hypot(x, y);
     if r == 0.0 {
         return Vector2::new(1.0, 0.0);

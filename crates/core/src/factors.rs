@@ -1,14 +1,13 @@
 //! Parts of a real 2x2 tensor in closed form: its orthogonal factor and the principal axes of its symmetric part.
 
 use crate::decomposition::{Eigenvalues, half_angle};
-use crate::{Tensor2, Vector, math, quarter_turned};
+use crate::{Conformal, Tensor2, Vector, math, quarter_turned};
 
 /// The orthogonal factor `Q = U V^T` of the polar decomposition `A = P Q` with the symmetric `P = U S U^T`: what the
 /// tensor does apart from stretching.
 ///
-/// With `A = [[e + f, g - h], [g + h, e - f]]` the part `(e, h)` is a multiple of a rotation, `(f, g)` one of a
-/// reflection, and `det A = e^2 + h^2 - f^2 - g^2`: the longer of both parts points to `Q` (Higham 1986, "Computing the
-/// polar decomposition", for the general case).
+/// Of the two parts of [`Conformal`], `E` is a multiple of a rotation, `F` one of a reflection, and the larger one
+/// points to `Q` (Higham 1986, "Computing the polar decomposition", for the general case).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OrthogonalFactor {
     /// `det A >= 0`: a rotation, counter-clockwise.
@@ -36,11 +35,12 @@ impl OrthogonalFactor {
         // What rounding of the components of a file moves a determinant by.
         let largest = p.abs().max(q.abs()).max(r.abs()).max(t.abs());
         let rounding = Eigenvalues::ROUNDING * largest * largest;
+        let Conformal { e, f } = Conformal::of(&Tensor2::new(p, q, r, t));
         // Adding 0 makes a negative zero positive: half a turn is pi, never -pi.
         if math::difference_of_products(p, t, q, r) < -rounding {
-            Self::Reflection { axis_rad: 0.5 * math::atan2(q + r + 0.0, p - t) }
+            Self::Reflection { axis_rad: 0.5 * math::atan2(f.im + 0.0, f.re) }
         } else {
-            Self::Rotation { angle_rad: math::atan2(r - q + 0.0, p + t) }
+            Self::Rotation { angle_rad: math::atan2(e.im + 0.0, e.re) }
         }
     }
 }
@@ -68,7 +68,7 @@ impl PrincipalAxes {
         let [l1, l2] = Eigenvalues::of(&Tensor2::symmetric(p, 0.5 * (q + r), t)).real_parts();
         let values = [l1.max(l2), l1.min(l2)].map(|l| math::scale_by_power_of_two(l, exponent));
         // The deviator points to twice the angle of the larger value's axis.
-        let axis = half_angle(p - t, q + r);
+        let axis = half_angle(Conformal::of(&Tensor2::new(p, q, r, t)).f);
         Self { values, first: Vector::new(axis.x, axis.y) }
     }
 

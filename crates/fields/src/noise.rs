@@ -1,7 +1,6 @@
 //! Noise, as measured tensors have it.
 
-use crate::splitmix::SplitMix64;
-use tigereye_core::{Field, Symmetry, Tensor2, math};
+use tigereye_core::{Field, SplitMix64, Symmetry, Tensor2, math};
 
 /// Adds to every tensor a random one whose expected square is `share` squared times the square of the tensor itself
 /// (Frobenius norm), the same in every frame: independent normal components for tensors that are not symmetric, and the

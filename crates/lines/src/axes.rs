@@ -24,7 +24,7 @@
 //! long. Eigenvectors by magnitude, and semi-axes of tensors that are not symmetric by value, change places where the
 //! trace is zero: their lines end there.
 
-use tigereye_core::{Tensor2, Vector, math, quarter_turned};
+use tigereye_core::{Complex, Conformal, Tensor2, Vector, math, quarter_turned};
 
 /// Which of the two axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -147,8 +147,8 @@ impl Decomposition {
     /// The three strengths of a tensor (eq. 3 of Zhang et al. 2009).
     #[must_use]
     pub fn of(t: &Tensor2) -> Self {
-        let Numbers { f, e } = Numbers::of(t);
-        Self { scaling: 0.5 * e[0], rotation: 0.5 * e[1], stretching: 0.5 * math::hypot(f[0], f[1]) }
+        let Conformal { f, e } = Conformal::of(t);
+        Self { scaling: 0.5 * e.re, rotation: 0.5 * e.im, stretching: 0.5 * math::hypot(f.re, f.im) }
     }
 
     /// Where the eigenvalues lie.
@@ -174,27 +174,16 @@ pub struct Frame {
     pub contrast: f64,
 }
 
-struct Numbers {
-    f: [f64; 2],
-    e: [f64; 2],
-}
-
-impl Numbers {
-    fn of(t: &Tensor2) -> Self {
-        Self { f: [t.xx() - t.yy(), t.xy() + t.yx()], e: [t.xx() + t.yy(), t.yx() - t.xy()] }
-    }
-
-    /// The numbers of a tensor times a power of two, which is the second result, so that squares stay in range; most
-    /// tensors need none. `None` where the tensor is zero or not finite.
-    fn scaled(t: &Tensor2) -> Option<(Self, f64)> {
-        let largest = t.max_abs();
-        let scale = match largest {
-            1e-60..=1e60 => 1.0,
-            _ => math::scale_by_power_of_two(1.0, -math::binary_exponent(largest)),
-        };
-        let is_possible = t.is_finite() && largest > 0.0 && scale.is_finite() && scale > 0.0;
-        is_possible.then(|| (Self::of(&t.scaled(scale)), scale))
-    }
+/// The numbers of a tensor times a power of two, which is the second result, so that squares stay in range; most
+/// tensors need none. `None` where the tensor is zero or not finite.
+fn scaled(t: &Tensor2) -> Option<(Conformal, f64)> {
+    let largest = t.max_abs();
+    let scale = match largest {
+        1e-60..=1e60 => 1.0,
+        _ => math::scale_by_power_of_two(1.0, -math::binary_exponent(largest)),
+    };
+    let is_possible = t.is_finite() && largest > 0.0 && scale.is_finite() && scale > 0.0;
+    is_possible.then(|| (Conformal::of(&t.scaled(scale)), scale))
 }
 
 impl Axes {
@@ -246,7 +235,7 @@ impl OrderedAxes {
     /// than the part `least` of the larger semi-axis.
     #[must_use]
     pub fn of(self, t: &Tensor2, least: f64) -> Option<Frame> {
-        let (numbers, scale) = Numbers::scaled(t)?;
+        let (numbers, scale) = scaled(t)?;
         let (axes, contrast) = match self.axes {
             Axes::HalfAxes => semi_axes(&numbers, self.major, least),
             Axes::Eigenvectors => eigenvectors(&numbers, self.major, least),
@@ -263,20 +252,20 @@ impl OrderedAxes {
         if t.is_zero() {
             return Some([0.0; 2]);
         }
-        let (numbers, scale) = Numbers::scaled(t)?;
+        let (numbers, scale) = scaled(t)?;
         Some(self.values_of(&numbers).map(|v| v / scale))
     }
 
-    fn values_of(self, numbers: &Numbers) -> [f64; 2] {
-        let Numbers { f, e } = numbers;
+    fn values_of(self, numbers: &Conformal) -> [f64; 2] {
+        let Conformal { f, e } = numbers;
         let stretch = size(*f);
         let ordered = |[a, b]: [f64; 2]| if self.is_turned(numbers) { [b, a] } else { [a, b] };
         match self.axes {
             Axes::HalfAxes => ordered(longer_and_shorter(stretch, size(*e))),
-            Axes::DualEigenvectors => longer_and_shorter(stretch, e[1].abs()),
+            Axes::DualEigenvectors => longer_and_shorter(stretch, e.im.abs()),
             Axes::Eigenvectors => {
-                let middle = 0.5 * e[0];
-                let off = 0.25 * ((stretch + e[1].abs()) * (stretch - e[1].abs())).max(0.0);
+                let middle = 0.5 * e.re;
+                let off = 0.25 * ((stretch + e.im.abs()) * (stretch - e.im.abs())).max(0.0);
                 ordered([middle + off.sqrt(), middle - off.sqrt()])
             }
         }
@@ -284,8 +273,8 @@ impl OrderedAxes {
 
     /// Whether the order is other than the usual one of the axes: both orders agree as long as the trace is not
     /// negative.
-    fn is_turned(self, Numbers { e, .. }: &Numbers) -> bool {
-        e[0] < 0.0 && self.major != self.axes.usual_major()
+    fn is_turned(self, Conformal { e, .. }: &Conformal) -> bool {
+        e.re < 0.0 && self.major != self.axes.usual_major()
     }
 }
 
@@ -296,8 +285,8 @@ fn longer_and_shorter(a: f64, b: f64) -> [f64; 2] {
 /// Axes, and what tells them apart.
 type AxesAndContrast = ([Vector; 2], f64);
 
-fn semi_axes(numbers: &Numbers, by: Major, least: f64) -> Option<AxesAndContrast> {
-    let Numbers { f, e } = numbers;
+fn semi_axes(numbers: &Conformal, by: Major, least: f64) -> Option<AxesAndContrast> {
+    let Conformal { f, e } = numbers;
     let (stretch, rest) = (size(*f), size(*e));
     let sum = 0.5 * (stretch + rest);
     // What vanishes beside the rest has no direction, nor has its product with it.
@@ -309,36 +298,37 @@ fn semi_axes(numbers: &Numbers, by: Major, least: f64) -> Option<AxesAndContrast
     if contrast <= least {
         return None;
     }
-    let major = half_angle([f[0] * e[0] - f[1] * e[1], f[0] * e[1] + f[1] * e[0]]);
+    let major = half_angle(f * e);
     Some(([major, quarter_turned(major)], contrast))
 }
 
 /// E with the sign that makes the axis of the larger `u . T u` major, and the difference of the two. Where E vanishes
 /// the tensor is symmetric as far as anybody can tell, and has eigenvectors.
-fn by_value(e: [f64; 2], stretch: f64, rest: f64) -> ([f64; 2], f64) {
+fn by_value(e: Complex<f64>, stretch: f64, rest: f64) -> (Complex<f64>, f64) {
     if rest <= f64::EPSILON * stretch {
-        return ([1.0, 0.0], stretch);
+        return (Complex::new(1.0, 0.0), stretch);
     }
-    let sign = if e[0] < 0.0 { -1.0 } else { 1.0 };
+    let sign = if e.re < 0.0 { -1.0 } else { 1.0 };
     // Divided by its size: the product with F must not vanish.
-    (e.map(|v| sign * v / rest), stretch * e[0].abs() / rest)
+    (e * sign / rest, stretch * e.re.abs() / rest)
 }
 
-fn eigenvectors(Numbers { f, e }: &Numbers, by: Major, least: f64) -> Option<AxesAndContrast> {
+fn eigenvectors(Conformal { f, e }: &Conformal, by: Major, least: f64) -> Option<AxesAndContrast> {
     let (stretch, rest) = (size(*f), size(*e));
     let contrast = match by {
         Major::Value => stretch,
         // Real parts of opposite signs and the same size.
-        Major::Magnitude => stretch.min(e[0].abs()),
+        Major::Magnitude => stretch.min(e.re.abs()),
     };
     if contrast <= least * 0.5 * (stretch + rest) {
         return None;
     }
-    let (stretching, turning) = (0.5 * stretch, 0.5 * e[1].abs());
+    let (stretching, turning) = (0.5 * stretch, 0.5 * e.im.abs());
     // Rotated from the bisector by 45 degrees less, and more, the angle whose tangent is sqrt(|difference| / sum).
     let (c, s) = ((stretching + turning).sqrt(), (stretching - turning).abs().sqrt());
-    let (c, s) = (c / size([c, s]), s / size([c, s]));
-    let side = if e[1] < 0.0 { -1.0 } else { 1.0 };
+    let size = size(Complex::new(c, s));
+    let (c, s) = (c / size, s / size);
+    let side = if e.im < 0.0 { -1.0 } else { 1.0 };
     let bisector = half_angle(*f);
     let diagonal = core::f64::consts::FRAC_1_SQRT_2;
     let about = |cos: f64, sin: f64| {
@@ -346,38 +336,39 @@ fn eigenvectors(Numbers { f, e }: &Numbers, by: Major, least: f64) -> Option<Axe
     };
     let major = about(diagonal * (c + s), diagonal * (c - s));
     let minor = about(diagonal * (c - s), diagonal * (c + s));
-    let is_turned = by == Major::Magnitude && e[0] < 0.0;
+    let is_turned = by == Major::Magnitude && e.re < 0.0;
     Some((if is_turned { [minor, major] } else { [major, minor] }, contrast))
 }
 
-fn dual_eigenvectors(Numbers { f, e }: &Numbers, least: f64) -> Option<AxesAndContrast> {
+fn dual_eigenvectors(Conformal { f, e }: &Conformal, least: f64) -> Option<AxesAndContrast> {
     let (stretch, rest) = (size(*f), size(*e));
-    let contrast = stretch.min(e[1].abs());
+    let contrast = stretch.min(e.im.abs());
     if contrast <= least * 0.5 * (stretch + rest) {
         return None;
     }
     // A quarter turn of F is an eighth turn of its axis.
-    let turned = if e[1] < 0.0 { [f[1], -f[0]] } else { [-f[1], f[0]] };
+    let turned = if e.im < 0.0 { Complex::new(f.im, -f.re) } else { Complex::new(-f.im, f.re) };
     let major = half_angle(turned);
     Some(([major, quarter_turned(major)], contrast))
 }
 
 /// Components are scaled: their squares neither overflow nor vanish beside each other.
-fn size(z: [f64; 2]) -> f64 {
-    (z[0] * z[0] + z[1] * z[1]).sqrt()
+fn size(z: Complex<f64>) -> f64 {
+    (z.re * z.re + z.im * z.im).sqrt()
 }
 
-/// The unit vector at half the angle of a number, without the angle.
-fn half_angle(z: [f64; 2]) -> Vector {
+/// The unit vector at half the argument of a number. Lines ask for it at every stage of a step, so it does without the
+/// scaling of the decompositions in `core`.
+fn half_angle(z: Complex<f64>) -> Vector {
     let r = size(z);
-    if z[0] >= 0.0 {
-        let c = (0.5 * (r + z[0])).sqrt();
-        let s = 0.5 * z[1] / c;
+    if z.re >= 0.0 {
+        let c = (0.5 * (r + z.re)).sqrt();
+        let s = 0.5 * z.im / c;
         let n = r.sqrt();
         Vector::new(c / n, s / n)
     } else {
-        let s = (0.5 * (r - z[0])).sqrt();
-        let c = 0.5 * z[1] / s;
+        let s = (0.5 * (r - z.re)).sqrt();
+        let c = 0.5 * z.im / s;
         let n = r.sqrt();
         Vector::new(c / n, s / n)
     }
@@ -386,15 +377,12 @@ fn half_angle(z: [f64; 2]) -> Vector {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tigereye_core::{Eigenvalues, Svd};
+    use tigereye_core::{Eigenvalues, SplitMix64, Svd};
 
     /// Tensors of all kinds, from a fixed sequence.
     fn tensors() -> Vec<Tensor2> {
-        let mut seed = 5_u64;
-        let mut random = move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            2.0 * ((seed >> 11) as f64 / (1_u64 << 53) as f64) - 1.0
-        };
+        let mut numbers = SplitMix64::new(5);
+        let mut random = move || numbers.symmetric_unit();
         let mut all: Vec<Tensor2> =
             (0..500).map(|_| Tensor2::new(random(), random(), random(), random())).collect();
         all.extend((0..500).map(|_| Tensor2::symmetric(random(), random(), random())));

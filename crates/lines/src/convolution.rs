@@ -4,7 +4,7 @@ use crate::ftle::{MAX_SAMPLES_A_CELL, check_length, check_work};
 use crate::{Family, Interpolated, SamplingError, fine_grid};
 use core::f64::consts::PI;
 use rayon::prelude::*;
-use tigereye_core::{Cell, CellShape, Field, Grid, Point, Vector, math};
+use tigereye_core::{Cell, CellShape, Field, Grid, Point, SplitMix64, Vector, math};
 
 /// How noise is smeared.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,15 +103,13 @@ fn per_cell(field: &Interpolated<'_>, options: &ConvolutionOptions) -> [f64; 2] 
     options.samples_a_cell(field.cell()).map(|n| n as f64)
 }
 
-/// The same noise for a seed everywhere: every sample's number is a hash of its place (the finisher of SplitMix64,
-/// Steele, Lea and Flood 2014).
+/// White noise that depends only on the seed: the number of a sample is a hash of its column and row.
 fn noise(grid: Grid, seed: u64) -> Field<f64> {
+    // Odd, so that different seeds give different states.
+    const SEED_STEP: u64 = 0xd134_2543_de82_ef95;
     Field::from_fn(grid, |c| {
-        let place = ((c.y as u64) << 32 | c.x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        let mut z = place.wrapping_add(seed.wrapping_mul(0xd134_2543_de82_ef95));
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        let sample = ((c.y as u64) << 32 | c.x as u64).wrapping_mul(SplitMix64::STEP);
+        SplitMix64::unit_at(sample.wrapping_add(seed.wrapping_mul(SEED_STEP)))
     })
 }
 

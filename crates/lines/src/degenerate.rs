@@ -7,7 +7,7 @@
 //! (Delmarcelle and Hesselink 1994).
 
 use core::f64::consts::TAU;
-use tigereye_core::{Cell, Field, Grid, Point, Tensor2, math};
+use tigereye_core::{Cell, Complex, Conformal, Field, Grid, Point, Tensor2, math};
 
 /// What lines do around a degenerate point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,23 +50,15 @@ const ROUNDING: f64 = 1e-12;
 /// axes do not turn.
 #[must_use]
 pub fn degenerate_points(field: &Field<Tensor2>) -> Vec<DegeneratePoint> {
-    zeros(field, &[field.map(anticonformal), field.map(conformal)])
+    zeros(field, &[field.map(|t| Conformal::of(t).f), field.map(|t| Conformal::of(t).e)])
 }
 
 /// The points where eigenvectors, and dual eigenvectors, have no direction: where nothing stretches.
 pub(crate) fn points_of_stretching(field: &Field<Tensor2>) -> Vec<DegeneratePoint> {
-    zeros(field, &[field.map(anticonformal)])
+    zeros(field, &[field.map(|t| Conformal::of(t).f)])
 }
 
-fn conformal(t: &Tensor2) -> [f64; 2] {
-    [t.xx() + t.yy(), t.yx() - t.xy()]
-}
-
-fn anticonformal(t: &Tensor2) -> [f64; 2] {
-    [t.xx() - t.yy(), t.xy() + t.yx()]
-}
-
-fn zeros(field: &Field<Tensor2>, numbers: &[Field<[f64; 2]>]) -> Vec<DegeneratePoint> {
+fn zeros(field: &Field<Tensor2>, numbers: &[Field<Complex<f64>>]) -> Vec<DegeneratePoint> {
     let grid = field.grid();
     if grid.width() < 2 || grid.height() < 2 {
         return Vec::new();
@@ -82,7 +74,7 @@ fn zeros(field: &Field<Tensor2>, numbers: &[Field<[f64; 2]>]) -> Vec<DegenerateP
 /// A complex number in every cell.
 struct Plane<'a> {
     grid: Grid,
-    numbers: &'a Field<[f64; 2]>,
+    numbers: &'a Field<Complex<f64>>,
     /// Whether the number of a cell is zero.
     zero: Vec<bool>,
 }
@@ -92,8 +84,8 @@ struct Plane<'a> {
 const CORNERS: [(usize, usize); 4] = [(0, 1), (1, 1), (1, 0), (0, 0)];
 
 impl<'a> Plane<'a> {
-    fn new(field: &Field<Tensor2>, numbers: &'a Field<[f64; 2]>) -> Self {
-        let is_zero = |(z, t): (&[f64; 2], &Tensor2)| math::hypot(z[0], z[1]) <= ROUNDING * t.max_abs();
+    fn new(field: &Field<Tensor2>, numbers: &'a Field<Complex<f64>>) -> Self {
+        let is_zero = |(z, t): (&Complex<f64>, &Tensor2)| math::hypot(z.re, z.im) <= ROUNDING * t.max_abs();
         let zero = numbers.values().iter().zip(field.values()).map(is_zero).collect();
         Self { grid: field.grid(), numbers, zero }
     }
@@ -104,8 +96,8 @@ impl<'a> Plane<'a> {
 
     /// Magnitude of a cell's number, 0 where it is rounding.
     fn size(&self, cell: Cell) -> f64 {
-        let [a, b] = *self.numbers.at(cell);
-        if self.is_zero(cell) { 0.0 } else { math::hypot(a, b) }
+        let z = self.numbers.at(cell);
+        if self.is_zero(cell) { 0.0 } else { math::hypot(z.re, z.im) }
     }
 
     /// By how much the argument grows from one cell to the next, the short way; `None` where there is none.
@@ -113,8 +105,8 @@ impl<'a> Plane<'a> {
         if self.is_zero(from) || self.is_zero(to) {
             return None;
         }
-        let ([a, b], [c, d]) = (*self.numbers.at(from), *self.numbers.at(to));
-        let (cross, dot) = (a * d - b * c, a * c + b * d);
+        let (a, b) = (self.numbers.at(from), self.numbers.at(to));
+        let (cross, dot) = (a.re * b.im - a.im * b.re, a.re * b.re + a.im * b.im);
         // Half a circle has no short way: real numbers of both signs, which are zero along lines and not in points.
         let opposite = cross.abs() <= ROUNDING * dot.abs() && dot < 0.0;
         let angle = math::atan2(cross, dot);
@@ -193,7 +185,10 @@ impl<'a> Plane<'a> {
 
     /// Where the bilinear number vanishes in a quad, by Newton's method; the middle where it does not get there.
     fn zero_in(&self, quad: Cell) -> Point {
-        let at = |dx: usize, dy: usize| *self.numbers.at(Cell::new(quad.x + dx, quad.y + dy));
+        let at = |dx: usize, dy: usize| {
+            let z = self.numbers.at(Cell::new(quad.x + dx, quad.y + dy));
+            [z.re, z.im]
+        };
         let (a, b, c, d) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1));
         // p + q u + r v + s u v
         let coefficients = [0, 1].map(|i| (a[i], b[i] - a[i], c[i] - a[i], a[i] - b[i] - c[i] + d[i]));
@@ -232,7 +227,7 @@ const fn kind_of(half_turns: i32) -> DegenerateKind {
 mod tests {
     use super::*;
     use core::f64::consts::PI;
-    use tigereye_core::Svd;
+    use tigereye_core::{SplitMix64, Svd};
     use tigereye_fields::{generate, parse_spec};
 
     fn points(spec: &str) -> Vec<DegeneratePoint> {
@@ -310,11 +305,8 @@ mod tests {
     /// How often the axes turn along the border is what the points inside add up to, symmetric or not.
     #[test]
     fn indices_add_up_to_that_of_the_border() {
-        let mut seed = 11_u64;
-        let mut random = move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
+        let mut numbers = SplitMix64::new(11);
+        let mut random = move || numbers.unit() - 0.5;
         let mut with_points = 0;
         for round in 0..40 {
             let symmetric = round % 2 == 0;

@@ -1,7 +1,7 @@
 //! Separation of neighbouring points: the finite-time Lyapunov exponent of a map.
 
 use euclid::{Point2D, Vector2D};
-use tigereye_core::{Cell, Field, Grid, math};
+use tigereye_core::{Cell, Conformal, Field, Grid, Tensor2, math, runge_kutta_step};
 
 /// The exponent `ln(sqrt(lambda)) / duration` in every sample, where lambda is the larger eigenvalue of the
 /// Cauchy-Green tensor `F^T F` of the flow map and F its gradient (Shadden, Lekien and Marsden, 2005). `ends` says
@@ -16,7 +16,7 @@ pub fn exponents<Frame>(
 ) -> Field<f64> {
     Field::from_fn(ends.grid(), |cell| {
         let gradient = gradient_at(cell, ends.grid(), spacing, &|c| *ends.at(c));
-        gradient.map_or(f64::NAN, |f| exponent_of(f, duration))
+        gradient.map_or(f64::NAN, |f| exponent_of(&f, duration))
     })
 }
 
@@ -26,7 +26,7 @@ pub(crate) fn gradient_at<Frame>(
     grid: Grid,
     spacing: [f64; 2],
     end: &dyn Fn(Cell) -> Option<Point2D<f64, Frame>>,
-) -> Option<[[f64; 2]; 2]> {
+) -> Option<Tensor2> {
     let here = end(cell)?;
     let beside = |dx: isize, dy: isize| {
         let x = cell.x.checked_add_signed(dx)?;
@@ -44,15 +44,14 @@ pub(crate) fn gradient_at<Frame>(
         Some((b - a) / (steps * h))
     };
     let (x, y) = (along(1, 0, spacing[0])?, along(0, 1, spacing[1])?);
-    Some([[x.x, y.x], [x.y, y.y]])
+    Some(Tensor2::new(x.x, y.x, x.y, y.y))
 }
 
 /// The exponent of a gradient.
-pub(crate) fn exponent_of(f: [[f64; 2]; 2], duration: f64) -> f64 {
+pub(crate) fn exponent_of(gradient: &Tensor2, duration: f64) -> f64 {
     // The larger singular value, as in `axes`: half the sum of what stretches and what turns and scales.
-    let stretch = math::hypot(f[0][0] - f[1][1], f[0][1] + f[1][0]);
-    let rest = math::hypot(f[0][0] + f[1][1], f[1][0] - f[0][1]);
-    math::ln(0.5 * (stretch + rest)) / duration
+    let Conformal { e, f } = Conformal::of(gradient);
+    math::ln(0.5 * (math::hypot(f.re, f.im) + math::hypot(e.re, e.im))) / duration
 }
 
 /// Where a particle is after moving with a velocity from time `from` to `to`: classical Runge-Kutta in `steps` steps of
@@ -65,17 +64,9 @@ pub fn advected<Frame>(
     steps: usize,
 ) -> Point2D<f64, Frame> {
     let h = (to - from) / steps as f64;
-    let mut p = start;
-    for i in 0..steps {
-        let t = from + i as f64 * h;
-        let ahead = |k: Vector2D<f64, Frame>, h: f64| p + k * h;
-        let a = velocity(t, p);
-        let b = velocity(t + 0.5 * h, ahead(a, 0.5 * h));
-        let c = velocity(t + 0.5 * h, ahead(b, 0.5 * h));
-        let d = velocity(t + h, ahead(c, h));
-        p = ahead((a + b * 2.0 + c * 2.0 + d) / 6.0, h);
-    }
-    p
+    let rate = |t: f64, p: [f64; 2]| velocity(t, p.into()).to_array();
+    let step = |p, i| runge_kutta_step(rate, from + i as f64 * h, p, h);
+    (0..steps).fold(start.to_array(), step).into()
 }
 
 #[cfg(test)]

@@ -196,6 +196,6 @@ fn both_exponents(
             s.ends[if along < 0.0 { 1 - side } else { side }]
         };
         let gradient = gradient_at(cell, grid, spacing, &end);
-        gradient.map_or(f64::NAN, |f| exponent_of(f, options.length))
+        gradient.map_or(f64::NAN, |f| exponent_of(&f, options.length))
     })
 }

@@ -1,7 +1,7 @@
 //! Tensors and their axes between the centres of cells.
 
 use crate::{Axes, Family, Frame, OrderedAxes};
-use tigereye_core::{Cell, CellShape, Field, Point, Svd, Tensor2, Vector};
+use tigereye_core::{CellShape, Field, Point, Svd, Tensor2, Vector, bilinear};
 
 /// The symmetric tensor with the same ellipse in every cell: `U S U^T` for a tensor `U S V^T`, its left stretch tensor.
 /// The ellipse is all that light sees. Where tensors are not symmetric this is what to interpolate: their own
@@ -91,25 +91,15 @@ impl<'a> Interpolated<'a> {
     /// The tensor at a point, bilinear in every component; `None` outside of the centres of the outermost cells (by
     /// more than rounding, a billionth of a cell), and where one of the four cells is not finite.
     #[must_use]
-    pub fn at(&self, Point { x, y, .. }: Point) -> Option<Tensor2> {
-        let Point { x: right, y: bottom, .. } = self.last();
-        if !((-ROUNDING..=right + ROUNDING).contains(&x) && (-ROUNDING..=bottom + ROUNDING).contains(&y)) {
+    pub fn at(&self, p: Point) -> Option<Tensor2> {
+        let last = self.last();
+        let is_within = |v: f64, last: f64| (-ROUNDING..=last + ROUNDING).contains(&v);
+        if !(is_within(p.x, last.x) && is_within(p.y, last.y)) {
             return None;
         }
-        let (x, y) = (x.clamp(0.0, right), y.clamp(0.0, bottom));
-        let before = |v: f64, last: f64| (v.floor()).min((last - 1.0).max(0.0)) as usize;
-        let (i, j) = (before(x, right), before(y, bottom));
-        let (u, v) = (x - i as f64, y - j as f64);
-        let grid = self.field.grid();
-        let corner = |di: usize, dj: usize| {
-            let cell = Cell::new((i + di).min(grid.width() - 1), (j + dj).min(grid.height() - 1));
-            self.field.at(cell).components()
-        };
-        let corners = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
-        let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
         let mut t = [0.0; 4];
-        for (corner, weight) in corners.iter().zip(weights) {
-            t.iter_mut().zip(corner).for_each(|(t, c)| *t += weight * c);
+        for (cell, weight) in bilinear(self.field.grid(), p) {
+            t.iter_mut().zip(self.field.at(cell).components()).for_each(|(t, c)| *t += weight * c);
         }
         let t = Tensor2::new(t[0], t[1], t[2], t[3]);
         t.is_finite().then_some(t)
@@ -132,7 +122,7 @@ impl<'a> Interpolated<'a> {
 mod tests {
     use super::*;
     use crate::Major;
-    use tigereye_core::{Grid, math, quarter_turned};
+    use tigereye_core::{Cell, Grid, math, quarter_turned};
 
     #[test]
     fn linear_components_are_met_everywhere() {

@@ -1,6 +1,6 @@
 //! Which axis is major, by value and by magnitude.
 
-use tigereye_core::{Field, Grid, Point, Tensor2, Vector};
+use tigereye_core::{Field, Grid, Point, SplitMix64, Tensor2, Vector};
 use tigereye_lines::{
     Axes, Family, Interpolated, LineEnd, LineOptions, Major, Topology, signed_ellipse_tensors, tensor_line,
 };
@@ -18,11 +18,8 @@ fn along(t: &Tensor2, Vector { x, y, .. }: Vector) -> f64 {
 
 /// Tensors of all kinds, from a fixed sequence.
 fn tensors() -> impl Iterator<Item = Tensor2> {
-    let mut seed = 11_u64;
-    let mut random = move || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        2.0 * ((seed >> 11) as f64 / (1_u64 << 53) as f64) - 1.0
-    };
+    let mut numbers = SplitMix64::new(11);
+    let mut random = move || numbers.symmetric_unit();
     (0..500).map(move |i| {
         let (xx, xy, yx, yy) = (random(), random(), random(), random());
         Tensor2::new(xx, xy, if i % 2 == 0 { xy } else { yx }, yy)

@@ -1,6 +1,6 @@
 //! Laws of ridge lines: exactly known crests, symmetries, and fields that have none.
 
-use tigereye_core::{Cell, Field, Grid, Point, math};
+use tigereye_core::{Cell, Field, Grid, Point, SplitMix64, math};
 use tigereye_lines::{ExtractionError, NearestSegment, RidgeLines, RidgeOptions, Threshold, ridge_lines};
 
 fn field(width: usize, height: usize, f: impl Fn(f64, f64) -> f64) -> Field<f64> {
@@ -148,11 +148,8 @@ fn a_saddle_has_the_crest_through_it() {
 
 #[test]
 fn valleys_ramps_constants_and_noise_have_none() {
-    let mut seed = 5_u64;
-    let mut noise = move || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-    };
+    let mut numbers = SplitMix64::new(5);
+    let mut noise = move || numbers.unit() - 0.5;
     let noisy = Field::from_fn(Grid::new(30, 30).expect("a size"), |_| 1.0 + 1e-15 * noise());
     let fields = [
         field(30, 25, |x, y| 0.3 * x - 0.7 * y + 5.0),

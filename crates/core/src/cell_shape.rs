@@ -1,9 +1,9 @@
-//! How lengths are measured where cells are not square.
+//! The shape of cells that need not be square, and lengths measured with it.
 
 use crate::{PhysicalPoint, Point, Vector, length};
 
-/// Sides that differ by less than this part are equal: spacings are kept in single precision, and as differences of
-/// positions.
+/// Sides that differ by less than this fraction are equal: files store spacings in single precision or as differences
+/// of positions.
 const SQUARE: f64 = 1e-6;
 
 /// The sides of a cell. Points are counted in cells along x and y; directions, lengths and areas are physical, in units

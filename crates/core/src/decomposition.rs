@@ -139,12 +139,12 @@ impl Eigenvalues {
         }
     }
 
-    /// A real part up to this part of the larger one is zero: what single precision leaves of a vanishing eigenvalue
-    /// has either sign.
+    /// A real part counts as zero up to this fraction of the larger one: in single precision a vanishing eigenvalue
+    /// becomes a small number of either sign.
     pub const ROUNDING: f64 = 1e-6;
 
-    /// What each axis does: the sign of the real parts (thesis, section 2.3), neutral where one is [`Self::ROUNDING`].
-    /// Colours glyphs, never the propagation.
+    /// The signs of the real parts (thesis, section 2.3), neutral for those within [`Self::ROUNDING`] of zero. They
+    /// colour glyphs and never affect the propagation.
     #[must_use]
     pub fn axis_signs(&self) -> [AxisSign; 2] {
         let parts = self.real_parts();
@@ -163,14 +163,14 @@ impl Eigenvalues {
         a != b && a != AxisSign::Neutral && b != AxisSign::Neutral
     }
 
-    /// How many real parts are negative by more than [`Self::ROUNDING`].
+    /// Number of real parts that are negative by more than [`Self::ROUNDING`].
     #[must_use]
     pub fn negative(&self) -> usize {
         self.axis_signs().into_iter().filter(|s| *s == AxisSign::Compression).count()
     }
 }
 
-/// Whether an axis is stretched or squeezed.
+/// Whether an axis is in tension or compression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisSign {
     /// Positive real part.
@@ -251,7 +251,7 @@ mod tests {
 
     #[test]
     fn signs_follow_the_eigenvalues() {
-        // What single precision makes of a vanishing eigenvalue has no sign.
+        // A vanishing eigenvalue rounded to single precision has no sign.
         for rounding in [3e-8, 0.0, -3e-8] {
             let values = Eigenvalues::of(&Tensor2::symmetric(2.0, 0.0, 2.0 * rounding));
             assert_eq!(values.axis_signs(), [AxisSign::Tension, AxisSign::Neutral]);

@@ -3,8 +3,8 @@
 use crate::decomposition::{Eigenvalues, half_angle};
 use crate::{Conformal, Tensor2, Vector, math, quarter_turned};
 
-/// The orthogonal factor `Q = U V^T` of the polar decomposition `A = P Q` with the symmetric `P = U S U^T`: what the
-/// tensor does apart from stretching.
+/// The orthogonal factor `Q = U V^T` of the polar decomposition `A = P Q` with the symmetric `P = U S U^T`: the
+/// rotation or reflection that remains apart from stretching.
 ///
 /// Of the two parts of [`Conformal`], `E` is a multiple of a rotation, `F` one of a reflection, and the larger one
 /// points to `Q` (Higham 1986, "Computing the polar decomposition", for the general case).
@@ -32,7 +32,7 @@ impl OrthogonalFactor {
         }
         let exponent = math::binary_exponent(a.max_abs());
         let [p, q, r, t] = a.components().map(|c| math::scale_by_power_of_two(c, -exponent));
-        // What rounding of the components of a file moves a determinant by.
+        // Largest effect of rounded components, as in files, on the determinant.
         let largest = p.abs().max(q.abs()).max(r.abs()).max(t.abs());
         let rounding = Eigenvalues::ROUNDING * largest * largest;
         let Conformal { e, f } = Conformal::of(&Tensor2::new(p, q, r, t));
@@ -56,7 +56,7 @@ pub struct PrincipalAxes {
 }
 
 impl PrincipalAxes {
-    /// Axes of `(a + a^T) / 2`; values that are not a number where `a` is not finite.
+    /// Axes of `(a + a^T) / 2`; the values are NaN if `a` is not finite.
     #[must_use]
     pub fn of(a: &Tensor2) -> Self {
         if a.is_zero() || !a.is_finite() {

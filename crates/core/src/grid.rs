@@ -92,7 +92,7 @@ impl Grid {
     pub const fn is_border(&self, cell: Cell) -> bool {
         cell.x == 0 || cell.y == 0 || cell.x + 1 >= self.width || cell.y + 1 >= self.height
     }
-    /// The cell in the middle; left or above of it where a side is even.
+    /// The cell in the middle; for an even side, the one to the left of or above it.
     #[must_use]
     pub const fn centre(&self) -> Cell {
         Cell { x: (self.width - 1) / 2, y: (self.height - 1) / 2 }

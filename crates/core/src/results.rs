@@ -1,4 +1,4 @@
-//! What computations leave behind. Drawing and writing depend on these types, not on the algorithms.
+//! Results of computations. Drawing and writing depend on these types, not on the algorithms.
 
 use crate::{Cell, Directions, Field, Grid};
 
@@ -31,7 +31,7 @@ pub struct LightDistribution {
 
 impl LightDistribution {
     /// Assembles a distribution: `samples[cell * S + t]` is the radiant intensity (W/rad) of a cell, row-major;
-    /// `incoming[cell][k]` the radiant flux (W) that its last step brought along direction `k`. Panics where the
+    /// `incoming[cell][k]` the radiant flux (W) that its last step brought along direction `k`. Panics if the
     /// sizes do not fit: both come from one engine.
     #[must_use]
     pub fn new(directions: Directions, samples: Vec<f64>, incoming: Field<[f64; 8]>) -> Self {
@@ -121,7 +121,7 @@ pub struct LtgVolume {
 }
 
 impl LtgVolume {
-    /// Assembles a volume; `values[(i * height + y) * width + x]` belongs to direction `slices[i]`. Panics where the
+    /// Assembles a volume; `values[(i * height + y) * width + x]` belongs to direction `slices[i]`. Panics if the
     /// sizes do not fit or `slices` is not ascending.
     #[must_use]
     pub fn new(grid: Grid, directions: Directions, slices: Vec<usize>, values: Vec<f64>) -> Self {

@@ -18,7 +18,7 @@ impl Symmetry {
     /// A field is symmetric below this [`Symmetry::ratio`]. Single precision leaves 1e-7 and text of four digits 1e-4;
     /// the rotation of a measured flow, or of a field made of rotations times axes, is some tenths.
     pub const SYMMETRIC_BELOW: f64 = 1e-3;
-    /// A tensor is symmetric where `|xy - yx|` is at most this part of the largest component of its field: a hundred
+    /// A tensor is symmetric if `|xy - yx|` is at most this fraction of the largest component of its field: a hundred
     /// times the rounding of single precision.
     pub const ROUNDING: f64 = 1e-5;
 
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn tensors_are_measured_by_their_field() {
-        // Nearly nothing beside a large tensor: its shear components are what rounding left.
+        // Tiny beside a large tensor: the asymmetry of its shear components is rounding.
         let weak = Tensor2::new(1e-6, 3e-7, -2e-7, 0.0);
         let all = field(|c| if c == Cell::new(0, 0) { weak } else { Tensor2::symmetric(3.0, 1.0, 0.5) });
         let symmetry = Symmetry::of(&all);

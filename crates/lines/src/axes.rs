@@ -1,28 +1,28 @@
 //! Which two axes a tensor has.
 //!
-//! With the numbers `F = (xx - yy) + i (xy + yx)` and `E = (xx + yy) + i (yx - xy)` a tensor stretches by `|F| / 2`
-//! along `arg F / 2`, turns by `Im E / 2` and scales by `Re E / 2`. Its semi-axes, eigenvectors and dual eigenvectors
-//! are closed formulas of the two (Zheng and Pang, 2D asymmetric tensor analysis, 2005; Zhang, Yeh, Lin and Laramee,
-//! Asymmetric tensor analysis for flow visualization, 2009).
+//! With the numbers `E` and `F` of [`Conformal`] a tensor stretches by `|F| / 2` along `arg F / 2`, rotates by `Im E /
+//! 2` and scales by `Re E / 2`. Its semi-axes, eigenvectors and dual eigenvectors are closed formulas of the two (Zheng
+//! and Pang, 2D asymmetric tensor analysis, 2005; Zhang, Yeh, Lin and Laramee, Asymmetric tensor analysis for flow
+//! visualization, 2009).
 //!
 //! # Which axis is major
 //!
-//! Where an axis is stretched and the other squeezed there are two answers, and [`Major`] names the one that is meant:
+//! If one axis is stretched and the other compressed, there are two conventions, and [`Major`] selects one:
 //!
 //! - **By value**, as in mechanics: of eigenvectors the one with the algebraically larger eigenvalue (its real part),
 //!   of semi-axes the one along which `u . T u` is larger. Both agree for symmetric tensors: tension is major, whatever
 //!   its size. With `u . T u = (Re E +- |F| Re E / |E|) / 2` along the longer and the shorter semi-axis, the longer one
 //!   is major where the trace is positive and the shorter one where it is negative.
-//! - **By magnitude**, as light sees it: the longer semi-axis, or the eigenvector whose eigenvalue is larger without
-//!   its sign.
+//! - **By magnitude**, as light sees it: the longer semi-axis, or the eigenvector whose eigenvalue has the larger
+//!   absolute value.
 //!
-//! Unless something else is said, eigenvectors are ordered by value and semi-axes by magnitude ([`Axes::by`]). Where
-//! both eigenvalues are positive the orders agree.
+//! By default eigenvectors are ordered by value and semi-axes by magnitude ([`Axes::by`]). The two orders agree if both
+//! eigenvalues are positive.
 //!
-//! What tells the axes apart ([`Frame::contrast`]) depends on the order. Symmetric tensors by value have axes wherever
-//! `F` is not zero, pure shear (2, -2) included; by magnitude pure shear has none, because both semi-axes are equally
-//! long. Eigenvectors by magnitude, and semi-axes of tensors that are not symmetric by value, change places where the
-//! trace is zero: their lines end there.
+//! How well the axes can be distinguished ([`Frame::contrast`]) depends on the order. By value, symmetric tensors have
+//! axes wherever `F` is not zero, including pure shear (2, -2); by magnitude, pure shear is degenerate, because both
+//! semi-axes are equally long. Eigenvectors by magnitude, and semi-axes of asymmetric tensors by value, swap roles
+//! where the trace is zero, so their lines end there.
 
 use tigereye_core::{Complex, Conformal, Tensor2, Vector, math, quarter_turned};
 
@@ -53,13 +53,12 @@ pub enum Axes {
     /// light sees.
     #[default]
     HalfAxes,
-    /// Eigenvectors, the axes of classical tensor lines. Where eigenvalues are complex (the turning is stronger than
-    /// the stretching) the pseudo-eigenvectors: the diagonals of the smallest rectangle around the ellipses along which
-    /// the linear flow of the tensor turns.
+    /// Eigenvectors, the axes of classical tensor lines. For complex eigenvalues (rotation stronger than stretching)
+    /// the pseudo-eigenvectors: the diagonals of the smallest rectangle around the elliptical orbits of the tensor's
+    /// linear flow.
     Eigenvectors,
-    /// Dual eigenvectors: the directions halfway between the eigenvectors, and the axes of the ellipses along which the
-    /// linear flow turns where eigenvalues are complex, the longer one major. Symmetric tensors have none, as they turn
-    /// nothing.
+    /// Dual eigenvectors: the bisectors of the eigenvectors or, for complex eigenvalues, the axes of the elliptical
+    /// orbits of the linear flow, the longer one major. Undefined for symmetric tensors, which contain no rotation.
     DualEigenvectors,
 }
 
@@ -75,12 +74,12 @@ impl Axes {
     }
 }
 
-/// By what the major axis is the larger one; see the beginning of `axes.rs` for the rule.
+/// How the two axes are compared; the rule stands at the beginning of `axes.rs`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Major {
-    /// By the value with its sign: tension is major.
+    /// By the signed value: tension is major.
     Value,
-    /// By the size of the value: the longer axis is major.
+    /// By the absolute value: the longer axis is major.
     Magnitude,
 }
 
@@ -95,7 +94,7 @@ impl Major {
     }
 }
 
-/// Axes with the order of the two.
+/// Axes together with their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OrderedAxes {
     axes: Axes,
@@ -103,14 +102,14 @@ pub struct OrderedAxes {
 }
 
 impl From<Axes> for OrderedAxes {
-    /// In their usual order.
+    /// In the usual order.
     fn from(axes: Axes) -> Self {
         axes.by(axes.usual_major())
     }
 }
 
 impl OrderedAxes {
-    /// What they are, in words.
+    /// A description in words.
     #[must_use]
     pub const fn words(self) -> &'static str {
         match (self.axes, self.major) {
@@ -126,13 +125,13 @@ impl OrderedAxes {
 /// Whether eigenvalues are real.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Domain {
-    /// Two real eigenvalues: the tensor stretches at least as much as it turns.
+    /// Two real eigenvalues: the tensor stretches at least as much as it rotates.
     Real,
-    /// A complex pair.
+    /// A complex-conjugate pair.
     Complex,
 }
 
-/// What a tensor does: scale, turn, and stretch.
+/// The strengths of the three parts of a tensor: scaling, rotation and stretching.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decomposition {
     /// Isotropic scaling, half the trace.
@@ -163,19 +162,18 @@ impl Decomposition {
 pub struct Frame {
     /// Unit vectors, major first, each with either sign.
     pub axes: [Vector; 2],
-    /// Their lengths, never negative, in the order of the axes; for [`Axes::Eigenvectors`] the eigenvalues with their
-    /// signs, or their real part where they are complex; for dual eigenvectors the semi-axes of the stretching and
-    /// turning part.
+    /// In the order of the axes: the lengths of semi-axes; for [`Axes::Eigenvectors`] the signed eigenvalues, or their
+    /// real part if they are complex; for dual eigenvectors the semi-axes of the tensor without its isotropic part.
     pub values: [f64; 2],
-    /// What tells the axes apart, in the unit of the tensor: the difference of the semi-axes, or of `u . T u` along
-    /// them where they are ordered by value; for eigenvectors that of the stretching (by magnitude the trace, where it
-    /// is smaller), for dual ones the turning where it is smaller. It grows in proportion to the distance from where
-    /// the axes cannot be told apart.
+    /// How well the axes can be distinguished, in the unit of the tensor: the difference of the semi-axes (of `u . T u`
+    /// along them, if they are ordered by value); for eigenvectors the stretching `|F|` (by magnitude the trace, if
+    /// smaller), for dual eigenvectors the rotation, if smaller. It grows linearly with the distance from a degenerate
+    /// point.
     pub contrast: f64,
 }
 
-/// The numbers of a tensor times a power of two, which is the second result, so that squares stay in range; most
-/// tensors need none. `None` where the tensor is zero or not finite.
+/// The numbers of a tensor scaled by a power of two, which is the second result, so that squares stay in range; for
+/// most tensors it is 1. `None` if the tensor is zero or not finite.
 fn scaled(t: &Tensor2) -> Option<(Conformal, f64)> {
     let largest = t.max_abs();
     let scale = match largest {
@@ -196,7 +194,7 @@ impl Axes {
         }
     }
 
-    /// These axes in an order. Dual eigenvectors have but one, the longer first.
+    /// These axes in a given order. Dual eigenvectors have only one order, the longer first.
     #[must_use]
     pub const fn by(self, major: Major) -> OrderedAxes {
         match self {
@@ -231,8 +229,8 @@ impl OrderedAxes {
         self.major
     }
 
-    /// The axes of a tensor. `None` where it is not finite, and where it has none: its [`Frame::contrast`] is not more
-    /// than the part `least` of the larger semi-axis.
+    /// The axes of a tensor. `None` if it is not finite or degenerate: if its [`Frame::contrast`] is at most the
+    /// fraction `least` of the larger semi-axis.
     #[must_use]
     pub fn of(self, t: &Tensor2, least: f64) -> Option<Frame> {
         let (numbers, scale) = scaled(t)?;
@@ -245,8 +243,8 @@ impl OrderedAxes {
         Some(Frame { axes, values: values.map(|v| v / scale), contrast: contrast / scale })
     }
 
-    /// The [`Frame::values`] of a tensor, which there are without axes, too: both of the same size then. `None` where
-    /// it is not finite.
+    /// The [`Frame::values`] of a tensor. They are also defined for a degenerate tensor, where both have the same
+    /// magnitude. `None` if it is not finite.
     #[must_use]
     pub fn values(self, t: &Tensor2) -> Option<[f64; 2]> {
         if t.is_zero() {
@@ -259,7 +257,7 @@ impl OrderedAxes {
     fn values_of(self, numbers: &Conformal) -> [f64; 2] {
         let Conformal { f, e } = numbers;
         let stretch = size(*f);
-        let ordered = |[a, b]: [f64; 2]| if self.is_turned(numbers) { [b, a] } else { [a, b] };
+        let ordered = |[a, b]: [f64; 2]| if self.is_swapped(numbers) { [b, a] } else { [a, b] };
         match self.axes {
             Axes::HalfAxes => ordered(longer_and_shorter(stretch, size(*e))),
             Axes::DualEigenvectors => longer_and_shorter(stretch, e.im.abs()),
@@ -271,9 +269,8 @@ impl OrderedAxes {
         }
     }
 
-    /// Whether the order is other than the usual one of the axes: both orders agree as long as the trace is not
-    /// negative.
-    fn is_turned(self, Conformal { e, .. }: &Conformal) -> bool {
+    /// Whether the axes are swapped relative to their usual order. The two orders agree unless the trace is negative.
+    fn is_swapped(self, Conformal { e, .. }: &Conformal) -> bool {
         e.re < 0.0 && self.major != self.axes.usual_major()
     }
 }
@@ -282,14 +279,14 @@ fn longer_and_shorter(a: f64, b: f64) -> [f64; 2] {
     [0.5 * (a + b), 0.5 * (a - b).abs()]
 }
 
-/// Axes, and what tells them apart.
+/// Both axes and their [`Frame::contrast`].
 type AxesAndContrast = ([Vector; 2], f64);
 
 fn semi_axes(numbers: &Conformal, by: Major, least: f64) -> Option<AxesAndContrast> {
     let Conformal { f, e } = numbers;
     let (stretch, rest) = (size(*f), size(*e));
     let sum = 0.5 * (stretch + rest);
-    // What vanishes beside the rest has no direction, nor has its product with it.
+    // A number that vanishes beside the other one has no direction, nor does their product.
     let least = least.max(f64::EPSILON * f64::EPSILON) * sum;
     let (e, contrast) = match by {
         Major::Magnitude => (*e, stretch.min(rest)),
@@ -302,14 +299,14 @@ fn semi_axes(numbers: &Conformal, by: Major, least: f64) -> Option<AxesAndContra
     Some(([major, quarter_turned(major)], contrast))
 }
 
-/// E with the sign that makes the axis of the larger `u . T u` major, and the difference of the two. Where E vanishes
-/// the tensor is symmetric as far as anybody can tell, and has eigenvectors.
+/// E with the sign that makes the axis of the larger `u . T u` major, and the difference of the two. If E vanishes, the
+/// tensor is symmetric up to rounding, and its semi-axes are its eigenvectors.
 fn by_value(e: Complex<f64>, stretch: f64, rest: f64) -> (Complex<f64>, f64) {
     if rest <= f64::EPSILON * stretch {
         return (Complex::new(1.0, 0.0), stretch);
     }
     let sign = if e.re < 0.0 { -1.0 } else { 1.0 };
-    // Divided by its size: the product with F must not vanish.
+    // Normalised, so that the product with F does not underflow.
     (e * sign / rest, stretch * e.re.abs() / rest)
 }
 
@@ -317,14 +314,14 @@ fn eigenvectors(Conformal { f, e }: &Conformal, by: Major, least: f64) -> Option
     let (stretch, rest) = (size(*f), size(*e));
     let contrast = match by {
         Major::Value => stretch,
-        // Real parts of opposite signs and the same size.
+        // Where the trace vanishes, the eigenvalues have the same magnitude.
         Major::Magnitude => stretch.min(e.re.abs()),
     };
     if contrast <= least * 0.5 * (stretch + rest) {
         return None;
     }
     let (stretching, turning) = (0.5 * stretch, 0.5 * e.im.abs());
-    // Rotated from the bisector by 45 degrees less, and more, the angle whose tangent is sqrt(|difference| / sum).
+    // Both lie at 45 degrees to the bisector, minus and plus the angle whose tangent is sqrt(|difference| / sum).
     let (c, s) = ((stretching + turning).sqrt(), (stretching - turning).abs().sqrt());
     let size = size(Complex::new(c, s));
     let (c, s) = (c / size, s / size);
@@ -336,8 +333,8 @@ fn eigenvectors(Conformal { f, e }: &Conformal, by: Major, least: f64) -> Option
     };
     let major = about(diagonal * (c + s), diagonal * (c - s));
     let minor = about(diagonal * (c - s), diagonal * (c + s));
-    let is_turned = by == Major::Magnitude && e.re < 0.0;
-    Some((if is_turned { [minor, major] } else { [major, minor] }, contrast))
+    let is_swapped = by == Major::Magnitude && e.re < 0.0;
+    Some((if is_swapped { [minor, major] } else { [major, minor] }, contrast))
 }
 
 fn dual_eigenvectors(Conformal { f, e }: &Conformal, least: f64) -> Option<AxesAndContrast> {
@@ -346,13 +343,13 @@ fn dual_eigenvectors(Conformal { f, e }: &Conformal, least: f64) -> Option<AxesA
     if contrast <= least * 0.5 * (stretch + rest) {
         return None;
     }
-    // A quarter turn of F is an eighth turn of its axis.
+    // A quarter turn of F rotates its axis by 45 degrees.
     let turned = if e.im < 0.0 { Complex::new(f.im, -f.re) } else { Complex::new(-f.im, f.re) };
     let major = half_angle(turned);
     Some(([major, quarter_turned(major)], contrast))
 }
 
-/// Components are scaled: their squares neither overflow nor vanish beside each other.
+/// Magnitude of a complex number. Components are scaled, so their squares neither overflow nor underflow.
 fn size(z: Complex<f64>) -> f64 {
     (z.re * z.re + z.im * z.im).sqrt()
 }
@@ -445,7 +442,7 @@ mod tests {
         assert_eq!((frame.values, frame.axes[0].x.abs()), ([-1.0, -3.0], 1.0));
         let half = Axes::HalfAxes.of(&t, 0.0).expect("axes");
         assert_eq!((half.values, half.axes[0].y.abs()), ([3.0, 1.0], 1.0));
-        assert_eq!(Axes::DualEigenvectors.of(&t, 1e-12), None, "nothing turns");
+        assert_eq!(Axes::DualEigenvectors.of(&t, 1e-12), None, "no rotation");
     }
 
     #[test]
@@ -459,13 +456,13 @@ mod tests {
         }
     }
 
-    /// The linear flow of a turning tensor runs along ellipses: the square of the speed is extremal on their axes.
+    /// The linear flow of a tensor with complex eigenvalues runs along ellipses: the speed is extremal on their axes.
     #[test]
     fn dual_eigenvectors_are_the_axes_of_elliptic_flow() {
         // x' = -2 y, y' = x keeps x^2 + 2 y^2: the longer axis lies along x.
         let flat = Axes::DualEigenvectors.of(&Tensor2::new(0.0, -2.0, 1.0, 0.0), 0.0).expect("axes");
         assert!(sine_between(flat.axes[0], Vector::new(1.0, 0.0)) < 1e-15);
-        // Clockwise the same.
+        // The same for clockwise rotation.
         let back = Axes::DualEigenvectors.of(&Tensor2::new(0.0, 2.0, -1.0, 0.0), 0.0).expect("axes");
         assert!(sine_between(back.axes[0], Vector::new(1.0, 0.0)) < 1e-15);
         // The rectangle around that ellipse has sides sqrt(2) : 1.
@@ -475,7 +472,7 @@ mod tests {
         }
     }
 
-    /// Where real eigenvalues become complex both axes go over into one.
+    /// Where real eigenvalues become complex, the two eigenvectors merge.
     #[test]
     fn axes_do_not_jump_between_the_domains() {
         let at = |rotation: f64| Tensor2::new(1.0 + 0.6, 0.8 - rotation, 0.8 + rotation, 1.0 - 0.6);
@@ -489,9 +486,9 @@ mod tests {
         }
     }
 
-    /// Values are those of the axes, and there where these are none.
+    /// Values are those of the axes, and are also defined for degenerate tensors.
     #[test]
-    fn values_do_not_need_axes() {
+    fn degenerate_tensors_have_values() {
         let all = [Axes::HalfAxes, Axes::Eigenvectors, Axes::DualEigenvectors];
         for axes in all {
             for t in tensors() {
@@ -501,7 +498,7 @@ mod tests {
             assert_eq!(axes.values(&Tensor2::ZERO), Some([0.0; 2]));
             assert_eq!(axes.values(&Tensor2::isotropic(f64::NAN)), None);
         }
-        // Scaling by 3 and a turn of size 4: semi-axes of 5, real parts of 3, and an ellipse of flow that is a circle.
+        // Scaling by 3 and rotation by 4: semi-axes of 5, real parts of 3, and circular orbits of the flow.
         let turning = Tensor2::new(3.0, -4.0, 4.0, 3.0);
         assert!(all.iter().all(|axes| axes.of(&turning, 0.0).is_none()));
         assert_eq!(all.map(|axes| axes.values(&turning)), [[5.0; 2], [3.0; 2], [4.0; 2]].map(Some));
@@ -509,15 +506,15 @@ mod tests {
     }
 
     #[test]
-    fn tensors_without_axes_have_none() {
-        let none = [
+    fn degenerate_tensors_have_no_axes() {
+        let degenerate = [
             Tensor2::ZERO,
             Tensor2::IDENTITY,
             Tensor2::isotropic(f64::NAN),
             Tensor2::isotropic(f64::INFINITY),
         ];
         for axes in [Axes::HalfAxes, Axes::Eigenvectors, Axes::DualEigenvectors] {
-            for t in &none {
+            for t in &degenerate {
                 assert_eq!(axes.of(t, 1e-9), None, "{axes:?} {t:?}");
             }
         }

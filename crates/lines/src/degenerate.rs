@@ -1,36 +1,35 @@
-//! Points where both semi-axes are equally long, by how the axes turn around them.
+//! Degenerate points, where both semi-axes are equally long, classified by the rotation of the axes around them.
 //!
-//! A tensor is the sum of a conformal and an anticonformal map: with `F = (xx - yy) + i (xy + yx)` and `E = (xx + yy) +
-//! i (yx - xy)` the semi-axes are `(|E| + |F|) / 2` and `||E| - |F|| / 2`, and the longer one lies at `(arg E + arg F)
-//! / 2`. It has no direction where `F` or `E` is zero; going round such a point once turns it by half of the winding of
-//! that number. Symmetric tensors have a real `E`, so theirs are the zeros of `F`, the classical degenerate points
-//! (Delmarcelle and Hesselink 1994).
+//! By the two numbers of [`Conformal`], the longer semi-axis lies at `(arg E + arg F) / 2`. It has no direction where
+//! `F` or `E` is zero; on a closed path around such a point it rotates by half of the winding of that number. Symmetric
+//! tensors have a real `E`, so their degenerate points are the zeros of `F` (the classical ones of Delmarcelle and
+//! Hesselink 1994).
 
 use core::f64::consts::TAU;
 use tigereye_core::{Cell, Complex, Conformal, Field, Grid, Point, Tensor2, math};
 
-/// What lines do around a degenerate point.
+/// The pattern of the lines around a degenerate point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DegenerateKind {
     /// Index 1/2.
     Wedge,
     /// Index -1/2.
     Trisector,
-    /// Several of them in one place: another index, in halves.
+    /// Several of them merged: any other index, as a number of half turns.
     Merged(i32),
 }
 
-/// A point without axes.
+/// A point at which the axes are undefined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DegeneratePoint {
     /// Where it is.
     pub position: Point,
-    /// What it is.
+    /// Its type.
     pub kind: DegenerateKind,
 }
 
 impl DegeneratePoint {
-    /// Half turns of the axes, counter-clockwise, on a counter-clockwise way around the point: twice the index.
+    /// Half turns of the axes, counter-clockwise, on a counter-clockwise path around the point: twice the index.
     #[must_use]
     pub const fn half_turns(&self) -> i32 {
         match self.kind {
@@ -41,19 +40,18 @@ impl DegeneratePoint {
     }
 }
 
-/// Numbers below this part of their tensor's largest component are zero: what rounding leaves.
+/// Numbers below this fraction of their tensor's largest component count as zero: they are rounding errors.
 const ROUNDING: f64 = 1e-12;
 
 /// All degenerate points between the centres of cells, row by row, of tensors interpolated component by component.
-/// Where whole cells are isotropic, connected ones are one point in their middle, with the index of the way around
-/// them; those at the border, whose way leaves the field, are left out, and so are points and lines around which the
-/// axes do not turn.
+/// A connected region of isotropic cells is one point at its centre, with the index of the path around the region.
+/// Regions at the border, around which no path lies inside the field, are omitted, as are points and lines of index 0.
 #[must_use]
 pub fn degenerate_points(field: &Field<Tensor2>) -> Vec<DegeneratePoint> {
     zeros(field, &[field.map(|t| Conformal::of(t).f), field.map(|t| Conformal::of(t).e)])
 }
 
-/// The points where eigenvectors, and dual eigenvectors, have no direction: where nothing stretches.
+/// The degenerate points of eigenvectors and dual eigenvectors: the zeros of the stretching `F`.
 pub(crate) fn points_of_stretching(field: &Field<Tensor2>) -> Vec<DegeneratePoint> {
     zeros(field, &[field.map(|t| Conformal::of(t).f)])
 }
@@ -71,7 +69,7 @@ fn zeros(field: &Field<Tensor2>, numbers: &[Field<Complex<f64>>]) -> Vec<Degener
     found
 }
 
-/// A complex number in every cell.
+/// One complex number per cell.
 struct Plane<'a> {
     grid: Grid,
     numbers: &'a Field<Complex<f64>>,
@@ -94,20 +92,21 @@ impl<'a> Plane<'a> {
         CORNERS.map(|(dx, dy)| Cell::new(quad.x + dx, quad.y + dy))
     }
 
-    /// Magnitude of a cell's number, 0 where it is rounding.
+    /// Magnitude of a cell's number, 0 if it is a rounding error.
     fn size(&self, cell: Cell) -> f64 {
         let z = self.numbers.at(cell);
         if self.is_zero(cell) { 0.0 } else { math::hypot(z.re, z.im) }
     }
 
-    /// By how much the argument grows from one cell to the next, the short way; `None` where there is none.
+    /// Change of the argument from one cell to the next along the shorter arc; `None` if neither arc is shorter.
     fn turn(&self, from: Cell, to: Cell) -> Option<f64> {
         if self.is_zero(from) || self.is_zero(to) {
             return None;
         }
         let (a, b) = (self.numbers.at(from), self.numbers.at(to));
         let (cross, dot) = (a.re * b.im - a.im * b.re, a.re * b.re + a.im * b.im);
-        // Half a circle has no short way: real numbers of both signs, which are zero along lines and not in points.
+        // Opposite numbers have no shorter arc: real numbers of both signs, which vanish on lines rather than at
+        // points.
         let opposite = cross.abs() <= ROUNDING * dot.abs() && dot < 0.0;
         let angle = math::atan2(cross, dot);
         (angle.is_finite() && !opposite).then_some(angle)
@@ -117,7 +116,7 @@ impl<'a> Plane<'a> {
         self.zero[self.grid.index(cell)]
     }
 
-    /// Quads that share an edge without a short way are taken together: the number vanishes on that edge.
+    /// Quads are merged across an edge on which [`Self::turn`] is undefined: the number vanishes on that edge.
     fn zeros(&self) -> Vec<DegeneratePoint> {
         let mut found = Vec::new();
         let mut seen = vec![false; self.grid.cells()];
@@ -132,7 +131,7 @@ impl<'a> Plane<'a> {
         found
     }
 
-    /// The quad beyond each edge, if there is one: below, to the right, above, to the left.
+    /// The neighbouring quad across each edge, if it exists: below, right, above, left.
     fn beyond(&self, quad: Cell) -> [Option<Cell>; 4] {
         [
             (quad.y + 2 < self.grid.height()).then(|| Cell::new(quad.x, quad.y + 1)),
@@ -142,17 +141,18 @@ impl<'a> Plane<'a> {
         ]
     }
 
-    /// The point in a quad and those taken together with it, if the way around them lies inside and turns.
+    /// The degenerate point of a quad and those merged with it, if the path around them lies inside the field and its
+    /// index is not 0.
     fn around(&self, first: Cell, seen: &mut [bool]) -> Option<DegeneratePoint> {
         let mut quads = vec![first];
         let (mut total, mut next, mut leaves) = (0.0, 0, false);
-        // Where the number vanishes on edges.
+        // Sum and count of the zeros on edges.
         let (mut middle, mut count) = (Point::zero(), 0.0);
         while next < quads.len() {
             let corners = self.corners(quads[next]);
             for (i, beyond) in self.beyond(quads[next]).into_iter().enumerate() {
                 let (from, to) = (corners[i], corners[(i + 1) % 4]);
-                // Edges between two quads of the way cancel.
+                // Edges between two merged quads are traversed in both directions and cancel.
                 if let Some(turn) = self.turn(from, to) {
                     total += turn;
                     continue;
@@ -183,7 +183,7 @@ impl<'a> Plane<'a> {
         Some(DegeneratePoint { position, kind: kind_of(half_turns) })
     }
 
-    /// Where the bilinear number vanishes in a quad, by Newton's method; the middle where it does not get there.
+    /// The zero of the bilinear number in a quad, by Newton's method; the centre of the quad if it does not converge.
     fn zero_in(&self, quad: Cell) -> Point {
         let at = |dx: usize, dy: usize| {
             let z = self.numbers.at(Cell::new(quad.x + dx, quad.y + dy));
@@ -210,7 +210,7 @@ impl<'a> Plane<'a> {
     }
 }
 
-/// Turns of a number by whole circles turn the axes by half circles.
+/// A full turn of the number is half a turn of the axes.
 fn half_turns_of(angle: f64) -> i32 {
     (angle / TAU).round() as i32
 }
@@ -253,7 +253,7 @@ mod tests {
                 "{spec}: {found:?}"
             );
         }
-        // A rotation times a diagonal matrix is not symmetric: both of its numbers turn, each by its own point.
+        // A rotation times a diagonal matrix is not symmetric: both of its numbers have zeros of their own.
         for (spec, half_turns) in [("inverse:size=21", -2), ("star:size=21", 2), ("rings:size=21", 2)] {
             let found = points(spec);
             assert_eq!(
@@ -263,7 +263,7 @@ mod tests {
             );
             assert!(found.iter().all(|p| (p.position.x - 10.0).abs() < 1.0), "{spec}: {found:?}");
         }
-        // What the pictures show: their ellipses.
+        // The ellipses, which pictures show, have one common point.
         for (spec, half_turns) in [
             ("inverse:size=21", -2),
             ("star:size=21", 2),
@@ -282,12 +282,12 @@ mod tests {
                 spec.name
             );
         }
-        for none in ["x:size=9", "isotropic:size=9", "step:size=15", "cross_x:size=15", "drain:size=20"] {
-            assert_eq!(points(none), [], "{none}");
+        for spec in ["x:size=9", "isotropic:size=9", "step:size=15", "cross_x:size=15", "drain:size=20"] {
+            assert_eq!(points(spec), [], "{spec}");
         }
     }
 
-    /// Points are found between the cells, where linear components vanish.
+    /// Points between cells are exact if the components are linear.
     #[test]
     fn positions_are_exact_for_linear_components() {
         let field = Field::from_fn(Grid::new(12, 9).expect("a size"), |c| {
@@ -302,7 +302,7 @@ mod tests {
         );
     }
 
-    /// How often the axes turn along the border is what the points inside add up to, symmetric or not.
+    /// The rotation of the axes along the border is the sum of the indices inside, for symmetric tensors and others.
     #[test]
     fn indices_add_up_to_that_of_the_border() {
         let mut numbers = SplitMix64::new(11);
@@ -322,20 +322,20 @@ mod tests {
                         + v * ((1.0 - u) * at(i, j + 1) + u * at(i + 1, j + 1))
                 };
                 let (xy, yx) = (mix(1), mix(2));
-                // Symmetric ones positive: along a line of zero trace both axes are equally long too.
+                // Symmetric ones are positive: both semi-axes are also equally long along a line of zero trace.
                 let more = if symmetric { 2.0 } else { 0.0 };
                 Tensor2::new(more + mix(0), xy, if symmetric { xy } else { yx }, more + mix(3))
             });
             let phi = |x: usize, y: usize| Svd::of(field.at(Cell::new(x, y))).phi_rad();
-            let mut way: Vec<f64> = (0..160).map(|x| phi(x, 160)).collect();
-            way.extend((0..160).map(|y| phi(160, 160 - y)));
-            way.extend((0..160).map(|x| phi(160 - x, 0)));
-            way.extend((0..160).map(|y| phi(0, y)));
+            let mut path: Vec<f64> = (0..160).map(|x| phi(x, 160)).collect();
+            path.extend((0..160).map(|y| phi(160, 160 - y)));
+            path.extend((0..160).map(|x| phi(160 - x, 0)));
+            path.extend((0..160).map(|y| phi(0, y)));
             let turn = |i: usize| {
-                let off = way[(i + 1) % way.len()] - way[i];
+                let off = path[(i + 1) % path.len()] - path[i];
                 off - PI * (off / PI).round()
             };
-            let border = ((0..way.len()).map(turn).sum::<f64>() / PI).round() as i32;
+            let border = ((0..path.len()).map(turn).sum::<f64>() / PI).round() as i32;
             let inside: i32 = degenerate_points(&field).iter().map(DegeneratePoint::half_turns).sum();
             assert_eq!(inside, border, "round {round}");
             with_points += usize::from(!degenerate_points(&field).is_empty());
@@ -343,7 +343,7 @@ mod tests {
         assert!(with_points > 30);
     }
 
-    /// What is around a cell without numbers is not known.
+    /// The index around a non-finite cell is unknown.
     #[test]
     fn broken_cells_hide_what_is_around_them() {
         for bad in [f64::NAN, f64::INFINITY] {
@@ -352,7 +352,7 @@ mod tests {
             let broken = field.grid().index(Cell::new(10, 10));
             field.values_mut()[broken] = Tensor2::isotropic(bad);
             assert_eq!(degenerate_points(&field), []);
-            // Elsewhere it is no matter.
+            // Elsewhere it does not matter.
             let mut field = generate(&spec.name, &spec.arguments).expect("a field");
             let broken = field.grid().index(Cell::new(3, 15));
             field.values_mut()[broken] = Tensor2::isotropic(bad);
@@ -360,7 +360,7 @@ mod tests {
         }
     }
 
-    /// Weak tensors have their points too.
+    /// The points do not depend on the magnitude of the tensors.
     #[test]
     fn strength_does_not_matter() {
         let spec = parse_spec("wedge:size=20").expect("a generator");

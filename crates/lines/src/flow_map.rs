@@ -1,13 +1,13 @@
-//! Separation of neighbouring points: the finite-time Lyapunov exponent of a map.
+//! The finite-time Lyapunov exponent of a flow map: the rate at which neighbouring points separate.
 
 use euclid::{Point2D, Vector2D};
 use tigereye_core::{Cell, Conformal, Field, Grid, Tensor2, math, runge_kutta_step};
 
-/// The exponent `ln(sqrt(lambda)) / duration` in every sample, where lambda is the larger eigenvalue of the
-/// Cauchy-Green tensor `F^T F` of the flow map and F its gradient (Shadden, Lekien and Marsden, 2005). `ends` says
-/// where the samples lead, in the unit of `spacing`, the distance of samples along x and y; `None` where they lead
-/// nowhere. Differences are central, one-sided beside samples that lead nowhere and at the border; where a sample has
-/// no neighbour along an axis, or leads nowhere, the exponent is not a number.
+/// The exponent `ln(sqrt(lambda)) / duration` of every sample, where lambda is the larger eigenvalue of the
+/// Cauchy-Green tensor `F^T F` and F the gradient of the flow map (Shadden, Lekien and Marsden, 2005). `ends` is the
+/// flow map: the end point of each sample in units of `spacing`, the distances of samples along x and y, or `None` if
+/// it is unknown. Differences are central, and one-sided at the border and beside samples without an end. The exponent
+/// is NaN if a sample has no end, or no neighbour with one along an axis. Whether rows run up or down does not matter.
 #[must_use]
 pub fn exponents<Frame>(
     ends: &Field<Option<Point2D<f64, Frame>>>,
@@ -49,13 +49,13 @@ pub(crate) fn gradient_at<Frame>(
 
 /// The exponent of a gradient.
 pub(crate) fn exponent_of(gradient: &Tensor2, duration: f64) -> f64 {
-    // The larger singular value, as in `axes`: half the sum of what stretches and what turns and scales.
+    // The larger singular value is (|F| + |E|) / 2, as in `axes`.
     let Conformal { e, f } = Conformal::of(gradient);
     math::ln(0.5 * (math::hypot(f.re, f.im) + math::hypot(e.re, e.im))) / duration
 }
 
-/// Where a particle is after moving with a velocity from time `from` to `to`: classical Runge-Kutta in `steps` steps of
-/// equal length.
+/// Position of a particle that moves with a velocity from time `from` to `to`, by the classical Runge-Kutta method in
+/// `steps` steps of equal length.
 #[must_use]
 pub fn advected<Frame>(
     velocity: &dyn Fn(f64, Point2D<f64, Frame>) -> Vector2D<f64, Frame>,
@@ -82,7 +82,7 @@ mod tests {
         Field::from_fn(grid, |c| end(PhysicalPoint::new(0.1 * c.x as f64, 0.2 * c.y as f64)))
     }
 
-    /// A saddle parts neighbours by exp(t) along x, wherever they are.
+    /// A saddle separates neighbours by exp(t) along x, wherever they are.
     #[test]
     fn saddle_has_exponent_one() {
         let velocity = |_: f64, p: PhysicalPoint| Vector::new(p.x, -p.y);

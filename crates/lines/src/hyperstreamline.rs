@@ -1,12 +1,13 @@
-//! Hyperstreamlines: lines along one axis, as wide as the other.
+//! Hyperstreamlines: lines along one axis whose width is the other.
 
 use crate::{Family, Interpolated, TensorLine};
 use tigereye_core::Point;
 
-/// Half of a hyperstreamline's width at every point of its line, in the unit of [`tigereye_core::CellShape`]: `scale`
-/// times the half-length of the other axis, or the magnitude of the other eigenvalue (Delmarcelle and Hesselink,
-/// Visualizing second-order tensor fields with hyperstreamlines, 1993, where the line is a tube with the two other ones
-/// as its cross section). 0 where the tensor is zero, not a number where it is none.
+/// Half of a hyperstreamline's width at every point of its line, in units of the smaller side of a cell
+/// ([`tigereye_core::CellShape`]): `scale` times the length of the other semi-axis, or the magnitude of the other
+/// eigenvalue (Delmarcelle and Hesselink, Visualizing second-order tensor fields with hyperstreamlines, 1993, where the
+/// line is a tube whose cross-section is given by the two other axes). 0 where the tensor is zero, NaN where it is not
+/// finite.
 #[must_use]
 pub fn half_widths(field: &Interpolated<'_>, line: &TensorLine, family: Family, scale: f64) -> Vec<f64> {
     let width = |p: &Point| {
@@ -22,7 +23,7 @@ mod tests {
     use crate::{Axes, LineOptions, tensor_line};
     use tigereye_core::{Field, Grid, Tensor2};
 
-    /// Along x the major axis grows, across the minor one.
+    /// The lengths of both axes grow along x.
     #[test]
     fn width_is_the_other_axis() {
         let field = Field::from_fn(Grid::new(11, 11).expect("a size"), |c| {

@@ -3,8 +3,8 @@
 use crate::{Axes, Family, Frame, OrderedAxes};
 use tigereye_core::{CellShape, Field, Point, Svd, Tensor2, Vector, bilinear};
 
-/// The symmetric tensor with the same ellipse in every cell: `U S U^T` for a tensor `U S V^T`, its left stretch tensor.
-/// The ellipse is all that light sees. Where tensors are not symmetric this is what to interpolate: their own
+/// The symmetric tensor with the same ellipse for every cell: `U S U^T` for a tensor `U S V^T`, its left stretch
+/// tensor. Light depends only on the ellipse. Asymmetric tensors should be interpolated in this form: their own
 /// components may cancel between cells whose ellipses agree.
 #[must_use]
 pub fn ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
@@ -14,9 +14,9 @@ pub fn ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     })
 }
 
-/// The same with the signs of what the tensor does along its semi-axes: an axis `u` counts as negative where `u . T u`
-/// is. That is the tensor itself where it is symmetric, and what to interpolate for semi-axes by value
-/// ([`crate::Major`]): in pure shear both are equally long, but one is stretched and the other squeezed.
+/// The same with signed semi-axes: an axis `u` has the sign of `u . T u`. A symmetric tensor is unchanged. This is the
+/// form to interpolate for semi-axes ordered by value ([`crate::Major`]): in pure shear both are equally long, but one
+/// is in tension and the other in compression.
 #[must_use]
 pub fn signed_ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     field.map(|t| {
@@ -32,11 +32,11 @@ pub fn signed_ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     })
 }
 
-/// How far outside a point still counts as one of the border, cells: a line along the border leaves it by the rounding
-/// of its steps, which is some 1e-16 of the coordinate each.
+/// Largest distance outside the field, in cells, at which a point still counts as on the border: rounding moves a line
+/// along the border by some 1e-16 of the coordinate per step.
 const ROUNDING: f64 = 1e-9;
 
-/// A field between its cells.
+/// A tensor field interpolated between its cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Interpolated<'a> {
     field: &'a Field<Tensor2>,
@@ -81,15 +81,15 @@ impl<'a> Interpolated<'a> {
         self.field
     }
 
-    /// The last point between centres, that of the lower right cell: (width - 1, height - 1).
+    /// The centre of the lower right cell, the last point with a tensor: (width - 1, height - 1).
     #[must_use]
     pub const fn last(&self) -> Point {
         let grid = self.field.grid();
         Point::new((grid.width() - 1) as f64, (grid.height() - 1) as f64)
     }
 
-    /// The tensor at a point, bilinear in every component; `None` outside of the centres of the outermost cells (by
-    /// more than rounding, a billionth of a cell), and where one of the four cells is not finite.
+    /// The tensor at a point, bilinear in every component; `None` more than a billionth of a cell (rounding) outside
+    /// the centres of the outermost cells, and where one of the four cells is not finite.
     #[must_use]
     pub fn at(&self, p: Point) -> Option<Tensor2> {
         let last = self.last();
@@ -105,13 +105,14 @@ impl<'a> Interpolated<'a> {
         t.is_finite().then_some(t)
     }
 
-    /// The axes at a point (see [`Axes::of`] for `least`); `None` as [`Self::at`], and where there are none.
+    /// The axes at a point (see [`Axes::of`] for `least`); `None` as for [`Self::at`], and where the
+    /// tensor is degenerate.
     #[must_use]
     pub fn frame(&self, point: Point, least: f64) -> Option<Frame> {
         self.axes.of(&self.at(point)?, least)
     }
 
-    /// Unit vector of an axis at a point, with either sign; `None` as [`Self::frame`].
+    /// Unit vector of an axis at a point, with either sign; `None` as for [`Self::frame`].
     #[must_use]
     pub fn direction(&self, point: Point, family: Family, least: f64) -> Option<Vector> {
         Some(self.frame(point, least)?.axes[family as usize])
@@ -125,7 +126,7 @@ mod tests {
     use tigereye_core::{Cell, Grid, math, quarter_turned};
 
     #[test]
-    fn linear_components_are_met_everywhere() {
+    fn bilinear_components_are_reproduced() {
         let grid = Grid::new(5, 4).expect("a size");
         let linear = |x: f64, y: f64| Tensor2::new(1.0 + x, 2.0 * y, x - y, 3.0 + x * y);
         let field = Field::from_fn(grid, |c| linear(c.x as f64, c.y as f64));
@@ -142,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn axes_point_up_where_the_tensor_does() {
+    fn directions_are_those_of_the_tensor() {
         let field = Field::from_fn(Grid::new(2, 2).expect("a size"), |_| Tensor2::from_axes(0.6, 3.0, 1.0));
         let between = Interpolated::new(&field);
         let major = between.direction(Point::new(0.5, 0.5), Family::Major, 1e-3).expect("an axis");
@@ -153,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn ellipses_stay_when_the_rest_goes() {
+    fn ellipse_tensors_are_symmetric_with_the_same_ellipse() {
         let tensors = [
             Tensor2::new(1.0, 2.0, -0.5, 0.25),
             Tensor2::from_axes(2.0, 3.0, 1.0),
@@ -173,9 +174,9 @@ mod tests {
         }
     }
 
-    /// Symmetric tensors stay; others keep their ellipse, with the sign of what they do along each of its axes.
+    /// Symmetric tensors are unchanged; others keep their ellipse, with the sign of `u . T u` along each of its axes.
     #[test]
-    fn signed_ellipses_stretch_and_squeeze_along_the_axes() {
+    fn signed_ellipses_have_tension_and_compression_along_the_axes() {
         let tensors = [
             Tensor2::new(1.0, 2.0, -0.5, 0.25),
             Tensor2::new(-1.0, 2.0, -0.5, 0.25),
@@ -200,7 +201,7 @@ mod tests {
                 let (own, signed) = (along(&t, axis), along(&s, axis));
                 assert!((signed.abs() - length).abs() < 1e-14 && own * signed > 0.0, "{t:?}: {own} {signed}");
             }
-            // The larger eigenvalue of the one belongs to the larger u . T u of the other.
+            // The axis of the larger eigenvalue of one is that of the larger u . T u of the other.
             let [by_value, eigen] =
                 [Axes::HalfAxes.by(Major::Value).of(&t, 0.0), Axes::Eigenvectors.of(&s, 0.0)]
                     .map(|f| f.expect("axes").axes[0]);

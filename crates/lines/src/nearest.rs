@@ -1,10 +1,10 @@
-//! How far points are from lines.
+//! Distance of points from lines.
 
 use crate::Polylines;
 use euclid::Vector2D;
 use tigereye_core::{Point, length};
 
-/// The segments of lines, sorted into squares, to ask for the nearest.
+/// The segments of lines in a grid of squares, for finding the nearest one.
 #[derive(Clone, Debug)]
 pub struct NearestSegment {
     segments: Vec<[Point; 2]>,
@@ -17,8 +17,8 @@ pub struct NearestSegment {
 }
 
 impl NearestSegment {
-    /// Of lines whose points are finite; segments with other points are left out. Memory is proportional to the
-    /// number of segments.
+    /// Index of the segments of lines; those with a non-finite end are omitted. Memory is proportional to the number of
+    /// segments.
     #[must_use]
     pub fn new(lines: &Polylines) -> Self {
         let at = |[a, b]: [u32; 2]| [lines.points[a as usize], lines.points[b as usize]];
@@ -38,7 +38,8 @@ impl NearestSegment {
         found
     }
 
-    /// Squares so large that there are about as many as segments, and no more pieces of segments than four times that.
+    /// Chooses squares such that there are about as many as segments, and at most four times as many pieces of
+    /// segments.
     fn choose_squares(&mut self, extent: [f64; 2]) {
         let count = self.segments.len().max(1) as f64;
         let total: f64 = self.segments.iter().map(|[p, q]| length(*q - *p)).sum();
@@ -46,7 +47,7 @@ impl NearestSegment {
         let side = by_area.max(total / (4.0 * count)).max(extent[0].max(extent[1]) / count);
         if side > 0.0 && side.is_finite() {
             self.side = side;
-            // Far above what the sides allow; a guard against rounding.
+            // A guard against rounding, far above what the sides allow.
             let most = 2.0 * count + 2.0;
             self.squares = extent.map(|e| (e / side).min(most) as usize + 1);
         } else {
@@ -63,7 +64,7 @@ impl NearestSegment {
     fn sort_in(&mut self) {
         let mut pairs: Vec<(u32, u32)> = Vec::new();
         for (i, &[p, q]) in self.segments.iter().enumerate() {
-            // Pieces no longer than a square touch at most four.
+            // A piece no longer than a square touches at most four squares.
             let pieces = (length(q - p) / self.side).ceil().max(1.0);
             let on = |t: f64| self.square(p + (q - p) * t);
             for n in 0..pieces as usize {
@@ -87,8 +88,7 @@ impl NearestSegment {
         self.entries = pairs.into_iter().map(|(_, i)| i).collect();
     }
 
-    /// Distance of a point to the nearest segment, in cells; `None` where there is no segment or the point is not
-    /// finite.
+    /// Distance of a point to the nearest segment, in cells; `None` if there is no segment or the point is not finite.
     #[must_use]
     pub fn distance(&self, point: Point) -> Option<f64> {
         if self.segments.is_empty() || !point.is_finite() {
@@ -97,7 +97,7 @@ impl NearestSegment {
         let centre = self.square(point);
         let furthest = self.squares[0].max(self.squares[1]);
         let mut best = f64::INFINITY;
-        // Rings of squares around the point's own; those of ring n are at least n - 1 sides away.
+        // Rings of squares around that of the point; ring n is at least n - 1 sides away.
         for ring in 0..=furthest {
             if ring > 0 && best <= (ring - 1) as f64 * self.side {
                 break;
@@ -147,7 +147,7 @@ mod tests {
     fn the_nearest_of_all_segments_is_found() {
         let mut numbers = SplitMix64::new(3);
         let mut random = move || numbers.unit();
-        // Short steps, long ones, all in one row, all in one point.
+        // Short segments, long ones, all in one row, all at one point.
         for (steps, width, height) in [(300, 0.4, 0.4), (40, 30.0, 20.0), (50, 10.0, 0.0), (5, 0.0, 0.0)] {
             let mut at = Point::zero();
             let mut lines = Polylines::default();
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_near_to_nothing() {
+    fn no_segment_or_no_point_has_no_distance() {
         assert_eq!(NearestSegment::new(&Polylines::default()).distance(Point::zero()), None);
         let lines = Polylines {
             points: [(1.0, 1.0), (f64::NAN, 0.0), (4.0, 5.0)].map(Point::from).to_vec(),

@@ -4,19 +4,19 @@ use crate::{Family, Interpolated, LineEnd, LineOptions, TensorLine, tensor_line}
 use std::collections::VecDeque;
 use tigereye_core::{PhysicalPoint, Point, Vector, length};
 
-/// Lines end closer to each other than they begin, by this factor (Jobard and Lefer).
+/// The distance at which lines end, as a fraction of the distance of their seeds (Jobard and Lefer).
 const CLOSEST: f64 = 0.5;
-/// Lines shorter than this many distances are left out.
+/// Lines shorter than this multiple of the separation are omitted.
 const SHORTEST: f64 = 0.5;
 
-/// So many points of lines are enough: drawn, written and held in memory they are gigabytes.
+/// Largest number of points of all lines together: beyond it, pictures and files take gigabytes.
 pub const MAX_POINTS: usize = 1 << 24;
 
-/// Lines about `separation` apart (in the unit of [`tigereye_core::CellShape`], at least 0.1), in an order that only
-/// depends on the field: seeds are tried beside the lines that are there, then all over the field (Jobard and Lefer,
-/// Creating evenly-spaced streamlines of arbitrary density, 1997). A line keeps away from the others, not from itself:
-/// one that winds inwards does so to its longest length. Fields without axes give no lines. After the line that makes
-/// them more than [`MAX_POINTS`] points together no further one follows.
+/// Evenly spaced lines about `separation` apart (in units of the smaller side of a cell, at least 0.1), in an order
+/// that depends only on the field: seeds are tried beside existing lines first, then all over the field (Jobard and
+/// Lefer, Creating evenly-spaced streamlines of arbitrary density, 1997). A line keeps its distance from other lines,
+/// but not from itself: a spiral continues up to the greatest length. Degenerate fields give no lines. The search stops
+/// after the line that brings the total above [`MAX_POINTS`] points.
 #[must_use]
 pub fn evenly_spaced(
     field: &Interpolated<'_>,
@@ -32,7 +32,7 @@ pub fn evenly_spaced(
     let mut queue = VecDeque::new();
     let mut points = 0;
     let middle = last * 0.5;
-    // Half a distance leaves no gap that a line would fit into.
+    // At half the separation, no gap is missed that a line would fit into.
     let stride = (0.5 * separation).max(1.0);
     let [dx, dy] = cell.sides().map(|side| stride / side);
     let along = move |last: f64, step: f64| (0..=(last / step) as usize).map(move |i| i as f64 * step);
@@ -62,7 +62,7 @@ pub fn evenly_spaced(
     lines
 }
 
-/// Points to both sides of a line.
+/// Candidate seeds at both sides of a line.
 fn beside(line: &[PhysicalPoint], separation: f64) -> Vec<PhysicalPoint> {
     let mut seeds = Vec::new();
     for p in line.windows(2).step_by(4) {
@@ -70,7 +70,7 @@ fn beside(line: &[PhysicalPoint], separation: f64) -> Vec<PhysicalPoint> {
         let size = length(along);
         if size > 0.0 {
             let across = Vector::new(along.y, -along.x) / size;
-            // A little more, so that rounding does not make it too near.
+            // A little further, so that rounding does not put the seed too close.
             for side in [1.0 + 1e-9, -1.0 - 1e-9] {
                 seeds.push(p[0] + across * (side * separation));
             }
@@ -79,23 +79,23 @@ fn beside(line: &[PhysicalPoint], separation: f64) -> Vec<PhysicalPoint> {
     seeds
 }
 
-/// Physical points of finished lines, in squares.
+/// Points of the finished lines in a grid of squares.
 struct Covered {
     squares: Vec<Vec<PhysicalPoint>>,
     columns: usize,
     rows: usize,
     side: f64,
-    /// Points of a line that are nearer to each other than this are one.
+    /// Points of a line that are closer to the last kept one than this are dropped.
     grain: f64,
 }
 
-/// Most squares along a side.
+/// Largest number of squares along a side.
 const MAX_SQUARES: f64 = 1024.0;
-/// Distance of the points that are kept of a line, in parts of the distance of the lines.
+/// Distance of the points kept of a line, as a fraction of the separation.
 const GRAIN: f64 = 0.1;
 
 impl Covered {
-    /// For points from the origin to `last`, which is to the right and below.
+    /// For points between the origin and `last`, to the right and below.
     fn new(last: PhysicalPoint, separation: f64) -> Self {
         let (right, bottom) = (last.x, -last.y);
         let side = separation.max(right.max(bottom) / MAX_SQUARES);
@@ -120,7 +120,7 @@ impl Covered {
         }
     }
 
-    /// Whether a point is within `reach`, at most a square's side.
+    /// Whether a point of a line lies within `reach`, which is at most the side of a square.
     fn is_near(&self, p: PhysicalPoint, reach: f64) -> bool {
         let (x, y) = self.square(p);
         let around = |v: usize, n: usize| v.saturating_sub(1)..(v + 2).min(n);
@@ -131,7 +131,7 @@ impl Covered {
 }
 
 impl TensorLine {
-    /// Whether it comes back to where it began.
+    /// Whether it returns to its seed.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.ends == [LineEnd::Closed; 2]
@@ -154,7 +154,7 @@ mod tests {
         for (i, a) in lines.iter().enumerate() {
             for b in &lines[i + 1..] {
                 let closest = a.points.iter().flat_map(|p| b.points.iter().map(|q| length(*p - *q)));
-                // Half of a grain may lie between the points that are compared.
+                // The compared points may be up to half of a grain off.
                 let least = (CLOSEST - 0.5 * GRAIN) * separation;
                 assert!(closest.fold(f64::INFINITY, f64::min) >= least);
             }
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn fields_without_axes_have_no_lines() {
+    fn degenerate_fields_have_no_lines() {
         for t in [Tensor2::ZERO, Tensor2::IDENTITY, Tensor2::isotropic(f64::NAN)] {
             let field = Field::from_fn(Grid::new(12, 9).expect("a size"), |_| t);
             let lines =

@@ -1,4 +1,4 @@
-//! Lines whose tangent is an axis of the tensor.
+//! Tensor lines: lines whose tangent is an axis of the tensor.
 
 use crate::line_options::{LineEnd, LineOptions};
 use crate::walk::Walk;
@@ -14,13 +14,13 @@ pub struct TensorLine {
     pub seed: usize,
     /// Why it ends at its first and at its last point.
     pub ends: [LineEnd; 2],
-    /// How far a closed line passes its seed by, in the unit of [`CellShape`]; 0 for others. The last point of a closed
-    /// line is its seed again.
+    /// The distance at which a closed line passes its seed, in the unit of [`CellShape`]; 0 for other lines. The last
+    /// point of a closed line is its seed again.
     pub gap: f64,
 }
 
 impl TensorLine {
-    /// Sum of the distances of its points, over cells of a shape.
+    /// Sum of the distances between its points, for cells of a shape.
     #[must_use]
     pub fn length(&self, cell: CellShape) -> f64 {
         cell.length(&self.points)
@@ -31,13 +31,13 @@ impl TensorLine {
     }
 }
 
-/// A line that passes its seed at this distance or nearer, in its first direction, is closed; in the unit of
+/// A line is closed if it passes its seed at this distance or closer, in its initial direction; in the unit of
 /// [`CellShape`].
 const CLOSING: f64 = 0.05;
 
-/// The line through `seed`, followed in both directions. A step that is not positive, or a length of more than
-/// [`LineOptions::MAX_STEPS`], gives a line of one point. A seed outside of the field, or where the tensor has no axis,
-/// is a line of one point. Lines end where `keep` says no to their next point.
+/// The line through `seed`, followed in both directions until `keep` rejects its next point. The line is the seed alone
+/// if steps are not positive or more than [`LineOptions::MAX_STEPS`], and for a seed outside the field or at a
+/// degenerate tensor.
 #[must_use]
 pub fn tensor_line(
     field: &Interpolated<'_>,
@@ -68,8 +68,8 @@ pub fn tensor_line(
     TensorLine { points, seed: seed_at, ends: [back.end, forth.end], gap: 0.0 }
 }
 
-/// The line from `start` in one direction: along the axis there, with the sign that is nearer to `towards` (of any
-/// length but 0). Its first point is `start`; the second of its ends says why it ends.
+/// The line from `start` in one direction: along the axis there, with the sign closer to `towards` (of any length but
+/// 0). Its first point is `start`; the second of its ends tells why it ends.
 #[must_use]
 pub fn half_line(
     field: &Interpolated<'_>,
@@ -92,7 +92,8 @@ pub fn half_line(
     TensorLine { points: line.points, seed: 0, ends: [LineEnd::Stopped, line.end], gap: line.gap }
 }
 
-/// Where [`half_line`] ends, and why. Nothing of the way is kept, so that a line that comes back to its start goes on.
+/// Where [`half_line`] ends, and why. Its points are not kept, so a line that returns to its start is not closed but
+/// continues.
 #[must_use]
 pub fn half_line_end(
     field: &Interpolated<'_>,
@@ -116,17 +117,17 @@ pub fn half_line_end(
     }
 }
 
-/// What is behind a seed in one direction.
-struct Way {
+/// The part of a line on one side of its seed.
+struct Branch {
     points: Vec<Point>,
     end: LineEnd,
     gap: f64,
 }
 
-/// The points behind `seed` in a direction.
-fn follow(walk: &Walk<'_>, seed: Point, towards: Vector, keep: &mut dyn FnMut(Point) -> bool) -> Way {
+/// Follows the line from `seed` in a direction.
+fn follow(walk: &Walk<'_>, seed: Point, towards: Vector, keep: &mut dyn FnMut(Point) -> bool) -> Branch {
     let mut points = Vec::new();
-    let end = |points, end| Way { points, end, gap: 0.0 };
+    let end = |points, end| Branch { points, end, gap: 0.0 };
     let mut line = match walk.begin(seed, towards) {
         Ok(line) => line,
         Err(why) => return end(points, why),
@@ -141,7 +142,7 @@ fn follow(walk: &Walk<'_>, seed: Point, towards: Vector, keep: &mut dyn FnMut(Po
         if let Some(gap) = passes(walk.field.cell(), [seed, before, at], start).filter(|_| !points.is_empty())
         {
             points.push(seed);
-            return Way { points, end: LineEnd::Closed, gap };
+            return Branch { points, end: LineEnd::Closed, gap };
         }
         if !keep(at) {
             return end(points, LineEnd::Stopped);
@@ -150,8 +151,8 @@ fn follow(walk: &Walk<'_>, seed: Point, towards: Vector, keep: &mut dyn FnMut(Po
     }
 }
 
-/// At which distance the way from `a` to `b` passes the seed in the direction in which the line began, if it is a small
-/// one.
+/// The distance at which the segment from the second to the third point passes the seed, the first one, in the initial
+/// direction of the line; `None` if it does not pass it, or further away than [`CLOSING`].
 fn passes(cell: CellShape, points: [Point; 3], start: Vector) -> Option<f64> {
     let [seed, a, b] = points.map(|p| cell.physical(p));
     let (before, after) = ((a - seed).dot(start), (b - seed).dot(start));
@@ -178,7 +179,7 @@ mod tests {
         (p.x - middle, middle - p.y)
     }
 
-    /// Its components are linear, so nothing is lost between the cells.
+    /// Components are linear, so interpolation is exact.
     fn wedge() -> Field<Tensor2> {
         Field::from_fn(Grid::new(SIDE, SIDE).expect("a size"), |c| {
             let (x, y) = centred(Point::new(c.x as f64, c.y as f64));
@@ -208,9 +209,9 @@ mod tests {
         assert!(coarse < 1e-4 && coarse / fine > 12.0 && coarse / fine < 20.0, "{coarse} {fine}");
     }
 
-    /// The error of a line follows the tolerance of its steps, and long steps suffice.
+    /// The error of a line scales with the tolerance, at far fewer steps.
     #[test]
-    fn adaptive_steps_are_as_exact_as_they_are_told() {
+    fn adaptive_steps_meet_their_tolerance() {
         let field = wedge();
         let constant = |p: &Point| {
             let (x, y) = centred(*p);
@@ -233,9 +234,9 @@ mod tests {
         assert!(8 * worst(1e-6).1 < follow(&field, SEED, Family::Major, &fixed).points.len());
     }
 
-    /// Between two regions of the same axis lies one without: a line with inertia crosses it.
+    /// A line with inertia crosses an isotropic region between two regions with the same axis.
     #[test]
-    fn inertia_crosses_round_tensors() {
+    fn inertia_crosses_isotropic_tensors() {
         let field = Field::from_fn(Grid::new(31, 9).expect("a size"), |c| match c.x {
             0..12 | 19..31 => Tensor2::from_axes(0.0, 3.0, 1.0),
             _ => Tensor2::IDENTITY,
@@ -250,15 +251,15 @@ mod tests {
             let last = line.points[line.points.len() - 1];
             assert!(last.x > 29.9 && (last.y - 4.0).abs() < 1e-9, "{last:?}");
         }
-        // Nothing lies at the end of zeros.
+        // Zero tensors end a line even with inertia.
         let dark = field.map(|t| if *t == Tensor2::IDENTITY { Tensor2::ZERO } else { *t });
         let options = LineOptions { inertia: Some(Inertia { puncture: 0.5 }), ..plain };
         assert_eq!(follow(&dark, Point::new(4.0, 4.0), Family::Major, &options).ends[1], LineEnd::Degenerate);
     }
 
-    /// Where tensors are flat, inertia changes nothing.
+    /// Inertia has no effect on totally anisotropic tensors.
     #[test]
-    fn inertia_leaves_flat_tensors_alone() {
+    fn inertia_leaves_totally_anisotropic_tensors_alone() {
         let field = Field::from_fn(Grid::new(41, 41).expect("a size"), |c| {
             Tensor2::from_eigen(0.02 * (c.x + c.y) as f64, 1.0, 0.0)
         });
@@ -272,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn half_lines_go_one_way() {
+    fn half_lines_run_in_one_direction() {
         let field = wedge();
         let options = LineOptions { length: 3.0, ..LineOptions::default() };
         let whole = follow(&field, SEED, Family::Major, &options);
@@ -313,7 +314,7 @@ mod tests {
     fn circles_close() {
         let field = Field::from_fn(Grid::new(SIDE, SIDE).expect("a size"), |c| {
             let (x, y) = centred(Point::new(c.x as f64, c.y as f64));
-            // Components are quadratic: what bends the circle is the interpolation.
+            // Components are quadratic, so the circle is bent by the interpolation.
             Tensor2::symmetric(500.0 - x * x, -x * y, 500.0 - y * y)
         });
         let line = follow(&field, Point::new(32.0, 20.0), Family::Major, &LineOptions::default());
@@ -353,7 +354,7 @@ mod tests {
         );
     }
 
-    /// Steps along the border leave it by their rounding, which is not the end of the field.
+    /// Rounding moves steps along the border outside, which must not end the line.
     #[test]
     fn lines_run_along_the_border() {
         let grid = Grid::new(60, 50).expect("a size");

@@ -8,7 +8,7 @@
 //! `cauchy_green`: C = F^T F of the flow map from `time` over `duration` (which may be negative), of determinant 1; F
 //! is integrated along with the particle, F' = grad(u) F, by the classical Runge-Kutta method of fourth order.
 //!
-//! The domain fills the field, samples on its rim included: cells are square for width - 1 = 2 (height - 1).
+//! The domain fills the field, including samples on its boundary: cells are square for width - 1 = 2 (height - 1).
 //! Source: Shadden, Lekien and Marsden, "Definition and properties of Lagrangian coherent structures", Physica D 2005.
 
 use crate::geometry::{Place, index_field};

@@ -219,7 +219,7 @@ fn fine(folder: &Path) -> Outcome {
     let options = TextureOptions { tint: Some(tint), ribbons: Vec::new(), ..plain };
     save(folder, "texture_tinted", &texture_map(&texture, &options)?)?;
     let options = HeatOptions {
-        title: "Six samples a cell".to_owned(),
+        title: "Six samples per cell".to_owned(),
         quantity: "distance (cells)".to_owned(),
         samples_a_cell: N,
         sources: vec![Cell::new(10, 7)],

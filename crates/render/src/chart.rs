@@ -24,7 +24,7 @@ pub struct ChartAxis {
     pub label: String,
     /// Powers of ten instead of equal steps. Points at 0 or below are left out, and the legend says so.
     pub logarithmic: bool,
-    /// Fixed ends; by default those of the points.
+    /// Fixed range; by default that of the points.
     pub range: Option<(f64, f64)>,
 }
 
@@ -62,7 +62,7 @@ impl Default for Series {
 /// A horizontal line to compare with.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reference {
-    /// Where it lies on the y axis.
+    /// Its position on the y axis.
     pub value: f64,
     /// Meaning, for the legend.
     pub label: String,
@@ -71,7 +71,7 @@ pub struct Reference {
 /// Data and appearance of a line chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
     /// Horizontal axis.
     pub x: ChartAxis,
@@ -108,7 +108,7 @@ const REFERENCE: Rgba = Rgba::hex(0x777777);
 /// The chart with axes, grid lines and a legend below. Without any point that can be drawn it says "no data".
 ///
 /// # Errors
-/// [`RenderError::Chart`] where the charting library fails; no data is known to make it do so.
+/// [`RenderError::Chart`] if the charting library fails, which no known data cause.
 pub fn line_chart(chart: &Chart) -> Result<Scene, RenderError> {
     let width = clamped(chart.width_px, 200.0, 640.0);
     let height = clamped(chart.height_px, 160.0, 400.0);

@@ -18,7 +18,7 @@ use std::rc::Rc;
 /// Units of plotters per pixel.
 pub(crate) const UNITS: i32 = 8;
 
-/// What the backend draws into, shared with the caller: plotters owns its backend, and knows no dashes.
+/// The target of the backend, shared with the caller because plotters owns its backend and does not support dashes.
 pub(crate) struct Canvas {
     pub(crate) scene: Scene,
     /// Dashes of the next lines.
@@ -165,7 +165,7 @@ impl DrawingBackend for SceneBackend {
             FontTransform::Rotate180 => ([x, y - drop], 180.0),
             FontTransform::Rotate270 => ([x + drop, y], 90.0),
         };
-        self.0.borrow_mut().scene.turned_text(at, text, size, rgba(style.color()), anchor, turned);
+        self.0.borrow_mut().scene.rotated_text(at, text, size, rgba(style.color()), anchor, turned);
         Ok(())
     }
 

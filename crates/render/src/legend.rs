@@ -12,7 +12,7 @@ const MARK_PX: f64 = 22.0;
 const GAP_PX: f64 = 6.0;
 const BETWEEN_PX: f64 = 20.0;
 
-/// What stands before a legend's text.
+/// The mark before a text of the legend.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Mark {
     /// A filled rectangle.

@@ -67,7 +67,7 @@ impl MapFrame {
         self.point(cell.centre())
     }
 
-    /// Where a point of the grid lies on the page.
+    /// The position of a point of the grid on the page.
     pub(crate) fn point(&self, p: Point) -> PagePoint {
         let [width, height] = self.cell;
         PagePoint::new(self.left + (p.x + 0.5) * width, self.top + (p.y + 0.5) * height)
@@ -83,7 +83,7 @@ impl MapFrame {
         path
     }
 
-    /// Diagonal strokes through `cells`, where cells are large enough to show them.
+    /// Hatches `cells` if they are large enough to show it.
     pub(crate) fn hatch(&mut self, cells: &[Cell]) {
         if self.smaller_side() < 4.0 || cells.is_empty() {
             return;
@@ -97,7 +97,7 @@ impl MapFrame {
         self.scene.stroke(path.finish(), Rgba::WHITE, 1.0);
     }
 
-    /// Lines between cells; none where only every n-th cell is drawn.
+    /// Lines between cells, unless only every n-th cell is drawn.
     pub(crate) fn grid_lines(&mut self, every: usize, colour: Rgba) {
         let (left, top, right, bottom) =
             (self.left, self.top, self.left + self.width(), self.top + self.height());
@@ -163,12 +163,12 @@ impl MapFrame {
         let below = [left + 0.5 * width, top + height + 32.0];
         self.scene.text(below, x_name, SMALL_PX, Rgba::MUTED, Anchor::Middle);
         let beside = [MARGIN_PX + 9.0, top + 0.5 * height];
-        self.scene.turned_text(beside, y_name, SMALL_PX, Rgba::MUTED, Anchor::Middle, 90.0);
+        self.scene.rotated_text(beside, y_name, SMALL_PX, Rgba::MUTED, Anchor::Middle, 90.0);
     }
 }
 
-/// Width and height of a cell in pixels. Its smaller side has those asked for, or such that the longer side of the map
-/// stays within `target_px`: a whole number up to `most`, or one over a whole number where cells are smaller than
+/// Width and height of a cell in pixels. Its smaller side has `fixed` pixels, or by default as many as keep the longer
+/// side of the map within `target_px`: an integer up to `most`, or one over an integer if cells are smaller than
 /// pixels.
 pub(crate) fn cell_px(
     grid: Grid,

@@ -12,9 +12,9 @@ use tigereye_core::{Anisotropy, Cell, CellShape, Field, Svd, Tensor2, math};
 /// Options of [`orientation_map`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OrientationOptions {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
-    /// Pixels of a cell's smaller side; by default whole, such that the longer side has about 480.
+    /// Pixels of a cell's smaller side; by default a whole number such that the longer side of the map has about 480.
     pub cell_px: Option<usize>,
     /// The shape of a cell.
     pub cell: CellShape,
@@ -24,7 +24,7 @@ pub struct OrientationOptions {
     pub overlays: Vec<Overlay>,
 }
 
-/// What isotropic tensors look like: they have no direction.
+/// The colour of isotropic tensors, which have no direction.
 const ISOTROPIC: Rgba = Rgba::hex(0xe2e2e2);
 const RING_PX: f64 = 56.0;
 const GAP_PX: f64 = 48.0;

@@ -10,11 +10,11 @@ use tigereye_core::{Cell, Point};
 /// Something drawn over a map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Overlay {
-    /// Meaning, for the legend; without one the overlay does not appear there.
+    /// Label in the legend; if empty, the overlay does not appear there.
     pub label: String,
     /// The points. One that is not finite or not on the map interrupts the line, so that one overlay holds many lines.
     pub points: Vec<Point>,
-    /// Marker of every point; a line through the points where there is none.
+    /// Marker of every point; `None` draws a line through the points.
     pub marker: Option<Marker>,
     /// Colour.
     pub colour: Rgba,
@@ -62,7 +62,7 @@ fn draw_points(page: &mut MapFrame, overlay: &Overlay, marker: Marker) {
     }
 }
 
-/// Lines with a white rim, visible on every colour of a map.
+/// Lines with a white outline, visible on every colour of a map.
 fn draw_lines(page: &mut MapFrame, overlay: &Overlay) {
     let mut path = PathBuilder::default();
     for run in overlay.points.split(|p| !on_map(page, p)) {

@@ -11,11 +11,11 @@ use tigereye_core::{Cell, CellShape, Grid};
 /// Options of [`plain_map`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PlainOptions {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
-    /// What it shows, the beginning of a sentence for people who cannot see it.
+    /// What the map shows: the beginning of a sentence for readers who cannot see it.
     pub description: String,
-    /// Pixels of a cell's smaller side; by default whole, such that the longer side has about 480.
+    /// Pixels of a cell's smaller side; by default a whole number such that the longer side of the map has about 480.
     pub cell_px: Option<usize>,
     /// The shape of a cell.
     pub cell: CellShape,
@@ -25,11 +25,11 @@ pub struct PlainOptions {
     pub overlays: Vec<Overlay>,
     /// Cells that have nothing to show, hatched.
     pub missing: Vec<Cell>,
-    /// What the legend calls them.
+    /// Their name in the legend.
     pub missing_label: String,
     /// Cells with a light ground.
     pub shaded: Vec<Cell>,
-    /// What the legend calls them.
+    /// Their name in the legend.
     pub shaded_label: String,
 }
 

@@ -44,7 +44,7 @@ pub enum TransmissionScale {
 /// Options of [`polar_overlay`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolarOptions {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
     /// Scaling of light.
     pub intensity: IntensityScale,
@@ -156,7 +156,7 @@ fn draw_grounds(
     legend: &mut Vec<Entry>,
 ) {
     if let Some(t) = transmission {
-        // A scene's walls are drawn for what they are.
+        // The walls of a scene are drawn separately.
         let hidden = |cell| {
             let walls = options.walls.as_ref().filter(|walls| walls.grid() == t.grid());
             walls.is_some_and(|w| w.at(cell).as_ref().is_some_and(Surface::is_wall))

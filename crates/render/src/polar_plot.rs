@@ -28,7 +28,7 @@ pub struct PolarSeries {
 /// Options of [`polar_plot`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolarPlotOptions {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
     /// Quantity of the radius with its unit.
     pub quantity: String,

@@ -9,7 +9,7 @@ use tigereye_core::{Point, length};
 /// Bands drawn over a map, below its [`crate::Overlay`]s. Widths count in the smaller side of a cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ribbon {
-    /// Meaning, for the legend; without one the ribbon does not appear there.
+    /// Label in the legend; if empty, the ribbon does not appear there.
     pub label: String,
     /// Points of the middle line. One that is not finite, or lies several maps away, interrupts the
     /// band, so that one ribbon holds many.
@@ -45,7 +45,7 @@ pub(crate) fn draw(page: &mut MapFrame, ribbons: &[Ribbon], legend: &mut Vec<Ent
             page.scene.fill(areas.finish(), ribbon.colour.with_opacity(OPACITY));
         }
         if !edges.is_empty() {
-            // A white rim keeps edges visible on every colour of a map.
+            // A white outline keeps edges visible on every colour of a map.
             let segments = edges.finish();
             page.scene.stroke(segments.clone(), Rgba::WHITE.with_opacity(0.8), 2.4 * EDGE_PX);
             page.scene.stroke(segments, ribbon.colour, EDGE_PX);
@@ -62,7 +62,7 @@ type Station = (PagePoint, f64);
 
 /// Uninterrupted parts of two or more different points, in pixels.
 fn runs(ribbon: &Ribbon, page: &MapFrame) -> Vec<Vec<Station>> {
-    // Beyond this a band covers the map, and much larger numbers would overflow.
+    // A wider band covers the map anyway, and much larger numbers would overflow.
     let most = (page.grid.width() + page.grid.height()) as f64;
     let stations = ribbon.points.iter().zip(&ribbon.half_widths).map(|(p, width)| {
         let near = p.x.abs() <= 4.0 * most && p.y.abs() <= 4.0 * most;
@@ -98,8 +98,8 @@ fn sides(run: &[Station]) -> Vec<[PagePoint; 2]> {
         .collect()
 }
 
-/// The band as one outline as long as it neither folds nor leaves the map, otherwise piece by piece. All pieces are
-/// wound in the same sense, so that those which overlap do not cancel.
+/// The band as one outline while it neither folds nor leaves the map, otherwise piece by piece. All pieces have the
+/// same orientation, so that overlapping ones do not cancel.
 fn add_areas(path: &mut PathBuilder, sides: &[[PagePoint; 2]], frame: &Frame) {
     let mut outline: Vec<[PagePoint; 2]> = Vec::new();
     for pair in sides.windows(2) {
@@ -167,7 +167,7 @@ impl Frame {
     }
 }
 
-/// The part of a polygon where `depth`, which grows evenly, is not negative.
+/// The part of a polygon where `depth`, a linear function, is not negative.
 fn cut_at(polygon: &[PagePoint], depth: impl Fn(PagePoint) -> f64) -> Vec<PagePoint> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (i, &from) in polygon.iter().enumerate() {
@@ -247,7 +247,7 @@ mod tests {
         widths[3] = f64::NAN;
         assert_eq!(drawn(line.clone(), widths.clone()).0.len(), 2);
         widths[6] = -0.1;
-        // What is left of the second part is a single point.
+        // A single point remains of the second part.
         assert_eq!(drawn(line.clone(), widths).0.len(), 2);
         assert_eq!(drawn(line.clone(), vec![0.5; 5]).0[0].len(), 10);
         let mut broken = line;

@@ -1,6 +1,6 @@
 //! Fields sampled finer than the cells of the map they are drawn on.
 //!
-//! With n samples a cell a map of W x H cells has n (W - 1) + 1 by n (H - 1) + 1 samples, and sample (i, j) lies at
+//! With n samples per cell, a map of W x H cells has n (W - 1) + 1 by n (H - 1) + 1 samples, and sample (i, j) lies at
 //! (i/n, j/n) cells: sample 0 at the centre of cell 0, the last one at the centre of the last cell. Each is drawn as a
 //! small square about its place, so that half a cell along the frame stays empty.
 
@@ -15,7 +15,7 @@ const LONGEST_PX: usize = 960;
 /// How samples lie on cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sampling {
-    /// Samples a cell along x and y, at least 1.
+    /// Samples per cell along x and y, at least 1.
     pub(crate) per_cell: [usize; 2],
     /// Cells of the map.
     pub(crate) cells: Grid,
@@ -29,7 +29,7 @@ impl Sampling {
         let steps = [samples.width() - 1, samples.height() - 1];
         let per_cell = per_cell.map(|n| n.clamp(1, steps[0].max(steps[1]).max(1)));
         let [width, height] = [0, 1].map(|axis| steps[axis].div_ceil(per_cell[axis]) + 1);
-        // Never more cells than samples, so there is such a grid.
+        // There are never more cells than samples, so this size is valid.
         Self { per_cell, cells: Grid::new(width, height).unwrap_or(samples), samples }
     }
 
@@ -55,7 +55,7 @@ impl Sampling {
         [0, 1].map(|axis| page.cell[axis] / self.per_cell[axis] as f64)
     }
 
-    /// Samples along x and y of what becomes one cell of a raster: more than 1 where they are smaller than a pixel.
+    /// Samples along x and y that are combined into one cell of a raster: more than 1 if they are smaller than a pixel.
     pub(crate) fn block(&self, page: &MapFrame) -> [usize; 2] {
         self.sample_px(page).map(|side| (1.0 / side).round().max(1.0) as usize)
     }
@@ -93,7 +93,7 @@ impl Sampling {
         self.cells.iter().filter(all_broken).collect()
     }
 
-    /// What a legend calls the places of values.
+    /// The word of a legend for the positions of values.
     pub(crate) fn places(&self) -> &'static str {
         if self.per_cell == [1; 2] { "cells" } else { "samples" }
     }
@@ -103,13 +103,13 @@ impl Sampling {
         let cells = format!("{} x {} cells", self.cells.width(), self.cells.height());
         match self.per_cell {
             [1, 1] => cells,
-            [m, n] if m == n => format!("{cells} with {n} samples a cell side"),
-            [m, n] => format!("{cells} with {m} x {n} samples a cell"),
+            [m, n] if m == n => format!("{cells} with {n} samples per side of a cell"),
+            [m, n] => format!("{cells} with {m} x {n} samples per cell"),
         }
     }
 }
 
-/// Mean of the finite values of a block of samples from `first` on; the value itself where the block is 1.
+/// Mean of the finite values of a block of samples from `first` on; the value itself for a block of 1.
 pub(crate) fn block_mean(field: &Field<f64>, first: Cell, block: [usize; 2]) -> f64 {
     let grid = field.grid();
     if block == [1; 2] {

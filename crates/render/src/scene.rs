@@ -1,6 +1,6 @@
-//! What a picture consists of: raster layers, paths and text, nested at will.
+//! Pictures as values: nested raster layers, paths and text.
 //!
-//! A scene is measured in pixels ([`Page`]). It is a value: drawing functions return one, exporters read it.
+//! A scene is measured in pixels ([`Page`]). Drawing functions return one, exporters read it.
 
 use crate::colour::Rgba;
 use euclid::{Point2D, Vector2D};
@@ -24,7 +24,7 @@ pub struct Scene {
     pub height_px: f64,
     /// Short name, the accessible title of an SVG.
     pub title: String,
-    /// What the picture shows, in words, for people who cannot see it.
+    /// A description of the picture in words, for readers who cannot see it.
     pub description: String,
     /// Parts, painted in this order on white.
     pub items: Vec<Item>,
@@ -138,7 +138,7 @@ pub struct Text {
     pub colour: Rgba,
     /// Meaning of the anchor point.
     pub anchor: Anchor,
-    /// Turned counter-clockwise about the anchor point, degrees.
+    /// Counter-clockwise rotation about the anchor point, degrees.
     pub rotation_deg: f64,
 }
 
@@ -152,7 +152,7 @@ impl Scene {
         Self { width_px, height_px, title: String::new(), description: String::new(), items: Vec::new() }
     }
 
-    /// Places another scene's items, enlarged by `scale`, with its upper left corner at (x, y) pixels.
+    /// Inserts the items of another scene, scaled by `scale`, with its upper left corner at (x, y) pixels.
     pub fn place(&mut self, scene: Self, x_px: f64, y_px: f64, scale: f64) {
         self.items.push(Item::Group { dx_px: x_px, dy_px: y_px, scale, items: scene.items });
     }
@@ -179,10 +179,10 @@ impl Scene {
         colour: Rgba,
         anchor: Anchor,
     ) {
-        self.turned_text(at, text, size_px, colour, anchor, 0.0);
+        self.rotated_text(at, text, size_px, colour, anchor, 0.0);
     }
 
-    pub(crate) fn turned_text(
+    pub(crate) fn rotated_text(
         &mut self,
         at: impl Into<PagePoint>,
         text: &str,
@@ -224,7 +224,7 @@ impl PathBuilder {
     pub fn close(&mut self) {
         self.0.push(Segment::Close);
     }
-    /// Whether there is no step yet.
+    /// Whether the path has no steps.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()

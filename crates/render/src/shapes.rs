@@ -4,7 +4,7 @@ use crate::colour::Rgba;
 use crate::scene::{Item, PagePoint, Path, PathBuilder, Scene, Segment, Stroke};
 use tigereye_core::math;
 
-/// Shapes that mark points, told apart without colour.
+/// Markers of points, distinguishable without colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Marker {
     /// Filled circle.
@@ -34,7 +34,7 @@ impl Marker {
         match self {
             Self::Cross => scene.stroke(path.finish(), colour, 1.5),
             Self::Ring => scene.paint(path.finish(), Rgba::WHITE, colour, 1.3),
-            // A thin white rim separates a marker from what lies under it.
+            // A thin white outline separates a marker from what lies under it.
             _ => scene.paint(path.finish(), colour, Rgba::WHITE, 0.6),
         }
     }
@@ -78,7 +78,7 @@ pub(crate) fn dashed(
     scene.items.push(Item::Path(Path { segments, fill: None, stroke }));
 }
 
-/// The points of a line with those left out that lie within `tolerance` of the rest (Douglas and Peucker 1973).
+/// A line simplified by dropping points that lie within `tolerance` of the rest (Douglas and Peucker 1973).
 pub(crate) fn simplified(points: &[PagePoint], tolerance: f64) -> Vec<PagePoint> {
     if points.len() < 3 {
         return points.to_vec();

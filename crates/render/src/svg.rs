@@ -12,7 +12,7 @@ impl Scene {
     /// The scene as a self-contained SVG document.
     ///
     /// # Errors
-    /// [`RenderError::PictureSize`] or [`RenderError::Encoding`] for a raster layer that is no picture.
+    /// [`RenderError::PictureSize`] or [`RenderError::Encoding`] for an invalid raster layer.
     pub fn to_svg(&self) -> Result<String, RenderError> {
         let mut out = String::new();
         let (w, h) = (number(self.width_px), number(self.height_px));
@@ -163,7 +163,7 @@ fn write_points(out: &mut String, letter: char, points: &[[i64; 2]], origin: [i6
     }
 }
 
-/// At most two decimals, without trailing zeros or a negative zero; 0 for what is not finite.
+/// At most two decimals, without trailing zeros or a negative zero; 0 for non-finite values.
 fn number(value: f64) -> String {
     let value = if value.is_finite() { value } else { 0.0 };
     let text = format!("{value:.2}");
@@ -179,7 +179,7 @@ fn escaped(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
-            // XML 1.0 has no place for control characters, not even escaped.
+            // XML 1.0 does not allow control characters, not even escaped.
             c if c.is_control() => out.push(' '),
             c => out.push(c),
         }

@@ -1,4 +1,4 @@
-//! The cells of a scene that are no empty space, over a map.
+//! Walls, filters and crystals of a scene, over a map.
 
 use crate::colour::Rgba;
 use crate::legend::{Entry, Mark};
@@ -47,7 +47,7 @@ impl Kind {
         }
     }
 
-    /// What covers the cell; filters and crystals cover nothing.
+    /// The colour that covers the cell; filters and crystals leave it visible.
     const fn fill(self) -> Option<Rgba> {
         match self {
             Self::Absorbing => Some(ABSORBING),
@@ -92,9 +92,9 @@ pub(crate) fn draw(page: &mut MapFrame, walls: &Field<Option<Surface>>, legend: 
     }
 }
 
-/// Draws the rim of a region: the sides of its cells that no other one of it shares.
+/// Draws the boundary of a region: the sides that its cells do not share with each other.
 fn outline(page: &mut MapFrame, cells: &[Cell], belongs: &dyn Fn(Cell) -> bool) {
-    let mut rim = PathBuilder::default();
+    let mut boundary = PathBuilder::default();
     let [r, s] = page.cell.map(|side| 0.5 * side);
     for cell in cells {
         let PagePoint { x, y, .. } = page.centre(*cell);
@@ -105,14 +105,14 @@ fn outline(page: &mut MapFrame, cells: &[Cell], belongs: &dyn Fn(Cell) -> bool) 
         for (dx, dy) in [(1, 0), (0, 1), (-1, 0), (0, -1)] {
             if !beside(dx, dy) {
                 let (ux, uy) = (dx as f64, dy as f64);
-                rim.line([x + r * (ux - uy), y + s * (uy + ux)], [x + r * (ux + uy), y + s * (uy - ux)]);
+                boundary.line([x + r * (ux - uy), y + s * (uy + ux)], [x + r * (ux + uy), y + s * (uy - ux)]);
             }
         }
     }
-    let rim = rim.finish();
-    // Dark on white, seen over every colour.
-    page.scene.stroke(rim.clone(), Rgba::WHITE, 2.4);
-    page.scene.stroke(rim, Rgba::INK, 1.0);
+    let boundary = boundary.finish();
+    // Dark on white, visible on every colour.
+    page.scene.stroke(boundary.clone(), Rgba::WHITE, 2.4);
+    page.scene.stroke(boundary, Rgba::INK, 1.0);
 }
 
 /// Strokes and dots of many cells.
@@ -163,7 +163,7 @@ fn swatch(kind: Kind) -> Mark {
     let mut outline = PathBuilder::default();
     outline.rect(-11.0, -5.5, 22.0, 11.0);
     if kind == Kind::Crystal {
-        // Neither colour nor marks: only its rim is drawn.
+        // Only the boundary is drawn, without colour or marks.
         scene.stroke(outline.finish(), Rgba::INK, 1.0);
         return Mark::Drawing(scene.items);
     }

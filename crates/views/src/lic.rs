@@ -21,7 +21,7 @@ pub struct TextureRequest {
 }
 
 impl TextureRequest {
-    /// Samples a cell along x and y.
+    /// Samples per cell along x and y.
     #[must_use]
     pub fn samples_a_cell(&self) -> [usize; 2] {
         self.options.samples_a_cell(self.following.cell)
@@ -42,7 +42,7 @@ pub fn texture(field: &Field<Tensor2>, request: &TextureRequest) -> Result<Field
     }
 }
 
-/// A texture in grey, or in the colours of the anisotropy; pixels a cell by default as [`texture_map`] has them.
+/// A texture in grey, or in the colours of the anisotropy; with the default cell size of [`texture_map`].
 ///
 /// # Errors
 /// [`RenderError`] for a texture of another field.

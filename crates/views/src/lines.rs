@@ -13,10 +13,10 @@ use tigereye_render::{Overlay, PlainOptions, Rgba, Ribbon, Scene, plain_map};
 /// Colours of major and minor bands.
 const RIBBONS: [Rgba; 2] = [Rgba::hex(0x0072b2), Rgba::hex(0xd55e00)];
 
-/// Where lines begin.
+/// The seeds of lines.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Seeds {
-    /// All over the field, that far apart, in the unit of the smaller side of a cell.
+    /// Evenly spaced over the field, with this separation, in units of the smaller side of a cell.
     Even(f64),
     /// At these points.
     At(Vec<Point>),
@@ -29,16 +29,16 @@ pub struct LinesRequest {
     pub following: Following,
     /// One family or both.
     pub families: Vec<Family>,
-    /// Where they begin.
+    /// Their seeds.
     pub seeds: Seeds,
-    /// How they are followed.
+    /// How they are integrated.
     pub options: LineOptions,
-    /// Half of a hyperstreamline's width, in the unit of the smaller side of a cell, for the largest semi-axis, or
-    /// eigenvalue, of the field; none for plain lines.
+    /// Half of a hyperstreamline's width, in units of the smaller side of a cell, for the largest semi-axis, or
+    /// eigenvalue, of the field; `None` for plain lines.
     pub ribbon: Option<f64>,
 }
 
-/// Lines with what is known along them.
+/// Lines with their data.
 #[derive(Clone, Debug)]
 pub struct FieldLines {
     /// The lines, one family after the other.
@@ -53,7 +53,7 @@ pub struct FieldLine {
     pub family: Family,
     /// Its points and ends.
     pub line: TensorLine,
-    /// Half of its width at every point, in the unit of the smaller side of a cell; empty for plain lines.
+    /// Half of its width at every point, in units of the smaller side of a cell; empty for plain lines.
     pub half_widths: Vec<f64>,
 }
 
@@ -64,7 +64,7 @@ pub struct FieldLine {
 )]
 pub struct TooManyPoints;
 
-/// Follows the lines that are asked for. Seeds where there is no axis give none.
+/// Follows the requested lines. Seeds at degenerate tensors give no line.
 ///
 /// # Errors
 /// [`TooManyPoints`] for more than [`MAX_POINTS`].
@@ -102,8 +102,8 @@ pub fn lines(field: &Field<Tensor2>, request: &LinesRequest) -> Result<FieldLine
 }
 
 impl FieldLines {
-    /// The lines on white, below `more`; cells without a tensor are hatched. Pixels a cell by default as [`plain_map`]
-    /// has them.
+    /// The lines on white, below `more`; cells without a tensor are hatched. The cell size defaults to that
+    /// of [`plain_map`].
     #[must_use]
     pub fn picture(
         &self,
@@ -139,7 +139,7 @@ impl FieldLines {
         self.followed.following()
     }
 
-    /// Length of all lines together, in the unit of the smaller side of a cell.
+    /// Length of all lines together, in units of the smaller side of a cell.
     #[must_use]
     pub fn length(&self) -> f64 {
         let cell = self.following().cell;

@@ -9,7 +9,7 @@ const MAJOR: Rgba = Rgba::hex(0x262626);
 const MINOR: Rgba = Rgba::hex(0x8a5a00);
 const POINTS: Rgba = Rgba::hex(0xd55e00);
 
-/// Lines of one family; no label where only one is drawn.
+/// Lines of one family; the label is empty if only one family is drawn.
 #[must_use]
 pub fn line_overlay<'a>(
     lines: impl IntoIterator<Item = &'a TensorLine>,

@@ -11,18 +11,18 @@ use tigereye_lines::{
 };
 use tigereye_render::{HeatOptions, Overlay, Rgba, Scene, heat_map};
 
-/// Most samples along the side of a cell that the commands make.
+/// Largest number of samples per side of a cell that the commands make.
 const MAX_SAMPLES_A_CELL: usize = 64;
 
-/// What keeps an image from having ridges.
+/// Why ridges or contours of an image cannot be found.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RidgesError {
-    /// No array of single numbers, or none of the name.
+    /// There is no array of scalars, or none of the given name.
     #[error("expected an array of one number a point{}, found {found}", wanted.as_ref().map_or(String::new(), |w| format!(" called {w}")))]
     NoArray {
         /// The name asked for.
         wanted: Option<String>,
-        /// Those that are there.
+        /// The available arrays.
         found: String,
     },
     /// Several arrays of single numbers.
@@ -39,7 +39,7 @@ pub enum RidgesError {
         /// The last one.
         last: usize,
     },
-    /// An image that is no image.
+    /// The image is inconsistent.
     #[error(transparent)]
     Io(#[from] IoError),
     /// Options or sizes that cannot be.
@@ -52,19 +52,19 @@ pub enum RidgesError {
 pub struct ScalarImage {
     /// Name of the array.
     pub array: String,
-    /// Layer by layer with row 0 on top, whichever way the file has it.
+    /// Layer by layer with row 0 on top, whatever the order of the file.
     values: Vec<f64>,
     size: [usize; 3],
-    /// Whether the third axis goes all the way round: the directions of a gradient.
+    /// Whether the third axis is periodic: the full circle of directions of a gradient.
     periodic: bool,
     /// Whether it is a gradient, whose third axis is a direction.
     is_gradient: bool,
-    /// Which way the rows of the file run.
+    /// The direction in which the rows of the file run.
     rows: Rows,
-    /// Samples along the side of a cell, where this program sampled finer.
+    /// Samples per side of a cell; more than 1 in images that this program sampled more finely.
     samples_a_cell: usize,
     origin: [f64; 3],
-    /// From an index of the file to a place, a column for every axis.
+    /// From an index of the file to a position in the world, one column per axis.
     axes: [[f64; 3]; 3],
 }
 
@@ -124,7 +124,7 @@ impl ScalarImage {
         self.size[2]
     }
 
-    /// Whether it is the directions of a gradient that lie along the third axis, all the way round.
+    /// Whether the third axis holds the full circle of directions of a gradient.
     #[must_use]
     pub const fn is_periodic(&self) -> bool {
         self.periodic
@@ -167,7 +167,7 @@ impl ScalarImage {
         Volume::new(&self.values, self.size, [false, false, self.periodic])
     }
 
-    /// The place of a point in samples, y downwards.
+    /// The position in the world of a point in samples, y downwards.
     fn place(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let row = match self.rows {
             Rows::Downwards => y,
@@ -179,7 +179,7 @@ impl ScalarImage {
     }
 }
 
-/// Samples along the side of a cell, as this program says of the images it makes.
+/// Samples per side of a cell, as stated in images that this program wrote.
 fn samples_a_cell(image: &ImageData) -> usize {
     let told = || {
         let story: Value = serde_json::from_str(image.text(PROVENANCE)?).ok()?;
@@ -188,12 +188,12 @@ fn samples_a_cell(image: &ImageData) -> usize {
     told().filter(|n| (1..=MAX_SAMPLES_A_CELL).contains(n)).unwrap_or(1)
 }
 
-/// What is looked for.
+/// The feature to find.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feature {
     /// Height ridges.
     Ridges(RidgeOptions),
-    /// Where the scalar has a value.
+    /// Points at which the scalar has this value.
     Contour(f64),
 }
 
@@ -266,8 +266,8 @@ impl Found {
         }
     }
 
-    /// The lines or triangles where the image lies. Point arrays: `value` and, for ridges, `strength`. Ridge surfaces
-    /// have a cell array `piece`.
+    /// The lines or triangles in the frame of the image. Point arrays: `value` and, for ridges, `strength`. Ridge
+    /// surfaces have a cell array `piece`.
     #[must_use]
     pub fn poly_data(&self, image: &ScalarImage, story: &str) -> PolyData {
         let mut data = PolyData::default();

@@ -7,7 +7,7 @@ use super::signed::NEGLIGIBLE;
 use crate::scene::PagePoint;
 use tigereye_core::{PrincipalAxes, Tensor2, Vector, quarter_turned};
 
-/// Length of a head: this part of what fills a cell, but not more than [`MOST_OF_AXIS`] of its axis.
+/// Length of a head as a fraction of the length that fills a cell, limited to [`MOST_OF_AXIS`] of its axis.
 const HEAD: f64 = 0.36;
 const MOST_OF_AXIS: f64 = 0.7;
 /// Half width of a head by its length.

@@ -28,7 +28,7 @@ impl Layers {
         }
         if size == 0.0 {
             self.zeros.circle(centre, (0.16 * scaling.radius).clamp(1.2, 2.5));
-            // Both are drawn alike, so one entry must name both.
+            // Both look the same, so one entry must name both.
             if !t.is_zero() {
                 self.notes.remove(&Note::Zero);
                 self.notes.insert(Note::NoSymmetricPart);
@@ -47,7 +47,7 @@ impl Layers {
         }
     }
 
-    /// Paints everything and returns the legend of what there was.
+    /// Paints all layers and returns the legend of the marks that occur.
     pub(super) fn draw(self, scene: &mut Scene) -> Vec<Entry> {
         for (layer, colour) in self.tones.into_iter().zip([TENSION, COMPRESSION, MIXED, PLAIN]) {
             layer.draw(scene, colour);

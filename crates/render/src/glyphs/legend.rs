@@ -1,4 +1,4 @@
-//! What marks of glyphs mean.
+//! Legend entries of glyphs.
 
 use super::arrows;
 use super::kind::GlyphColour;

@@ -1,4 +1,4 @@
-//! What glyphs are made of, as lines instead of a picture.
+//! The outlines of glyphs as lines instead of a picture.
 
 use super::layers::{Layer, Layers, Tone};
 use super::{GlyphColour, GlyphOptions, Scaling};
@@ -6,7 +6,7 @@ use crate::map_frame;
 use crate::scene::{PagePoint, PathBuilder, Segment};
 use tigereye_core::{Cell, Field, Point, Tensor2};
 
-/// What an outline is of a glyph.
+/// The part of a glyph that an outline draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GlyphPart {
     /// An area: an ellipse, a box, a superellipse, a lobe of tension.
@@ -17,20 +17,20 @@ pub enum GlyphPart {
     Line,
     /// The head of an arrow.
     Head,
-    /// A sector as wide as the angle by which a tensor turns.
+    /// A sector that spans the angle of a tensor's rotation.
     Sector,
-    /// The line that a reflection keeps.
+    /// The invariant line of a reflection.
     Mirror,
 }
 
-/// A line or the rim of an area of a glyph.
+/// A line, or the boundary of an area, of a glyph.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GlyphOutline {
-    /// The cell it stands for.
+    /// The cell of the tensor.
     pub cell: Cell,
-    /// What it is.
+    /// The part of the glyph.
     pub part: GlyphPart,
-    /// 1 for tension and counter-clockwise turns, -1 for compression and clockwise ones, 0 for neither or both.
+    /// 1 for tension and counter-clockwise rotation, -1 for compression and clockwise rotation, 0 for neither or both.
     pub sign: i8,
     /// Whether its last point is connected with its first.
     pub closed: bool,
@@ -38,13 +38,13 @@ pub struct GlyphOutline {
     pub points: Vec<Point>,
 }
 
-/// Pixels a cell that glyphs are made at: lobes have as many points as a large picture wants.
+/// Pixels per cell at which outlines are computed: curves are as fine as in a large picture.
 const CELL_PX: f64 = 64.0;
 /// Pieces of a cubic; those of an ellipse are a quarter of it.
 const PIECES: usize = 8;
 
-/// What [`super::glyphs`] draws, glyph by glyph, for every n-th cell (`every`, 1 by default) and the options `kind`,
-/// `scale` and `cell`; the others are those of pictures. Zero tensors and those that are not finite have none.
+/// The outlines of [`super::glyphs`], glyph by glyph, for every n-th cell (`every`, 1 by default) and the options
+/// `kind`, `scale` and `cell`; the other options apply to pictures only. Zero and non-finite tensors have no outlines.
 #[must_use]
 pub fn glyph_outlines(field: &Field<Tensor2>, options: &GlyphOptions) -> Vec<GlyphOutline> {
     let (kind, every) = (options.kind, options.every.unwrap_or(1).max(1));
@@ -77,7 +77,7 @@ pub fn glyph_outlines(field: &Field<Tensor2>, options: &GlyphOptions) -> Vec<Gly
             ];
             parts.into_iter().for_each(|(path, part)| push(path, part, sign));
         }
-        // The lines of indefinite tensors are drawn over those of the areas: they only add the sign of the major axis.
+        // Omit the signed lines of indefinite tensors: they repeat the major axis only to colour it.
         for (sector, sign) in layers.sectors.into_iter().zip([1, -1]) {
             push(sector, GlyphPart::Sector, sign);
         }
@@ -108,7 +108,7 @@ fn pieces(path: &[Segment]) -> Vec<(Vec<PagePoint>, bool)> {
             (Segment::Move(p), _) => all.push((vec![p], false)),
             (Segment::Close, Some((points, closed))) => {
                 *closed = true;
-                // Curves that return to their beginning have it twice.
+                // A closed curve repeats its first point.
                 if points.len() > 1 && near(points[0], points[points.len() - 1]) {
                     points.pop();
                 }

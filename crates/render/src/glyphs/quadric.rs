@@ -38,7 +38,7 @@ pub(super) fn add_outline(
         layer.segments.line(from, to);
         return;
     }
-    // Pixels run downwards; the minor axis is the major one turned clockwise.
+    // In pixels y points downwards; the minor axis is a quarter turn clockwise from the major one.
     let (major, minor) = (PageVector::new(axis.x, -axis.y) * a, PageVector::new(axis.y, axis.x) * b);
     match kind {
         GlyphKind::Box => rectangle(&mut layer.areas, centre, major, minor),
@@ -72,7 +72,7 @@ fn add_signed_line(layers: &mut Layers, centre: PagePoint, t: &Tensor2, scaling:
     }
 }
 
-/// A circle has none.
+/// Whether the ellipse is not a circle.
 fn has_major_axis(svd: &Svd) -> bool {
     svd.axis_ratio() < 1.0 - 1e-9
 }
@@ -96,7 +96,7 @@ fn sharpness(t: &Tensor2, gamma: f64) -> f64 {
 
 /// `|u|^(2/e) + |v|^(2/e) = 1` with u along `a` and v along `b`, as straight pieces.
 fn superellipse(path: &mut PathBuilder, centre: PagePoint, a: PageVector, b: PageVector, e: f64) {
-    // Pieces of an eighth of the turn: their error is a few hundredths of a pixel.
+    // Straight pieces per eighth of a turn: their error is a few hundredths of a pixel.
     let pieces = (1.5 * length(a).sqrt()).ceil().clamp(3.0, 24.0) as usize;
     let points: Vec<PagePoint> = (0..8 * pieces)
         .map(|i| {

@@ -9,7 +9,7 @@ pub(super) struct Scaling {
     pub(super) kind: GlyphScale,
     /// Largest semi-axis of the field, finite.
     pub(super) largest: f64,
-    /// What it is drawn as, in pixels: less than half of the distance between glyphs.
+    /// Its length in pixels: less than half of the distance between glyphs.
     pub(super) radius: f64,
 }
 

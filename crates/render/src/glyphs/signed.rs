@@ -17,7 +17,7 @@ pub(super) fn add(layers: &mut Layers, centre: PagePoint, t: &Tensor2, scaling: 
     let curve = Curve { centre, axes, l1, l2, size, scaling };
     if l1 > 0.0 {
         layers.notes.insert(Note::PositiveLobe);
-        // Along the first axis, and all around where the second value has the same sign.
+        // Along the first axis, or all around if the second value has the same sign.
         for lobe in curve.lobes(0.0, curve.border(l1, l2)) {
             layers.layer(t, Tone::Tension).areas.polyline(&lobe, true);
         }
@@ -41,7 +41,7 @@ struct Curve<'a> {
 }
 
 impl Curve<'_> {
-    /// Angle between the axis of `own` and the direction in which the component vanishes; none where it never does.
+    /// Angle between the axis of `own` and the direction in which the component vanishes; `None` if it never does.
     fn border(&self, own: f64, other: f64) -> Option<f64> {
         // own cos^2 w + other sin^2 w = 0
         (own.signum() != other.signum() || other == 0.0)
@@ -52,7 +52,7 @@ impl Curve<'_> {
     /// around.
     fn lobes(&self, middle: f64, half_angle: Option<f64>) -> Vec<Vec<PagePoint>> {
         let reach = self.scaling.length(self.size, self.size);
-        // Straight pieces a quarter turn: their error is a few hundredths of a pixel.
+        // Straight pieces per quarter turn: their error is a few hundredths of a pixel.
         let pieces = (5.0 * reach.sqrt()).ceil().clamp(8.0, 96.0) as usize;
         let Some(half_angle) = half_angle else {
             let all = 4 * pieces;

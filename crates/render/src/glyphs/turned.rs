@@ -1,4 +1,4 @@
-//! Ellipses of tensors that need not be symmetric, with the rotation or reflection they contain.
+//! Ellipses of asymmetric tensors, with the rotation or reflection they contain.
 
 use super::kind::GlyphColour;
 use super::layers::{COMPRESSION, Layers, TENSION, Tone};
@@ -9,10 +9,10 @@ use crate::colour::Rgba;
 use crate::scene::{PagePoint, PathBuilder, Scene, Segment};
 use tigereye_core::{OrthogonalFactor, Svd, Symmetry, Tensor2, Vector, math, quarter_turned};
 
-/// Radius of sectors by the larger semi-axis.
+/// Radius of sectors, as a fraction of the larger semi-axis.
 const SECTOR: f64 = 0.6;
-/// Smaller angles are rounding, radians: as much as [`Symmetry::ROUNDING`] makes of a tensor's own size. So is what is
-/// missing to half a turn.
+/// Smaller angles are rounding errors, radians: the rotation of a tensor whose asymmetry is [`Symmetry::ROUNDING`] of
+/// its size. The same holds for deviations from half a turn.
 const NO_TURN_RAD: f64 = Symmetry::ROUNDING;
 
 pub(super) fn add(layers: &mut Layers, centre: PagePoint, t: &Tensor2, scaling: &Scaling) {
@@ -64,7 +64,7 @@ pub(super) fn add_sector(path: &mut PathBuilder, centre: PagePoint, radius: f64,
     path.close();
 }
 
-/// Colours of counter-clockwise and clockwise sectors: of their own only where colours mean nothing else.
+/// Colours of counter-clockwise and clockwise sectors; distinct only if colours have no other meaning.
 pub(super) fn sector_colours(colour: GlyphColour) -> [Rgba; 2] {
     match colour {
         GlyphColour::AxisSign => [TENSION, COMPRESSION],

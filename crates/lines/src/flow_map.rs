@@ -34,6 +34,7 @@ pub(crate) fn gradient_at<Frame>(
         let c = Cell::new(x, y);
         if grid.contains(c) { end(c) } else { None }
     };
+    // Central differences; with one neighbour only, the sample itself stands in for the other.
     let along = |dx: isize, dy: isize, h: f64| {
         let (before, after) = (beside(-dx, -dy), beside(dx, dy));
         let steps = f64::from(u8::from(before.is_some()) + u8::from(after.is_some()));

@@ -124,6 +124,7 @@ impl Ring {
                 roots.push((TAU * (i as f64 + 0.37 + t) / AROUND as f64, level as i64));
             }
         }
+        // A root bounds a hyperbolic sector if the level falls on either side of it, around the circle.
         let turns = ((self.ahead[AROUND] - self.ahead[0]) / PI).round() as i64;
         let n = roots.len();
         let is_hyperbolic = |i: usize| {

@@ -148,6 +148,7 @@ impl Walk<'_> {
                 (None, _) => Err(LineEnd::Border),
             };
         };
+        // Of the two signs of the axis, take the one closer to the incoming direction.
         let along = frame.axes[self.family as usize];
         let cosine = along.dot(towards);
         let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
@@ -156,6 +157,7 @@ impl Walk<'_> {
             let is_sharp = cosine.abs() < LEAST_COSINE;
             return if is_sharp { Err(LineEnd::Degenerate) } else { Ok((along, frame.contrast)) };
         };
+        // Inertia: mix the axis with the incoming direction, the more so the more isotropic the tensor is.
         let across = frame.axes[1 - self.family as usize];
         let [longer, shorter] = {
             let [a, b] = frame.values.map(f64::abs);
@@ -184,6 +186,7 @@ impl Walk<'_> {
         let ahead = |k: Vector, h: f64| self.field.cell().ahead(from.at, k, h);
         // The first slope is the last one of the previous step.
         let a = from.towards;
+        // Each stage takes the sign of its axis from the stage before.
         let (b, first) = self.slope(ahead(a, 0.5 * h), a)?;
         let (c, second) = self.slope(ahead(b, 0.5 * h), b)?;
         let (d, _) = self.slope(ahead(c, h), c)?;
@@ -194,6 +197,7 @@ impl Walk<'_> {
     }
 
     fn dormand_prince(&self, from: Pose, h: f64, tolerance: f64) -> Result<Step, LineEnd> {
+        // The point of the last stage is the result of the step, so its slope begins the next one.
         let mut slopes = [Vector::zero(); 7];
         slopes[0] = from.towards;
         let (mut at, mut contrast, mut least) = (from.at, 0.0, f64::INFINITY);

@@ -64,6 +64,7 @@ pub fn ridge_lines(field: &Field<f64>, options: &RidgeOptions) -> Result<RidgeLi
         }
     }
     found.bounds = mesh.bounds();
+    // Join the crossings within each triangle, and the segments to lines.
     let segments = segments(&on_edges, [nx, ny]);
     let mut lines = chained(found.value.len(), &segments);
     without_repetitions(&mut lines, &found.shape.points, SAME);
@@ -75,7 +76,7 @@ const NONE: u32 = u32::MAX;
 /// Stands for an edge whose point was rejected.
 const REJECTED: u32 = u32::MAX - 1;
 
-/// What is on an edge.
+/// The crossing of an edge.
 enum Mark {
     None,
     Rejected,

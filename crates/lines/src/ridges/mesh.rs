@@ -218,11 +218,13 @@ impl Edges for RidgeMesh {
         if (a.0.slope >= 0.0) == ((b.0.slope >= 0.0) == aligned) {
             return Crossing::None;
         }
+        // Refining is costly: give up early if both ends are far too weak.
         if a.0.strength.max(b.0.strength) <= 0.5 * self.weakest {
             return Crossing::Rejected;
         }
         let other = b.0.towards(a.0.across);
         let (at, sample, crest) = self.refined(a, (&other, b.1));
+        // A jump of the eigenvector also changes the sign of the slope; there the refined slope does not vanish.
         let steepest = a.0.slope.abs().max(b.0.slope.abs());
         let left = LEFT * steepest + FLAT * crest.strength * self.shortest();
         if !(crest.strength >= self.weakest

@@ -5,7 +5,7 @@ use crate::{Cell, CoreError};
 /// The reflection of arriving light by a cell: an 8 x 8 matrix of shares from 0 to 1.
 ///
 /// A cell with a tensor passes its light on in a shape of its own and therefore normalises it (eq. 3.12). A wall does
-/// the same to whatever arrives: it is linear, its columns add up to its reflectance, and what is missing to 1 is
+/// the same to all arriving light: it is linear, its columns add up to its reflectance, and what is missing to 1 is
 /// absorbed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reflection {
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_wall_never_sends_back_more_than_arrives() {
+    fn a_wall_never_reflects_more_than_arrives() {
         let mut shares = [[0.0; 8]; 8];
         shares[2][6] = 0.75;
         shares[1][6] = 0.25;

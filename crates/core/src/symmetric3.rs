@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn invariants_of_no_number_are_none() {
+    fn invariants_of_nan_are_nan() {
         for l in [[f64::NAN; 3], [1.0, f64::NAN, 0.0], [f64::INFINITY, 1.0, 0.0]] {
             assert!(fractional_anisotropy3(l).is_nan() && mode3(l).is_nan(), "{l:?}");
         }

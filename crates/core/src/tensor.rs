@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn four_quarter_turns_are_none() {
+    fn four_quarter_turns_are_the_identity() {
         let t = Tensor2::new(1.0, 2.0, 3.0, 4.0);
         let turned = t.quarter_turned().quarter_turned().quarter_turned().quarter_turned();
         assert_eq!(turned, t);

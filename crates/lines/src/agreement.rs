@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_put_together() {
+    fn appended_lines_keep_their_points() {
         let mut all = line([(1.0, 1.0), (2.0, 2.0)]);
         append(&mut all, &line([(4.0, 6.0), (8.0, 10.0)]));
         assert_eq!(all.points[2..], [(4.0, 6.0), (8.0, 10.0)].map(Point::from));
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn correlation_looks_where_both_are_numbers() {
+    fn correlation_uses_cells_with_both_values() {
         let field = |f: fn(f64) -> f64| Field::from_fn(grid(), |c| f(c.x as f64));
         let rising = field(|x| x);
         let holes = field(|x| if x < 5.0 { f64::NAN } else { 3.0 - 2.0 * x });

@@ -362,7 +362,7 @@ mod tests {
 
     /// The points do not depend on the magnitude of the tensors.
     #[test]
-    fn strength_does_not_matter() {
+    fn scale_does_not_matter() {
         let spec = parse_spec("wedge:size=20").expect("a generator");
         let plain = generate(&spec.name, &spec.arguments).expect("a field");
         let mut strong = plain.map(|t| t.scaled(1e-9));
@@ -371,7 +371,7 @@ mod tests {
     }
 
     #[test]
-    fn thin_and_broken_fields_have_none() {
+    fn thin_and_broken_fields_have_no_degenerate_points() {
         for (width, height) in [(1, 1), (1, 9), (9, 1), (2, 2)] {
             for t in [Tensor2::ZERO, Tensor2::isotropic(f64::NAN), Tensor2::from_axes(1.0, 2.0, 1.0)] {
                 let field = Field::from_fn(Grid::new(width, height).expect("a size"), |_| t);

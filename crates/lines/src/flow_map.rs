@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn missing_samples_have_no_exponent_and_lend_none() {
+    fn missing_samples_have_no_exponent_and_do_not_affect_others() {
         let ends = field([5, 5], |p| (p != PhysicalPoint::new(0.2, 0.4)).then_some(p));
         let found = exponents(&ends, [0.1, 0.2], 1.0);
         let missing = found.iter().filter(|(_, v)| v.is_nan()).map(|(c, _)| c).collect::<Vec<_>>();

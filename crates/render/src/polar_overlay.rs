@@ -20,10 +20,10 @@ pub enum IntensityScale {
         /// cell.
         exclude_sources: bool,
     },
-    /// Every cell's own maximum fills it: shapes only.
+    /// Every cell is filled by its own maximum: only shapes are comparable.
     PerCell,
     /// The longest radius of a cell falls linearly with the logarithm of its mean intensity, from the brightest cell
-    /// down to nothing at `decades` below; the shape is kept. Light falls with distance, and this keeps it visible.
+    /// down to 0 at `decades` below; the shape is kept. This keeps light visible that decays with distance.
     Logarithmic {
         /// Decades shown, positive.
         decades: f64,
@@ -33,7 +33,7 @@ pub enum IntensityScale {
 /// How transmission profiles are scaled against each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum TransmissionScale {
-    /// Every cell's own maximum fills it: shapes only.
+    /// Every cell is filled by its own maximum: only shapes are comparable.
     #[default]
     PerCell,
     /// The longest radius is proportional to the cell's mean transmission, relative to the largest mean of the field:
@@ -88,8 +88,8 @@ const SOURCE_FILL: Rgba = Rgba::hex(0xffefb8);
 const SOURCE_LINE: Rgba = Rgba::hex(0xe69f00);
 const ABSORBING: Rgba = Rgba::hex(0xdedede);
 
-/// In every cell the transmission profile in red and the intensity profile in blue, 90 degrees pointing up. With
-/// neither, or with two different grids (the light's counts), what is there is drawn.
+/// In every cell the transmission profile in red and the intensity profile in blue, 90 degrees pointing up. Without
+/// either, only the other is drawn; if their grids differ, only the light.
 #[must_use]
 pub fn polar_overlay(
     transmission: Option<&TransmissionField>,

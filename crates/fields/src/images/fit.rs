@@ -23,7 +23,7 @@ const SAMPLE_MOMENTS: usize = 3;
 /// Least part of a term's square that the terms before it must leave: below, the samples do not tell it from them.
 /// Samples in three columns leave more than 1e-5, rounding less than 1e-14.
 const LEAST_PART: f64 = 1e-8;
-/// Narrowest Gaussian of a fit, cells: with less, the third sample of a row would have no weight left beside the first.
+/// Narrowest Gaussian of a fit, cells: below it, the third sample of a row would have negligible weight.
 const NARROWEST: f64 = 0.6;
 /// Columns that are done together, which bounds the memory.
 const STRIP: usize = 32;

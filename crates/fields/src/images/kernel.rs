@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_go_on_beyond_their_ends() {
+    fn rows_continue_as_their_mirror_image() {
         let row = [1.0, 3.0, 7.0];
         assert_eq!([-3, -2, -1, 3, 4, 5].map(|i| mirrored(&row, i)), [7.0, 3.0, 1.0, 7.0, 3.0, 1.0]);
         assert_eq!(mirrored(&[4.0], -3), 4.0);

@@ -36,7 +36,7 @@ fn lines_of_linear_values_are_exact() {
 }
 
 #[test]
-fn levels_at_samples_give_each_place_once() {
+fn levels_at_samples_give_each_point_once() {
     let found = isolines(&field(9, 9, |x, y| -((x - 4.0).abs() + (y - 4.0).abs())), -3.0);
     assert_eq!((found.lines.len(), found.lines[0].closed), (1, true));
     assert!((found.length(&found.lines[0], [1.0, 1.0]) - 12.0 * 2.0_f64.sqrt()).abs() < 1e-12);
@@ -46,10 +46,10 @@ fn levels_at_samples_give_each_place_once() {
     assert_eq!(places.len(), found.points.len());
 }
 
-/// In a square with two opposite high corners the value at the saddle tells which corners belong together: the
+/// In a square with two opposite high corners, the value at the saddle decides which corners are connected: the
 /// contours of the bilinear function never leave their branch of the hyperbola.
 #[test]
-fn saddles_are_parted_as_the_bilinear_function_parts_them() {
+fn ambiguous_squares_follow_the_bilinear_function() {
     for (corners, joined) in [([3.0, 0.0, 0.0, 3.0], true), ([1.2, -3.0, -3.0, 1.2], false)] {
         // Corners in rows; high on the diagonal from the upper left.
         let found = isolines(&field(2, 2, |x, y| corners[(2.0 * y + x) as usize]), 1.0);
@@ -89,7 +89,7 @@ fn extreme_values_do_not_overflow() {
     assert!(found.points.iter().all(|p| p.x == 1.5), "{found:?}");
 }
 
-/// Edges with anything but two triangles.
+/// Edges that do not belong to exactly two triangles.
 fn open_edges(surface: &Surface) -> usize {
     let mut edges = Vec::new();
     for t in &surface.triangles {
@@ -137,7 +137,7 @@ fn periodic_axes_close() {
     assert!(found.points.iter().flatten().all(|v| (0.0..=16.0).contains(v)));
     let area = 2.0 * math::TAU * 25.3;
     assert!((found.area([1.0; 3]) / area - 1.0).abs() < 0.03);
-    // Laid upon each other, the two sides of each seam are closed.
+    // With the two sides of each seam joined, the surface is closed.
     let mut places: Vec<([u64; 3], usize)> = Vec::new();
     for (i, p) in found.points.iter().enumerate() {
         places.push((p.map(|v| if v == 16.0 { 0.0_f64 } else { v }.to_bits()), i));
@@ -154,7 +154,7 @@ fn periodic_axes_close() {
 }
 
 #[test]
-fn planes_through_samples_are_there_once() {
+fn planes_through_samples_appear_once() {
     for level in [3.0, 3.5] {
         let found = surface([6, 7, 8], [false; 3], level, |p| p[2]);
         assert!((found.area([1.0; 3]) - 30.0).abs() < 1e-12, "{level}");

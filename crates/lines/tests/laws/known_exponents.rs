@@ -9,7 +9,7 @@ use tigereye_lines::{
     SamplingError, Threshold, advected, ellipse_tensors, exponents, ftle, ridge_lines,
 };
 
-/// Of points in cells, or in the units of a flow.
+/// A displacement in cells, or in the units of a flow.
 type Displacement = Vector2D<f64, Cells>;
 
 fn field(spec: &str) -> Field<Tensor2> {
@@ -28,18 +28,18 @@ fn of_shear(s: f64) -> f64 {
 }
 
 #[test]
-fn parallel_lines_part_nowhere() {
+fn parallel_lines_have_exponent_zero() {
     let straight = Field::from_fn(Grid::new(12, 9).expect("a size"), |_| Tensor2::from_axes(0.4, 3.0, 1.0));
     let found = of(&straight, Family::Major, 2.0, 3);
     assert_eq!((found.larger.grid().width(), found.larger.grid().height()), (34, 25));
-    // Lines that leave the field say nothing.
+    // Lines that leave the field have no exponent.
     let known = found.larger.values().iter().filter(|v| v.is_finite());
     assert!(known.clone().count() > 400 && known.into_iter().all(|v| v.abs() < 1e-9));
     assert!(found.left > 0.1 && found.left < 0.4, "{}", found.left);
 }
 
-/// Rays part as the circles they cross grow: outwards by (r + L) / r. Circles do not part, but those inside go further
-/// round: a shear by L / r.
+/// Rays diverge like the circles they cross: outwards by (r + L) / r. Circles keep their distance, but inner ones
+/// advance by a larger angle: a shear by L / r.
 #[test]
 fn rays_and_circles_have_their_formulas() {
     let field = ellipse_tensors(&field("star:size=61"));
@@ -51,7 +51,7 @@ fn rays_and_circles_have_their_formulas() {
         if !(12.0..22.0).contains(&r) {
             continue;
         }
-        // Differences over a cell's width of functions that bend over r cells, and axes that are interpolated.
+        // Error of differences over a cell of functions that vary over r cells, and of the interpolated axes.
         let bend = 1.0 / (r * r);
         let outwards = math::ln(1.0 + length / r) / length;
         let ray = rays.larger.at(cell);
@@ -63,12 +63,12 @@ fn rays_and_circles_have_their_formulas() {
     }
 }
 
-/// The same formula wherever rays do not leave, the diagonals included, on which lines inwards meet the middle: none
-/// leads across.
+/// The same formula wherever rays do not leave the field, including the diagonals, on which lines run inwards to the
+/// middle: none crosses it.
 #[test]
 fn rays_end_in_the_middle_of_a_star() {
     let length = 10.0;
-    // In a cell and between cells. Elsewhere interpolation makes two wedges of the middle, and lines lead between them.
+    // At a cell and between cells. Elsewhere interpolation splits the middle into two wedges, and lines pass between.
     for middle in [Point::new(30.0, 30.0), Point::new(29.5, 30.5)] {
         let field = Field::from_fn(Grid::new(61, 61).expect("a size"), |c| {
             let (x, y) = (c.x as f64 - middle.x, middle.y - c.y as f64);
@@ -93,7 +93,7 @@ fn rays_end_in_the_middle_of_a_star() {
 /// The axis along (x, -y): hyperbolas. A map along them by arc length has no formula; its gradient is taken of the
 /// formula of the axis, in steps and differences so small that they are exact.
 #[test]
-fn hyperbolas_part_as_their_formula_says() {
+fn exponents_of_hyperbolas_follow_their_formula() {
     let size = 61;
     let axis = |p: Point| {
         let (x, y) = (p.x - 30.0, 30.0 - p.y);
@@ -125,7 +125,7 @@ fn hyperbolas_part_as_their_formula_says() {
     }
 }
 
-/// The same axes with other signs, the field turned: the same exponents.
+/// The rotated field has the same axes with other signs, and the same exponents.
 #[test]
 fn exponents_turn_with_the_field() {
     let field = ellipse_tensors(&field("bow:size=25"));
@@ -199,7 +199,7 @@ impl Gyre {
 }
 
 /// At the published setting (A = 0.1, epsilon = 0.25, omega = 2 pi / 10, T = 15) the exponent of the flow map is that
-/// of the variational equation, and with a shear, which has no symmetry to hide behind.
+/// of the variational equation, and with a shear, which breaks the symmetry.
 #[test]
 fn double_gyre_has_the_exponents_of_its_variational_equation() {
     let duration = 15.0;
@@ -232,7 +232,7 @@ fn gyre_ridges(gyre: &Gyre, across: usize) -> Polylines {
         })
         .collect();
     let found = exponents(&Field::from_fn(grid, |c| Some(ends[grid.index(c)])), [h; 2], 15.0);
-    // The sharp crest that parts the gyres, and not its folds, which finer samples only resolve.
+    // The sharp crest that separates the gyres, without its folds, which only finer samples resolve.
     let options = RidgeOptions {
         least_value: Threshold::Part(0.8),
         least_strength: Threshold::Part(0.2),
@@ -244,16 +244,16 @@ fn gyre_ridges(gyre: &Gyre, across: usize) -> Polylines {
     ridges
 }
 
-/// The curves at time 0 on which particles run into the saddles that wander along the walls: their stable manifolds,
-/// from a short way off each saddle at time `late` backwards, with points at most `spacing` apart.
+/// The stable manifolds at time 0 of the saddles that move along the walls: short segments across each saddle at time
+/// `late`, advected backwards, with points at most `spacing` apart.
 fn stable_manifolds(gyre: &Gyre, late: f64, spacing: f64) -> Polylines {
     let back = |p: Point, from: f64, to: f64| {
         advected(&|t, p| gyre.velocity(t, p), p, [from, to], (40.0 * (from - to)) as usize)
     };
     let mut all = Polylines::default();
-    // Between the gyres, and at the upper corners, where it is the side walls as long as there is no shear.
+    // Between the gyres and at the upper corners, where the manifolds are the side walls unless there is shear.
     for wall in [(1.0, 0.0), (0.0, 1.0), (2.0, 1.0)].map(Point::from) {
-        // Along the wall a saddle attracts backwards.
+        // Backwards in time a saddle attracts along the wall.
         let saddle = back(wall, late + 40.0, late);
         let inwards = if wall.y == 0.0 { 0.05 } else { -0.05 };
         let end = |share: f64| back(Point::new(saddle.x, wall.y + inwards * share), late, 0.0);
@@ -276,7 +276,7 @@ fn stable_manifolds(gyre: &Gyre, late: f64, spacing: f64) -> Polylines {
 
 /// The crest of the exponent is the stable manifold (Haller 2001; Shadden, Lekien and Marsden 2005), which is known
 /// without an exponent: nine tenths of it lie within half a cell of 121 samples. The rest are folds thinner than a
-/// cell. Twice the samples bring it no nearer, since the crest of a finite time lies beside the manifold.
+/// cell. Doubling the samples does not reduce the distance, since the crest for a finite time lies beside the manifold.
 #[test]
 fn double_gyre_has_its_ridge_on_the_stable_manifold() {
     for shear in [0.0, 0.03] {
@@ -296,7 +296,7 @@ fn double_gyre_has_its_ridge_on_the_stable_manifold() {
 }
 
 #[test]
-fn what_has_no_lines_has_no_exponent() {
+fn degenerate_fields_have_no_exponent() {
     for t in [Tensor2::ZERO, Tensor2::IDENTITY, Tensor2::isotropic(f64::NAN)] {
         for (width, height) in [(1, 1), (1, 6), (7, 5)] {
             let field = Field::from_fn(Grid::new(width, height).expect("a size"), |_| t);

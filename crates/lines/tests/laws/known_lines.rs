@@ -19,7 +19,7 @@ fn line(field: &Field<Tensor2>, seed: Point, family: Family, extent: f64) -> Ten
     tensor_line(&between, seed, family, &options, &mut |_| true)
 }
 
-/// Largest and smallest of a quantity along a line, as a difference.
+/// Range of a quantity along a line.
 fn spread(line: &TensorLine, quantity: impl Fn(Point) -> f64) -> f64 {
     let values = line.points.iter().map(|p| quantity(*p));
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
@@ -70,7 +70,7 @@ fn stars_have_rays_and_circles() {
     }
 }
 
-/// No step of a cell or less leads across the middle, where the tensor is round.
+/// No step of up to a cell jumps across the middle, where the tensor is isotropic.
 #[test]
 fn rays_end_at_the_middle_of_a_star() {
     let field = ellipse_tensors(&field("star:size=61"));
@@ -103,7 +103,7 @@ fn rings_are_circles_within_a_cell() {
     }
 }
 
-/// Follows an axis that is given by a formula, in steps so small that they are exact.
+/// Follows an axis given by a formula, in steps small enough to be exact.
 fn reference(tensor: &dyn Fn(Point) -> Tensor2, seed: Point, family: Family, extent: f64) -> Point {
     let axis = |p: Point, from: Vector| {
         let axis = Axes::Eigenvectors.of(&tensor(p), 0.0).expect("axes").axes[family as usize];
@@ -122,7 +122,7 @@ fn reference(tensor: &dyn Fn(Point) -> Tensor2, seed: Point, family: Family, ext
     at
 }
 
-/// How far lines to the right of a seed end from where the formula leads, in parts of the field's width.
+/// Distance between the ends of the line to the right of a seed and of that of the formula, in widths of the field.
 fn deviation(
     spec: &dyn Fn(usize) -> String,
     size: usize,
@@ -141,9 +141,9 @@ fn deviation(
     length(right - expected) / cells
 }
 
-/// A quantity that is wrong by the square of the cell's size.
+/// Whether an error falls with the square of the size of a cell.
 fn is_of_second_order(coarse: f64, fine: f64, bound: f64) -> bool {
-    // Four times smaller, and more or less because the order is that of a limit.
+    // A factor of 4 in the limit, with a margin.
     fine < bound && (coarse < 1e-6 || fine < 0.5 * coarse)
 }
 
@@ -190,7 +190,7 @@ fn kirsch_has_the_trajectories_of_its_formula() {
     }
 }
 
-/// Both methods follow the same line.
+/// Both integration methods follow the same line.
 #[test]
 fn methods_agree_where_both_are_exact() {
     let field = ellipse_tensors(&field("inverse:size=61"));

@@ -67,7 +67,7 @@ fn pure_shear_has_axes_by_value_only() {
         assert!(same(frame.axes[0], Vector::new(1.0, 0.0)) && frame.contrast == 4.0, "{axes:?}");
         assert_eq!(axes.by(Major::Magnitude).of(&t, 1e-3), None, "{axes:?}");
     }
-    // A trisector whose trace changes its sign along a line through the field: by value nothing happens there.
+    // A trisector whose trace changes its sign along a line through the field: by value it has no effect.
     let field = Field::from_fn(Grid::new(21, 21).expect("a size"), |c| {
         let (x, y) = (c.x as f64 - 10.3, 10.2 - c.y as f64);
         Tensor2::symmetric(x + 0.5 * y, -y, -x + 0.5 * y)
@@ -91,12 +91,12 @@ fn pure_shear_has_axes_by_value_only() {
     };
     assert_eq!(line(Axes::HalfAxes, Major::Value), [LineEnd::Border; 2]);
     assert_eq!(line(Axes::Eigenvectors, Major::Value), [LineEnd::Border; 2]);
-    // By magnitude the two change places there.
+    // By magnitude the two axes swap there.
     assert!(line(Axes::Eigenvectors, Major::Magnitude).contains(&LineEnd::Degenerate));
     assert!(line(Axes::HalfAxes, Major::Magnitude).contains(&LineEnd::Degenerate));
 }
 
-/// What decides is continuous: a little turning moves the axes a little, but for the places where the order names none.
+/// The axes are continuous: a slight rotation in the tensor moves them slightly, except where they are degenerate.
 #[test]
 fn a_little_asymmetry_moves_axes_a_little() {
     for t in tensors().step_by(2) {
@@ -110,7 +110,7 @@ fn a_little_asymmetry_moves_axes_a_little() {
             let Some(frame) = ordered.of(&t, 1e-3) else { continue };
             let other = ordered.of(&turned, 0.0).expect("axes");
             let sine = frame.axes[0].cross(other.axes[0]);
-            // A turn of 1e-9 over the least contrast.
+            // A rotation of 1e-9 over the least contrast.
             assert!(sine.abs() < 1e-5, "{ordered:?} {t:?}: {sine}");
         }
     }

@@ -1,4 +1,4 @@
-//! Cells that are not square: the same field, sampled otherwise, has the same lines, points and exponents.
+//! Cells that are not square: a field has the same lines, points and exponents whatever cells sample it.
 
 use tigereye_core::{Cell, CellShape, Field, Grid, PhysicalPoint, Point, Tensor2, length, math};
 use tigereye_lines::{
@@ -11,7 +11,7 @@ const HALF: f64 = 12.0;
 /// Square, wide and high cells; the smaller side is 1.
 const SHAPES: [[f64; 2]; 3] = [[1.0, 1.0], [2.0, 1.0], [1.0, 3.0]];
 
-/// A field of the place (x, y), y up, in cells of a shape.
+/// A field of the position (x, y), y up, sampled in cells of a shape.
 fn sampled(sides: [f64; 2], tensor: impl Fn(f64, f64) -> Tensor2) -> Field<Tensor2> {
     let [width, height] = sides.map(|s| (2.0 * HALF / s) as usize + 1);
     Field::from_fn(Grid::new(width, height).expect("a size"), |c| {
@@ -39,7 +39,7 @@ fn trisector(x: f64, y: f64) -> Tensor2 {
     Tensor2::symmetric(2.0 + x, -y + 0.2 * x, 2.0 - x)
 }
 
-/// What the rounding of some hundred steps adds up to.
+/// Accumulated rounding of some hundred steps.
 const ROUNDING: f64 = 1e-9;
 
 fn farthest(a: &TensorLine, b: &TensorLine, sides: [f64; 2]) -> f64 {
@@ -70,8 +70,8 @@ fn lines_are_those_of_square_cells() {
     }
 }
 
-/// Where components bend, lines differ by what interpolation does to their direction: of components of size 2 that bend
-/// by b, h^2 b / 8 / 2 rad in cells of h, over a length of 8.
+/// For curved components, lines differ by the interpolation error of their direction: h^2 b / 8 / 2 rad for components
+/// of size 2 with second derivative b in cells of size h, over a length of 8.
 #[test]
 fn lines_of_bent_components_differ_by_the_interpolation() {
     let bent = |x: f64, y: f64| Tensor2::from_eigen(0.08 * x - 0.05 * y, 3.0, 1.0);
@@ -100,7 +100,7 @@ fn cells_of_any_unit_that_are_square_give_the_same_bits() {
         assert_eq!(evenly_spaced(&other, Family::Major, 1.5, &options), lines);
         let exponents =
             |of: &Interpolated<'_>| ftle(of, Family::Major, &FtleOptions::default()).expect("samples");
-        // Compared as text: not a number equals itself there.
+        // Compared as text, in which NaN equals NaN.
         assert_eq!(format!("{:?}", exponents(&other)), format!("{:?}", exponents(&plain)));
         let texture = |of: &Interpolated<'_>| {
             convolved(of, Family::Major, &ConvolutionOptions::default()).expect("samples")
@@ -163,8 +163,7 @@ fn exponents_are_those_of_square_cells() {
             for y in -6..=6 {
                 let p = (f64::from(x), f64::from(y));
                 let (a, b) = (at(&square, p, [1.0; 2]), at(&oblong, p, sides));
-                // Near the point and its separatrices neighbours part without end, and differences depend on their
-                // distance.
+                // Near the point and its separatrices the exponent diverges, and differences depend on their distance.
                 if a.is_nan() || b.is_nan() || a > 0.15 || math::hypot(p.0 - 0.6, p.1 + 0.4) < 2.0 {
                     continue;
                 }
@@ -190,7 +189,7 @@ fn lines_keep_their_distance_in_the_unit_of_the_smaller_side() {
             for (i, a) in lines.iter().enumerate() {
                 let others = lines[i + 1..].iter().flat_map(|l| &l.points);
                 let nearest = others.flat_map(|q| a.points.iter().map(|p| cell.distance(*p, *q)));
-                // Straight lines beside each other, but for the grain of the points compared.
+                // Parallel lines, up to the spacing of the compared points.
                 assert!(nearest.fold(f64::INFINITY, f64::min) > 0.45 * separation, "{sides:?} {phi}");
             }
             for x in -10..=10 {

@@ -1,4 +1,4 @@
-//! Laws of ridge lines: exactly known crests, symmetries, and fields that have none.
+//! Laws of ridge lines: exactly known crests, symmetries, and fields without ridges.
 
 use tigereye_core::{Cell, Field, Grid, Point, SplitMix64, math};
 use tigereye_lines::{ExtractionError, NearestSegment, RidgeLines, RidgeOptions, Threshold, ridge_lines};
@@ -26,7 +26,7 @@ fn worst(found: &RidgeLines, deviation: impl Fn(Point) -> f64) -> f64 {
     found.shape.points.iter().map(|p| deviation(*p).abs()).fold(0.0, f64::max)
 }
 
-/// What the interpolation of a crest two cells wide (standard deviation) may miss its place by, in cells.
+/// Position error of the interpolation for a crest two cells wide (standard deviation), in cells.
 const CREST: f64 = 0.01;
 
 /// The slope across a straight crest is zero on it by symmetry, whatever the profile.
@@ -88,7 +88,7 @@ impl SineCrest {
     fn value(&self, x: f64, y: f64) -> f64 {
         gauss(y - self.middle(x), self.width)
     }
-    /// Slope along the eigenvector of the smallest eigenvalue, which is turned to point to larger y.
+    /// Slope along the eigenvector of the smallest eigenvalue, oriented towards larger y.
     fn slope(&self, x: f64, y: f64) -> f64 {
         let (a, k, w) = (self.amplitude, self.wave, self.width);
         let d = y - self.middle(x);
@@ -147,7 +147,7 @@ fn a_saddle_has_the_crest_through_it() {
 }
 
 #[test]
-fn valleys_ramps_constants_and_noise_have_none() {
+fn valleys_ramps_constants_and_noise_have_no_ridges() {
     let mut numbers = SplitMix64::new(5);
     let mut noise = move || numbers.unit() - 0.5;
     let noisy = Field::from_fn(Grid::new(30, 30).expect("a size"), |_| 1.0 + 1e-15 * noise());
@@ -162,13 +162,13 @@ fn valleys_ramps_constants_and_noise_have_none() {
     for (i, f) in fields.iter().enumerate() {
         assert_eq!(ridges(f).length, [0.0; 0], "field {i}");
     }
-    // A peak of equal slopes all around has no crest but the peak.
+    // A rotationally symmetric peak has no crest except the peak itself.
     let peak = ridges(&field(41, 41, |x, y| gauss(math::hypot(x - 20.3, y - 19.6), 4.0)));
     assert!(peak.length.iter().all(|l| *l < 1.0), "{:?}", peak.length);
 }
 
 #[test]
-fn thin_and_empty_fields_have_none() {
+fn thin_and_empty_fields_have_no_ridges() {
     for (w, h) in [(1, 1), (1, 9), (9, 1), (2, 2), (3, 1)] {
         for bad in [0.0, f64::NAN, f64::INFINITY] {
             assert_eq!(ridges(&field(w, h, |_, _| bad)).length, [0.0; 0]);
@@ -231,7 +231,7 @@ fn missing_cells_keep_ridges_away_and_elsewhere_unchanged() {
     assert!(found.shape.points.iter().all(|p| p.x < 13.0 || p.x > 22.0));
     assert!(found.shape.points.iter().any(|p| p.x > 11.0 && p.x < 13.0));
     assert!(worst(&found, |p| p.y - 20.0 - 0.2 * (p.x - 20.0)) < CREST);
-    // A missing border is cut off and changes nothing.
+    // A missing border is cut off without effect.
     let inner = field(43, 43, |x, y| {
         let border = x == 0.0 || y == 0.0 || x == 42.0 || y == 42.0;
         if border { f64::NAN } else { gauss(y - 21.0 - 0.2 * (x - 21.0), 2.0) }

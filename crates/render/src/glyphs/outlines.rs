@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn signs_and_parts_are_told_apart() {
+    fn outlines_have_their_signs_and_parts() {
         let parts = |kind, t: Tensor2| {
             let mut all: Vec<_> =
                 outlines(kind, &[t]).iter().map(|o| (o.part as usize, o.sign, o.closed)).collect();

@@ -8,18 +8,23 @@
 //! components in that same frame.
 
 mod anisotropy;
+mod bilinear;
 mod cell_shape;
+mod conformal;
 mod decomposition;
 mod directions;
 mod error;
 mod factors;
 mod field;
+mod geometry;
 mod grid;
 mod limits;
 pub mod math;
 mod profile;
 mod reflection;
 mod results;
+mod runge_kutta;
+mod splitmix;
 mod statistics;
 mod symmetric3;
 mod symmetry;
@@ -27,16 +32,22 @@ mod tensor;
 mod transmission;
 
 pub use anisotropy::Anisotropy;
+pub use bilinear::bilinear;
 pub use cell_shape::CellShape;
+pub use conformal::Conformal;
 pub use decomposition::{AxisSign, Eigenvalues, Svd};
 pub use directions::Directions;
 pub use error::CoreError;
 pub use factors::{OrthogonalFactor, PrincipalAxes};
 pub use field::Field;
+pub use geometry::{Cells, Physical, PhysicalPoint, Point, Vector, length, quarter_turned};
 pub use grid::{Cell, Grid, NEIGHBOUR_OFFSETS};
+pub use nalgebra::Complex;
 pub use profile::PolarProfile;
 pub use reflection::{Reflection, Surface};
 pub use results::{LightDistribution, LtgVolume, StopReason, SweepWork, Work};
+pub use runge_kutta::runge_kutta_step;
+pub use splitmix::SplitMix64;
 pub use statistics::pearson;
 pub use symmetric3::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
 pub use symmetry::Symmetry;

@@ -50,7 +50,7 @@ fn fields_have_their_symmetries() {
     }
 }
 
-/// What a generator must say of its fields instead of what it says, if that is wrong.
+/// The correction of a generator's facts about its fields, if they are wrong.
 fn undeclared(name: &str, key: &str, declared: bool, odd: Option<(Cell, f64)>) -> Option<String> {
     let place = format!("in the `GENERATOR` of crates/fields/src/generators/{name}.rs");
     match odd {
@@ -83,7 +83,7 @@ fn declared_facts_hold() {
 }
 
 #[test]
-fn a_wrong_fact_is_told_with_the_right_one() {
+fn a_wrong_fact_is_reported_with_the_right_one() {
     let at = Some((Cell::new(3, 4), 1.5));
     assert_eq!(undeclared("made_up", "symmetric", true, None), None);
     assert_eq!(undeclared("made_up", "symmetric", false, at), None);
@@ -269,14 +269,15 @@ fn random_fields_are_deterministic() {
     assert_eq!(field("random:seed=7"), field("random:seed=7"));
     assert_ne!(field("random:seed=7"), field("random:seed=8"));
     let f = field("random:size=9,seed=1");
-    // At nine cells a side every cell is a control tensor: xx, yy, xy in the order drawn.
+    // At nine cells per side every cell is a control tensor: xx, yy, xy in the order drawn.
     let found = [at(&f, 0, 0), at(&f, 1, 0), at(&f, 8, 8)];
     for (t, [xx, yy, xy]) in found.iter().zip(RANDOM_SEED_1) {
         assert_eq!((t.xx(), t.yy(), t.xy()), (xx, yy, xy));
     }
 }
 
-/// From another implementation: xx, yy, xy of the first, second and last control tensor of seed 1, nine points a side.
+/// From another implementation: xx, yy, xy of the first, second and last control tensor of seed 1, nine points per
+/// side.
 const RANDOM_SEED_1: [[f64; 3]; 3] = [
     [0.1331231503445618, 0.49156351452540226, 0.9420055071735924],
     [-0.11128156588845584, -0.1114705983472839, 0.525788783823522],

@@ -3,7 +3,7 @@
 use crate::{at, field, major_deg};
 use tigereye_core::{Field, Tensor2};
 
-/// Turns of the major axis along the rim of the square of half side `reach` about the centre, counter-clockwise.
+/// Turns of the major axis along the boundary of the square of half side `reach` about the centre, counter-clockwise.
 fn index(f: &Field<Tensor2>, reach: usize) -> f64 {
     let c = f.grid().centre();
     let side = 2 * reach;

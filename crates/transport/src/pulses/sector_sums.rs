@@ -1,4 +1,4 @@
-//! The samples of a sector between two directions, two by two; [`super::difference`] says how they add up.
+//! The samples of a sector between two directions in symmetric pairs; [`super::difference`] has the derivation.
 
 use crate::Scheme;
 use crate::number::Number;
@@ -15,7 +15,7 @@ pub(crate) struct Pair<T> {
 #[derive(Clone, Debug)]
 pub(crate) struct SectorSums<T> {
     pub(crate) pairs: Vec<Pair<T>>,
-    /// Of `|p_k + p_{k+1}|`: the sample in the middle, where there is one.
+    /// Weight of `|p_k + p_{k+1}|`: the sample in the middle, if there is one.
     pub(crate) middle: T,
     /// `1/L`.
     pub(crate) scale: f64,

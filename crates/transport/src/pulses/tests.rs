@@ -1,4 +1,4 @@
-//! What pulses must not depend on, and what they must agree with.
+//! Laws of pulses: what they must not depend on, and what they must agree with.
 
 use super::*;
 use crate::{
@@ -280,7 +280,7 @@ fn by_sample(scheme: &Scheme, a: &[f64; 8], b: &[f64; 8]) -> f64 {
     (0..SAMPLES).map(|t| (scheme.intensity(a, t) - scheme.intensity(b, t)).abs()).sum()
 }
 
-/// The light that plain steps end with, far beyond the tolerance.
+/// The light after so many plain steps that it is far within the tolerance.
 fn brute_force(scheme: &Scheme, transmission: &TransmissionField, light: Light) -> Outcome {
     let rule = StoppingRule::Converged { tolerance: 1e-15 };
     eight_lobe(scheme, transmission, light, Stopping { rule, max_iterations: 20_000 })

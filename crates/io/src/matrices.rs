@@ -34,6 +34,21 @@ pub fn read(bytes: &[u8]) -> Result<Field<Tensor2>, IoError> {
 /// Cells across at most, and rows of cells for each of them at least, of what may be a table instead.
 const NARROW: usize = 4;
 const LONG: usize = 5;
+/// Lines of four numbers at least whose second and third agree in every one, as xy and yx of a table do.
+const ALIKE: usize = 4;
+
+/// Whether lines of four numbers are symmetric tensors each, while as blocks they are not.
+fn has_a_tensor_a_line(field: &Field<Tensor2>) -> bool {
+    let grid = field.grid();
+    let is_table = |c: [&Tensor2; 2]| {
+        let [left, right] = c.map(Tensor2::components);
+        left[1] == right[0] && left[3] == right[2]
+    };
+    grid.width() == 2
+        && 2 * grid.height() >= ALIKE
+        && field.values().as_chunks::<2>().0.iter().all(|[left, right]| is_table([left, right]))
+        && field.values().iter().any(|t| !t.is_symmetric_within(0.0))
+}
 
 /// Reads a tensor field as a lattice, with a warning where a table would look the same.
 ///
@@ -43,7 +58,7 @@ pub fn read_lattice(bytes: &[u8]) -> Result<Lattice, IoError> {
     let field = read(bytes)?;
     let mut lattice = Lattice::from_field(&field);
     let [width, height, _] = lattice.size;
-    if width <= NARROW && height >= LONG * width {
+    if width <= NARROW && height >= LONG * width || has_a_tensor_a_line(&field) {
         lattice.warnings.push(format!(
             "{width} x {height} cells of 2x2 blocks: a table with one tensor a line would look the same (it needs positions \
              and names of its columns, or an array in NumPy's format)"
@@ -200,7 +215,11 @@ mod tests {
     fn narrow_fields_are_said_to_look_like_tables() {
         let rows = |n: usize| "1 0.5 0.5 2\n".repeat(2 * n);
         let warnings = |n| read_lattice(rows(n).as_bytes()).unwrap().warnings.len();
-        assert_eq!((warnings(4), warnings(21)), (0, 1));
+        assert_eq!((warnings(1), warnings(21)), (0, 1));
+        // Four numbers a line with equal shears, which as blocks are not symmetric.
+        let lines = |n: usize| (0..2 * n).fold(String::new(), |text, i| text + &format!("{i} 0.5 0.5 2\n"));
+        let warned = |text: &str| !read_lattice(text.as_bytes()).unwrap().warnings.is_empty();
+        assert!(warned(&lines(2)) && !warned("1 0 2 0\n0 1 0 2\n3 0 4 0\n0 3 0 4\n"));
     }
 
     #[test]

@@ -70,6 +70,9 @@ pub(crate) type Found = (&'static str, Lattice);
 /// Text matrices: their tensors are normalised cell by cell where nobody says otherwise.
 pub const TEXT_MATRICES: &str = "text matrices";
 
+/// NumPy's formats, whose arrays say nothing of the axes of components.
+pub(crate) const NUMPY: [&str; 2] = ["NumPy array", "NumPy archive"];
+
 /// A table, one point a line.
 const TABLE: &str = "table";
 
@@ -98,7 +101,7 @@ pub const FORMATS: &[Format] = &[
         has_names: false,
         read_as: "tensors (H, W, 2, 2) and [other shapes](../../crates/io/src/npy/mod.rs); numbers and vectors (`--derive`)",
         written_for: "light (H, W, S); gradient (S, H, W); tensors (H, W, 2, 2)",
-        read: |r| Ok(("NumPy array", npy::read_lattice(r.bytes, r.wanted)?)),
+        read: |r| Ok((NUMPY[0], npy::read_lattice(r.bytes, r.wanted)?)),
         detached: None,
         tensors: Some(TensorWriter::Plane(|field| Ok(npy::write_tensors(field)))),
     },
@@ -107,7 +110,7 @@ pub const FORMATS: &[Format] = &[
         has_names: true,
         read_as: "the same, placed by the arrays x and y beside them",
         written_for: "",
-        read: |r| Ok(("NumPy archive", npy::read_archive(r.bytes, r.array, r.wanted)?)),
+        read: |r| Ok((NUMPY[1], npy::read_archive(r.bytes, r.array, r.wanted)?)),
         detached: None,
         tensors: None,
     },

@@ -44,5 +44,6 @@ pub use convert::{
 pub use error::IoError;
 pub use image::{ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData};
 pub use limits::Limits;
+pub(crate) use points::Y_UPWARDS;
 pub use polydata::{Cells, PolyData};
 pub use scalar::{ByteOrder, ScalarType};

@@ -89,6 +89,7 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
         component_names: Vec::new(),
         notes: vec!["brightness of a picture, 0 to 1, row 0 on top".to_owned()],
         remarks: Vec::new(),
+        order_remarks: Vec::new(),
         warnings: Vec::new(),
     })
 }

@@ -28,6 +28,8 @@ pub(super) struct Header {
     pub(super) components: usize,
     /// What the intent makes of the components.
     pub(super) content: Content,
+    /// The step along the fourth axis, where that is the components' and the header calls it time, in words.
+    pub(super) time_step: Option<String>,
     pub(super) kind: &'static str,
     /// Slope and intercept, where they do something.
     pub(super) scaling: Option<(f64, f64)>,
@@ -87,6 +89,7 @@ impl Header {
         let shape = shape(dim)?;
         let scalar = scalar(&fields)?;
         let (components, content, kind) = meaning(&fields, dim[0], shape)?;
+        let time_step = time_step(&fields).filter(|_| shape[3] > 1);
         let cells = shape[..3].iter().map(|&n| n as u128).product::<u128>();
         if cells > u128::from(limits.cells) {
             return Err(IoError::TooManyCells { byte: 40, cells, limit: limits.cells });
@@ -107,6 +110,7 @@ impl Header {
             size: [shape[0], shape[1], shape[2]],
             components,
             content,
+            time_step,
             kind,
             scaling: (scales && (slope, intercept) != (1.0, 0.0)).then_some((slope, intercept)),
             position: position(&fields)?,
@@ -216,9 +220,28 @@ fn meaning(fields: &Bytes, axes: i16, shape: [usize; 7]) -> Result<(usize, Conte
         _ if VECTORS.contains(&intent) => {
             Ok((components, Content::NiftiVector, "vectors (intent 1006 or 1007)"))
         }
+        _ if axes <= 4 && time_step(fields).is_some() => Ok((
+            components,
+            Content::NiftiNumbers,
+            "volumes along the fourth axis, which is time by the header",
+        )),
         _ if axes <= 4 => Ok((components, Content::NiftiNumbers, "components along the fourth axis")),
         _ => Ok((components, Content::NiftiNumbers, "components along the fifth axis")),
     }
+}
+
+/// The unit of time in `xyzt_units`, and the codes it may have (nifti1.h).
+const TIME_BITS: u8 = 0x38;
+const TIME_UNITS: [(u8, &str); 3] = [(8, "s"), (16, "ms"), (24, "us")];
+
+/// The step of time along the fourth axis. A step of 1 s is what programs leave there that write tensors (dipy, FSL,
+/// MRtrix3), and says nothing.
+fn time_step(fields: &Bytes) -> Option<String> {
+    let [units] = fields.get(123);
+    let (code, unit) = TIME_UNITS.into_iter().find(|(code, _)| *code == units & TIME_BITS)?;
+    let step = fields.float(92);
+    let is_stated = step > 0.0 && step.is_finite() && (code, step) != (8, 1.0);
+    is_stated.then(|| format!("{step} {unit}"))
 }
 
 /// What is left where there is neither.

@@ -79,8 +79,17 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<Lattice, IoError
         component_names: Vec::new(),
         notes,
         remarks: Vec::new(),
+        order_remarks: header.time_step.map(|step| series(header.components, &step)).into_iter().collect(),
         warnings: header.disagreement.map(apart).into_iter().collect(),
     })
+}
+
+/// Words for components along an axis of time.
+fn series(components: usize, step: &str) -> String {
+    format!(
+        "the header says that the fourth axis is time, in steps of {step}: its {components} volumes are taken as components, as \
+         in tensors fitted to such a series"
+    )
 }
 
 /// Words for a qform that lies elsewhere than the sform.

@@ -135,6 +135,7 @@ fn laid_out(array: NpyArray, layout: Layout, warnings: Vec<String>) -> Lattice {
         component_names: Vec::new(),
         notes: vec![note.to_owned()],
         remarks: Vec::new(),
+        order_remarks: Vec::new(),
         warnings,
     }
 }

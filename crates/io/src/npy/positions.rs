@@ -3,7 +3,7 @@
 use super::{NpyArray, read_array};
 use crate::points::PointLattice;
 use crate::volume::{Frame, Known, Lattice, World};
-use crate::{ImageData, IoError};
+use crate::{ImageData, IoError, Y_UPWARDS};
 
 /// What the axes of positions are called, in any case; the third is that of volumes.
 const AXES: [[&str; 3]; 5] = [
@@ -116,6 +116,9 @@ impl Positions {
         lattice.world = World::Viewer;
         lattice.notes.retain(|note| !note.starts_with("indexed"));
         lattice.notes.push(format!("cells at the positions {names}"));
+        if !self.is_volume && lattice.components > 1 {
+            lattice.remarks.push(Y_UPWARDS.to_owned());
+        }
         if self.is_volume {
             // Whoever has positions has components along the same axes, rather than along those of the array.
             lattice.frame = (Frame::World, Known::Assumed);

@@ -89,6 +89,7 @@ pub fn read_with_limits(
         component_names,
         notes,
         remarks: header.assumed_centring(&layout).into_iter().collect(),
+        order_remarks: Vec::new(),
         warnings: (layout.kind.is_none() && layout.masked)
             .then(|| "seven numbers taken as a mask and xx,xy,xz,yy,yz,zz".to_owned())
             .into_iter()

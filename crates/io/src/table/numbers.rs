@@ -44,6 +44,7 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
         component_names: Vec::new(),
         notes: vec!["one number a cell, first row on top".to_owned()],
         remarks: Vec::new(),
+        order_remarks: Vec::new(),
         warnings: Vec::new(),
     })
 }

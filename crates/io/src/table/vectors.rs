@@ -300,6 +300,7 @@ fn lattice(rows: &[Row], mut notes: Vec<String>) -> Result<Lattice, IoError> {
         component_names: Vec::new(),
         notes,
         remarks: Vec::new(),
+        order_remarks: Vec::new(),
         warnings: Vec::new(),
     })
 }

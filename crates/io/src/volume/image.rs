@@ -123,6 +123,7 @@ pub fn lattice_from_image<'a>(
         component_names: array.component_names,
         notes,
         remarks,
+        order_remarks: Vec::new(),
         warnings: Vec::new(),
     })
 }

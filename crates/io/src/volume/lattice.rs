@@ -42,6 +42,8 @@ pub struct Lattice {
     pub notes: Vec<String>,
     /// What was assumed or left out that changes the result and that no option says, a sentence each.
     pub remarks: Vec<String>,
+    /// The same, but only worth saying where the user does not state the component order.
+    pub order_remarks: Vec<String>,
     /// What looks wrong in the file, a sentence each.
     pub warnings: Vec<String>,
 }

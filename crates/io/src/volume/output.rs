@@ -37,6 +37,7 @@ impl Lattice {
             component_names: Vec::new(),
             notes: vec!["first row on top, in the frame x right, y up".to_owned()],
             remarks: Vec::new(),
+            order_remarks: Vec::new(),
             warnings: Vec::new(),
         }
     }

@@ -61,6 +61,9 @@ impl Lattice {
         if frame.0 == Frame::Measurement && self.measurement.is_none() {
             return Err(IoError::NoMeasurementFrame);
         }
+        if reading.order.is_none() {
+            self.remarks.append(&mut self.order_remarks);
+        }
         if reading.shear == Some(Shear::Engineering) {
             self.halve_shears(order.0)?;
         }

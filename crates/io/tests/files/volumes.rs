@@ -349,6 +349,7 @@ fn volume() -> TensorVolume {
         component_names: Vec::new(),
         notes: Vec::new(),
         remarks: Vec::new(),
+        order_remarks: Vec::new(),
         warnings: Vec::new(),
     };
     lattice.tensors(Reading::default()).unwrap()
@@ -437,6 +438,7 @@ fn scalars(size: [usize; 3], axes: [[f64; 3]; 3], origin: [f64; 3], world: &str)
         component_names: Vec::new(),
         notes: Vec::new(),
         remarks: Vec::new(),
+        order_remarks: Vec::new(),
         warnings: Vec::new(),
     }
 }

@@ -128,8 +128,18 @@ fn hint(source: &IoError) -> &'static str {
         IoError::AmbiguousArray { candidates } if candidates.iter().any(|c| c.contains(", ")) => {
             " (option --array, or --components for those of several arrays)"
         }
-        IoError::AmbiguousArray { .. } => " (option --array)",
+        IoError::AmbiguousArray { .. } | IoError::TableTimes { .. } => " (option --array)",
         IoError::NoTensor { .. } => " (option --order)",
+        // Components whose names are not understood.
+        IoError::NoArray { wanted, available }
+            if wanted.starts_with("array of tensors")
+                && available.iter().filter(|a| a.ends_with("(1 component)")).count() >= 3 =>
+        {
+            " (option --components XX=NAME,YY=NAME,XY=NAME for arrays of one component each)"
+        }
+        IoError::OddColumns { .. } => {
+            " (a table, one point a line, needs a line of names such as x,y,S11,S22,S12 above the numbers)"
+        }
         IoError::TooManyCells { .. } | IoError::TooManyValues { .. } => " (option --limit)",
         IoError::NpyShape { .. } => " (option --derive for vectors and numbers)",
         _ => "",

@@ -119,6 +119,39 @@ pub enum IoError {
         height: usize,
     },
 
+    /// A word that is none of those that say whether a point is valid.
+    #[error("line {line}, column {column}: expected a number, true or false, found `{found}`")]
+    NotValidity {
+        /// Line, from 1.
+        line: usize,
+        /// Column of the word, from 1.
+        column: usize,
+        /// The word, shortened.
+        found: String,
+    },
+    /// Columns of several times or parameters.
+    #[error(
+        "line {line}: the columns are those of several times or parameters ({found}): expected the name of one, such as `{first}`"
+    )]
+    TableTimes {
+        /// The line that names the columns.
+        line: usize,
+        /// The times, or the first of many.
+        found: String,
+        /// One of them.
+        first: String,
+    },
+    /// A zone of a Tecplot file that is not one point a line.
+    #[error("line {line}: {found}: expected {expected}")]
+    TecplotZone {
+        /// The line that says so.
+        line: usize,
+        /// What the zone is.
+        found: &'static str,
+        /// What it should be, and how to get it.
+        expected: &'static str,
+    },
+
     // ---- sizes
     /// A header that declares more cells than the limit.
     #[error("byte {byte}: {cells} cells are declared, the limit is {limit}")]

@@ -70,6 +70,7 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
             _ => p[0],
         }));
     }
+    let warnings = orientation(reader.info()).map(unapplied).into_iter().collect();
     if values.len() as u128 != cells {
         return Err(IoError::Png { problem: "the rows do not fill the picture".to_owned() });
     }
@@ -90,6 +91,62 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
         notes: vec!["brightness of a picture, 0 to 1, row 0 on top".to_owned()],
         remarks: Vec::new(),
         order_remarks: Vec::new(),
-        warnings: Vec::new(),
+        warnings,
     })
+}
+
+/// Words for an orientation that is not applied: masks and other pictures of the same pixels would no longer fit.
+fn unapplied(orientation: u16) -> String {
+    format!(
+        "the picture's EXIF data turn or mirror it (orientation {orientation}), which is not applied: rows and columns as stored"
+    )
+}
+
+/// The orientation in the EXIF data of a picture, where it is another than that of the rows and columns as stored.
+fn orientation(info: &png::Info) -> Option<u16> {
+    exif_orientation(info.exif_metadata.as_ref()?).filter(|orientation| (2..=8).contains(orientation))
+}
+
+/// The tag `Orientation` of the first directory of EXIF data (TIFF 6.0, section 2; EXIF 2.3, section 4.6.4).
+fn exif_orientation(exif: &[u8]) -> Option<u16> {
+    const TAG: u16 = 0x0112;
+    const ENTRY: usize = 12;
+    let is_big = match exif.get(..4)? {
+        [b'M', b'M', 0, 42] => true,
+        [b'I', b'I', 42, 0] => false,
+        _ => return None,
+    };
+    let short = |at: usize| {
+        let b = [*exif.get(at)?, *exif.get(at + 1)?];
+        Some(if is_big { u16::from_be_bytes(b) } else { u16::from_le_bytes(b) })
+    };
+    let halves = [short(4)?, short(6)?].map(usize::from);
+    let directory = if is_big { halves[0] << 16 | halves[1] } else { halves[1] << 16 | halves[0] };
+    let entries = (0..usize::from(short(directory)?)).map(|i| directory + 2 + ENTRY * i);
+    // A short stands at the beginning of the entry's value.
+    entries
+        .map_while(|at| Some((at, short(at)?)))
+        .find(|(_, tag)| *tag == TAG)
+        .and_then(|(at, _)| short(at + 8))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orientations_are_found_in_both_byte_orders() {
+        let little = [
+            &b"II\x2a\x00\x08\x00\x00\x00\x02\x00"[..],
+            &[0x00, 0x01, 3, 0, 1, 0, 0, 0, 9, 0, 0, 0],
+            &[0x12, 0x01, 3, 0, 1, 0, 0, 0, 6, 0, 0, 0],
+        ];
+        let big = [&b"MM\x00\x2a\x00\x00\x00\x08\x00\x01"[..], &[0x01, 0x12, 0, 3, 0, 0, 0, 1, 0, 8, 0, 0]];
+        assert_eq!(exif_orientation(&little.concat()), Some(6));
+        assert_eq!(exif_orientation(&big.concat()), Some(8));
+        for end in 0..34 {
+            let _ = exif_orientation(&little.concat()[..end]);
+        }
+        assert_eq!(exif_orientation(b"II\x2a\x00\xff\xff\xff\xff"), None);
+    }
 }

@@ -179,3 +179,24 @@ fn pictures_become_brightness() {
     lie[16..20].copy_from_slice(&0x7fff_ffff_u32.to_be_bytes());
     assert!(picture::read_png(&lie).is_err());
 }
+
+/// Pixels are taken as stored, so that masks of the same pixels fit; EXIF data that would turn them are said.
+#[test]
+fn orientations_of_pictures_are_said() {
+    let warnings = |orientation: u8| {
+        let mut info = png::Info::with_size(2, 1);
+        let exif = [
+            b"MM\x00\x2a\x00\x00\x00\x08\x00\x01\x01\x12\x00\x03\x00\x00\x00\x01\x00",
+            &[orientation, 0, 0][..],
+        ];
+        info.exif_metadata = Some(exif.concat().into());
+        let mut bytes = Vec::new();
+        let encoder = png::Encoder::with_info(&mut bytes, info).unwrap();
+        encoder.write_header().unwrap().write_image_data(&[0, 255]).unwrap();
+        let lattice = picture::read_png(&bytes).unwrap();
+        assert_eq!(lattice.values, [0.0, 1.0]);
+        lattice.warnings
+    };
+    assert!(warnings(1).is_empty() && warnings(0).is_empty());
+    assert!(warnings(6)[0].contains("orientation 6"), "{:?}", warnings(6));
+}

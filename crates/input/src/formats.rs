@@ -2,12 +2,13 @@
 
 use crate::error::InputError;
 use tigereye_core::{Field, Tensor2};
+use tigereye_io::table::TableError;
 use tigereye_io::volume::{
     Frame, Lattice, TensorVolume, lattice_from_image, lattice_from_points, points_from_image,
 };
 use tigereye_io::{
-    ArrayChoice, ImageData, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, picture, table, vti,
-    vtp,
+    ArrayChoice, ChoiceError, ImageData, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd,
+    picture, table, vti, vtp,
 };
 
 /// A file format, known by the extensions of its files.
@@ -351,10 +352,12 @@ fn read_table(request: &Request<'_>) -> Result<Lattice, InputError> {
     }
     match table::read_columns(bytes, request.array, wanted) {
         // Vectors are read without names, too; of tensors nobody knows which columns they are.
-        Err(IoError::TableHeader { .. }) if table::kind(bytes) != table::Kind::Named => {
+        Err(IoError::Table(TableError::Header { .. })) if table::kind(bytes) != table::Kind::Named => {
             Err(InputError::UnnamedTable)
         }
-        Err(IoError::NoArray { .. }) if table::read_vectors(bytes).is_ok() => Err(InputError::VectorTable),
+        Err(IoError::Choice(ChoiceError::NoArray { .. })) if table::read_vectors(bytes).is_ok() => {
+            Err(InputError::VectorTable)
+        }
         other => Ok(other?),
     }
 }

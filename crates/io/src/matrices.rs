@@ -12,9 +12,11 @@
 //! Blanks at both ends of a row, blank lines at the end, CR LF and a UTF-8 byte order mark are accepted; `nan` and
 //! `inf` are not.
 
+mod error;
 use crate::IoError;
-use crate::error::shortened;
+use crate::text::{TextError, shortened};
 use crate::volume::Lattice;
+pub use error::MatricesError;
 use std::fmt::Write as _;
 use tigereye_core::{Cell, CoreError, Field, Grid, Tensor2};
 
@@ -109,14 +111,14 @@ impl Rows {
         let mut last_column = 0;
         for (column, word) in words(text) {
             if let Some(blank) = self.first_blank {
-                return Err(IoError::BlankLine { line: blank });
+                return Err(MatricesError::BlankLine { line: blank }.into());
             }
             self.numbers.push(number(line, column, word)?);
             let found = self.numbers.len() - before;
             if self.rows > 0 && found == self.columns + 1 {
                 // Counting on would parse a hostile line for nothing.
                 let found = words(text).count();
-                return Err(IoError::RaggedRow { line, column, found, expected: self.columns });
+                return Err(TextError::RaggedRow { line, column, found, expected: self.columns }.into());
             }
             last_column = column;
         }
@@ -126,11 +128,11 @@ impl Rows {
             return Ok(());
         }
         if self.rows == 0 && !found.is_multiple_of(2) {
-            return Err(IoError::OddColumns { column: last_column, columns: found });
+            return Err(MatricesError::OddColumns { column: last_column, columns: found }.into());
         }
         if self.rows > 0 && found < self.columns {
             let column = text.trim_ascii_end().len() + 1;
-            return Err(IoError::RaggedRow { line, column, found, expected: self.columns });
+            return Err(TextError::RaggedRow { line, column, found, expected: self.columns }.into());
         }
         (self.columns, self.last_line) = (found, line);
         self.rows += 1;
@@ -139,10 +141,10 @@ impl Rows {
 
     fn field(self) -> Result<Field<Tensor2>, IoError> {
         if self.rows == 0 {
-            return Err(IoError::EmptyText);
+            return Err(TextError::Empty.into());
         }
         if !self.rows.is_multiple_of(2) {
-            return Err(IoError::OddRows { line: self.last_line, rows: self.rows });
+            return Err(MatricesError::OddRows { line: self.last_line, rows: self.rows }.into());
         }
         let grid = Grid::new(self.columns / 2, self.rows / 2)?;
         let (n, w) = (&self.numbers, self.columns);
@@ -167,8 +169,8 @@ fn words(line: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
 fn number(line: usize, column: usize, word: &[u8]) -> Result<f64, IoError> {
     match std::str::from_utf8(word).ok().and_then(|w| w.parse::<f64>().ok()) {
         Some(value) if value.is_finite() => Ok(value),
-        Some(_) => Err(IoError::NotFinite { line, column, found: shortened(word) }),
-        None => Err(IoError::NotANumber { line, column, found: shortened(word) }),
+        Some(_) => Err(TextError::NotFinite { line, column, found: shortened(word) }.into()),
+        None => Err(TextError::NotANumber { line, column, found: shortened(word) }.into()),
     }
 }
 

@@ -1,7 +1,10 @@
 //! Photographs and other pictures as images of one number a pixel.
 
+mod error;
+use crate::limits::LimitError;
 use crate::volume::{Frame, Known, Lattice, World};
 use crate::{IoError, Limits, ScalarType};
+pub use error::PictureError;
 use std::io::Cursor;
 
 /// Weights of red, green and blue (ITU-R BT.709), applied to the stored values.
@@ -10,13 +13,13 @@ const LUMA: [f64; 3] = [0.2126, 0.7152, 0.0722];
 /// Columns and rows of a PNG picture, by its header alone.
 ///
 /// # Errors
-/// [`IoError::Png`].
+/// [`PictureError::Png`].
 pub fn size_of_png(bytes: &[u8]) -> Result<[usize; 2], IoError> {
     let reader = reader(bytes)?;
     Ok([reader.info().width as usize, reader.info().height as usize])
 }
 
-fn reader(bytes: &[u8]) -> Result<png::Reader<Cursor<&[u8]>>, IoError> {
+fn reader(bytes: &[u8]) -> Result<png::Reader<Cursor<&[u8]>>, PictureError> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     // Palettes and bits become bytes, a colour that stands for nothing an alpha channel.
     decoder.set_transformations(png::Transformations::EXPAND);
@@ -24,8 +27,8 @@ fn reader(bytes: &[u8]) -> Result<png::Reader<Cursor<&[u8]>>, IoError> {
 }
 
 #[allow(clippy::needless_pass_by_value, reason = "for map_err")]
-fn fault(e: png::DecodingError) -> IoError {
-    IoError::Png { problem: e.to_string() }
+fn fault(e: png::DecodingError) -> PictureError {
+    PictureError::Png { problem: e.to_string() }
 }
 
 fn luma(r: f64, g: f64, b: f64) -> f64 {
@@ -40,16 +43,16 @@ fn over_white(brightness: f64, alpha: f64) -> f64 {
 /// behind it.
 ///
 /// # Errors
-/// [`IoError::Png`], [`IoError::TooManyCells`].
+/// [`PictureError::Png`], [`LimitError::Cells`].
 pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
     let mut reader = reader(bytes)?;
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);
     let (cells, limit) = (width as u128 * height as u128, Limits::default().cells);
     if cells > u128::from(limit) {
-        return Err(IoError::TooManyCells { byte: 16, cells, limit });
+        return Err(LimitError::Cells { byte: 16, cells, limit }.into());
     }
     if reader.info().interlaced {
-        return Err(IoError::Png { problem: "it is interlaced, expected plain rows".to_owned() });
+        return Err(PictureError::Png { problem: "it is interlaced, expected plain rows".to_owned() }.into());
     }
     let (mut values, mut format) = (Vec::new(), ScalarType::UInt8);
     let (colour, depth) = reader.output_color_type();
@@ -72,7 +75,7 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
     }
     let warnings = orientation(reader.info()).map(unapplied).into_iter().collect();
     if values.len() as u128 != cells {
-        return Err(IoError::Png { problem: "the rows do not fill the picture".to_owned() });
+        return Err(PictureError::Png { problem: "the rows do not fill the picture".to_owned() }.into());
     }
     Ok(Lattice {
         size: [width, height, 1],

@@ -1,9 +1,10 @@
 //! Where the cells of an archive lie: arrays of positions beside the data.
 
+use super::error::NpyError;
 use super::{NpyArray, read_array};
 use crate::points::PointLattice;
 use crate::volume::{Frame, Known, Lattice, World};
-use crate::{ImageData, IoError, Y_UPWARDS};
+use crate::{ImageData, Y_UPWARDS};
 
 /// What the axes of positions are called, in any case; the third is that of volumes.
 const AXES: [[&str; 3]; 5] = [
@@ -103,10 +104,10 @@ impl Positions {
     /// The lattice where the positions put it.
     ///
     /// # Errors
-    /// [`IoError::NpzPositions`] for positions without equal steps.
-    pub(super) fn place(&self, mut lattice: Lattice) -> Result<Lattice, IoError> {
+    /// [`NpyError::Positions`] for positions without equal steps.
+    pub(super) fn place(&self, mut lattice: Lattice) -> Result<Lattice, NpyError> {
         let names = self.names.join(", ");
-        let fault = |position| IoError::NpzPositions { names: names.clone(), position };
+        let fault = |position| NpyError::Positions { names: names.clone(), position };
         let found = PointLattice::of(&self.points, lattice.size).map_err(fault)?;
         let mut image = ImageData::empty(lattice.size);
         found.place(&mut image);

@@ -9,10 +9,12 @@
 //! Format: <http://teem.sourceforge.net/nrrd/format.html>.
 
 mod data;
+mod error;
 mod header;
 mod layout;
 mod write;
 
+pub use error::NrrdError;
 pub use write::write;
 
 use crate::volume::{Content, Frame, Known, Lattice, World};
@@ -54,7 +56,7 @@ pub fn read_with_limits(
         (Some(_), Some(data)) => data::read(&header, data, 0)?,
         (Some(name), None) => {
             let expected = "the bytes of that file";
-            return Err(header.fault("data file", name, expected));
+            return Err(header.fault("data file", name, expected).into());
         }
     };
     let (values, mask) = layout.tuples(values);

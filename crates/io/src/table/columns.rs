@@ -1,9 +1,10 @@
 //! Tables with a name for every column.
 
+use super::error::TableError;
 use super::text::{Text, parsed};
 use super::times;
 use super::validity::{Validity, parsed_validity};
-use crate::error::shortened;
+use crate::text::{TextError, shortened};
 use crate::volume::{Lattice, lattice_from_points};
 use crate::{ArrayChoice, DataArray, IoError, PolyData, Wanted, Y_UPWARDS};
 
@@ -108,13 +109,15 @@ impl Header {
             return Ok(found);
         }
         match first {
-            Some((line, names)) => Err(IoError::TableHeader { line, found: shortened(names.as_bytes()) }),
+            Some((line, names)) => {
+                Err(TableError::Header { line, found: shortened(names.as_bytes()) }.into())
+            }
             None if wanted == Wanted::Scalars && text.columns() == 3 => {
                 Ok(Self::named(0, &["x", "y", "value"].map(str::to_owned)))
             }
             None => {
                 let found = format!("{} columns without names", text.columns());
-                Err(IoError::TableHeader { line: text.first(), found })
+                Err(TableError::Header { line: text.first(), found }.into())
             }
         }
     }
@@ -140,7 +143,7 @@ impl Header {
     /// choice every column has its time in its name. Returns the columns that are left aside.
     ///
     /// # Errors
-    /// [`IoError::TableTimes`].
+    /// [`TableError::Times`].
     fn choose_time(&mut self, choice: ArrayChoice) -> Result<(Option<String>, Vec<usize>), IoError> {
         let full = |c: &Column| {
             c.time.as_ref().map_or_else(|| c.name.clone(), |time| format!("{}{}{time}", c.name, times::MARK))
@@ -190,7 +193,7 @@ impl Header {
 /// and y).
 ///
 /// # Errors
-/// [`IoError::TableHeader`] without names of all columns or without positions; names line and column of a word that
+/// [`TableError::Header`] without names of all columns or without positions; names line and column of a word that
 /// does not fit; and as [`lattice_from_points`].
 pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice, IoError> {
     let text = Text::of(bytes)?;
@@ -328,13 +331,15 @@ fn row(
         let is_validity = validity.iter().any(|(at, _)| *at == numbers.len());
         let value = if is_validity { parsed_validity(word) } else { parsed(word) };
         if is_validity && value.is_none() {
-            return Err(IoError::NotValidity { line, column, found: shortened(word) });
+            return Err(TableError::NotValidity { line, column, found: shortened(word) }.into());
         }
         if needed.contains(&Some(numbers.len())) {
             let found = || shortened(word);
             match value {
-                None => return Err(IoError::NotANumber { line, column, found: found() }),
-                Some(v) if !v.is_finite() => return Err(IoError::NotFinite { line, column, found: found() }),
+                None => return Err(TextError::NotANumber { line, column, found: found() }.into()),
+                Some(v) if !v.is_finite() => {
+                    return Err(TextError::NotFinite { line, column, found: found() }.into());
+                }
                 Some(_) => {}
             }
         }
@@ -346,7 +351,7 @@ fn row(
     let found = text.separator.words(bytes).count();
     if found != expected {
         let column = bytes.trim_ascii_end().len() + 1;
-        return Err(IoError::TableRow { line, column, found, expected });
+        return Err(TableError::Row { line, column, found, expected }.into());
     }
     Ok(numbers)
 }

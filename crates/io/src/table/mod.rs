@@ -35,6 +35,7 @@
 //! 2x2 blocks ([`crate::matrices`]) are rows of numbers, too. [`kind`] tells them apart.
 
 mod columns;
+mod error;
 mod numbers;
 mod steps;
 mod text;
@@ -43,6 +44,7 @@ mod validity;
 mod vectors;
 
 pub use columns::read as read_columns;
+pub use error::TableError;
 pub use numbers::read as read_numbers;
 pub use vectors::read as read_vectors;
 

@@ -1,7 +1,9 @@
 //! Lines of numbers, and the lines above them.
 
+use super::error::TableError;
 use super::times::MARK;
 use crate::IoError;
+use crate::text::TextError;
 
 /// What separates the numbers of a line.
 #[derive(Clone, Copy)]
@@ -58,7 +60,7 @@ const LABELLED: usize = 3;
 
 impl<'a> Text<'a> {
     /// # Errors
-    /// [`IoError::EmptyText`] where no line holds numbers.
+    /// [`TextError::Empty`] where no line holds numbers.
     pub(super) fn of(bytes: &'a [u8]) -> Result<Self, IoError> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_end();
         let mut above = Vec::new();
@@ -76,7 +78,7 @@ impl<'a> Text<'a> {
             }
             above.push(String::from_utf8_lossy(line).into_owned());
         }
-        Err(IoError::EmptyText)
+        Err(TextError::Empty.into())
     }
 
     /// Number of the first line of numbers, from 1.
@@ -135,12 +137,12 @@ impl<'a> Text<'a> {
     /// Refuses zones of Tecplot files that are no table, one point a line.
     ///
     /// # Errors
-    /// [`IoError::TecplotZone`].
+    /// [`TableError::Zone`].
     pub(super) fn check_zones(&self) -> Result<(), IoError> {
         if !self.is_of_tecplot() {
             return Ok(());
         }
-        let fault = |line, found, expected| Err(IoError::TecplotZone { line, found, expected });
+        let fault = |line, found, expected| Err(TableError::Zone { line, found, expected }.into());
         for (i, line) in self.above.iter().enumerate() {
             if words_outside_quotes(line).any(|word| matches!(word.as_str(), "BLOCK" | "FEBLOCK")) {
                 let expected = "DATAPACKING=POINT, one point a line, as Tecplot writes it on demand";

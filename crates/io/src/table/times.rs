@@ -1,6 +1,7 @@
 //! Columns of several times or parameters, as COMSOL exports them: `solid.sx (N/m^2) @ t=0`.
 
-use crate::{ArrayChoice, IoError};
+use super::error::TableError;
+use crate::ArrayChoice;
 
 /// What separates a name from its time.
 pub(super) const MARK: &str = " @ ";
@@ -32,12 +33,12 @@ pub(super) fn is_named(time: &str, choice: ArrayChoice) -> bool {
 /// columns with theirs.
 ///
 /// # Errors
-/// [`IoError::TableTimes`] where there are several and the user names nothing.
+/// [`TableError::Times`] where there are several and the user names nothing.
 pub(super) fn chosen<'a>(
     line: usize,
     names: &'a [String],
     choice: ArrayChoice,
-) -> Result<Option<&'a str>, IoError> {
+) -> Result<Option<&'a str>, TableError> {
     let all = times(names);
     match (choice, &all[..]) {
         (_, []) => Ok(None),
@@ -47,7 +48,7 @@ pub(super) fn chosen<'a>(
         (ArrayChoice::Usual, [first, ..]) => {
             let listed = all[..all.len().min(MOST_LISTED)].join("; ");
             let more = if all.len() > MOST_LISTED { "; and more" } else { "" };
-            Err(IoError::TableTimes { line, found: format!("{listed}{more}"), first: (*first).to_owned() })
+            Err(TableError::Times { line, found: format!("{listed}{more}"), first: (*first).to_owned() })
         }
     }
 }

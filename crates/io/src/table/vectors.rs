@@ -1,10 +1,11 @@
 //! Tables of vectors.
 
+use super::error::TableError;
 use super::steps::Steps;
 use super::text::{Text, parsed};
 use super::times;
 use super::validity::{Validity, parsed_validity};
-use crate::error::shortened;
+use crate::text::{TextError, shortened};
 use crate::volume::{Frame, Known, Lattice, World};
 use crate::{ArrayChoice, IoError, ScalarType};
 
@@ -140,7 +141,7 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
         (Some(columns), _) => columns,
         (None, Some((line, names))) => {
             times::chosen(line, &names, ArrayChoice::Usual)?;
-            return Err(IoError::TableHeader { line, found: shortened(names.join(", ").as_bytes()) });
+            return Err(TableError::Header { line, found: shortened(names.join(", ").as_bytes()) }.into());
         }
         (None, None) => Columns::by_place(text.columns()),
     };
@@ -169,10 +170,11 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     };
     let rows: Vec<Row> = text.lines.iter().zip(&read).map(row).collect();
     if columns.named.is_none() && columns.roles.len() >= 5 && is_flat(&rows) {
-        return Err(IoError::TableHeader {
+        return Err(TableError::Header {
             line: text.first(),
             found: format!("{} columns, the third of one value", text.columns()),
-        });
+        }
+        .into());
     }
     if !columns.unread.is_empty() {
         said.push(format!(
@@ -226,13 +228,13 @@ fn numbers(text: &Text, columns: &Columns, line: &[u8], number: usize) -> Result
             (None, Some(_)) => {
                 let (line, found) = (number, shortened(word));
                 return Err(if is_validity {
-                    IoError::NotValidity { line, column, found }
+                    TableError::NotValidity { line, column, found }.into()
                 } else {
-                    IoError::NotANumber { line, column, found }
+                    TextError::NotANumber { line, column, found }.into()
                 });
             }
             (Some(v), Some(Role::X | Role::Y)) if !v.is_finite() => {
-                return Err(IoError::NotFinite { line: number, column, found: shortened(word) });
+                return Err(TextError::NotFinite { line: number, column, found: shortened(word) }.into());
             }
             (value, _) => value.unwrap_or(f64::NAN),
         };
@@ -244,7 +246,7 @@ fn numbers(text: &Text, columns: &Columns, line: &[u8], number: usize) -> Result
     if count != expected || count < needed {
         let expected = expected.max(needed);
         let column = line.trim_ascii_end().len() + 1;
-        return Err(IoError::TableRow { line: number, column, found: count, expected });
+        return Err(TableError::Row { line: number, column, found: count, expected }.into());
     }
     Ok(found)
 }
@@ -274,7 +276,7 @@ fn lattice(rows: &[Row], mut notes: Vec<String>) -> Result<Lattice, IoError> {
     let index = |axis: usize, i: usize| {
         let value = rows[i].position[axis];
         let (line, axis_name, step) = (rows[i].line, ['x', 'y'][axis], axes[axis].step);
-        axes[axis].index(value).ok_or(IoError::Position { line, axis: axis_name, value, step })
+        axes[axis].index(value).ok_or(TableError::Position { line, axis: axis_name, value, step })
     };
     let sparse = nodes > rows.len().saturating_mul(SPARSE);
     let mut line_of = vec![0; if sparse { 0 } else { nodes }];
@@ -287,14 +289,14 @@ fn lattice(rows: &[Row], mut notes: Vec<String>) -> Result<Lattice, IoError> {
         }
         let node = y * width + x;
         if line_of[node] > 0 {
-            return Err(IoError::SamePosition { line: row.line, before: line_of[node] });
+            return Err(TableError::SamePosition { line: row.line, before: line_of[node] }.into());
         }
         line_of[node] = row.line;
         values[2 * node..2 * node + 2].copy_from_slice(&row.vector);
         mask[node] = if row.masked { 0.0 } else { 1.0 };
     }
     if sparse {
-        return Err(IoError::SparsePositions { vectors: rows.len(), width, height });
+        return Err(TableError::SparsePositions { vectors: rows.len(), width, height }.into());
     }
     let missing = nodes - rows.len();
     if missing > 0 {

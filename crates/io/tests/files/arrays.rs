@@ -2,7 +2,8 @@
 
 use std::io::Write as _;
 use tigereye_core::Tensor2;
-use tigereye_io::volume::{Axis, Frame, Known, Lattice, PlaneChoice, Reading, TensorOrder};
+use tigereye_io::picture::PictureError;
+use tigereye_io::volume::{Axis, Frame, Known, Lattice, PlaneChoice, Reading, TensorOrder, VolumeError};
 use tigereye_io::{IoError, Wanted, npy, picture};
 use zip::write::SimpleFileOptions;
 
@@ -91,7 +92,10 @@ fn numbers_and_vectors_are_read_where_they_are_wanted() {
         assert!(message.contains("components first") && message.contains("moveaxis"), "{message}");
     }
     let no_scalar = lattice(&[2, 2, 2], Wanted::Vectors).unwrap();
-    assert!(matches!(no_scalar.scalars(PlaneChoice::default()), Err(IoError::TupleSize { .. })));
+    assert!(matches!(
+        no_scalar.scalars(PlaneChoice::default()),
+        Err(IoError::Volume(VolumeError::TupleSize { .. }))
+    ));
 }
 
 fn archive(files: &[(&str, Vec<u8>)], stored: bool) -> Vec<u8> {
@@ -172,7 +176,10 @@ fn pictures_become_brightness() {
     assert_eq!(picture::size_of_png(&clear).unwrap(), [3, 1]);
     assert!(picture::size_of_png(&clear[..20]).is_err());
     for end in 0..grey.len() - 12 {
-        assert!(matches!(picture::read_png(&grey[..end]), Err(IoError::Png { .. })), "cut at {end}");
+        assert!(
+            matches!(picture::read_png(&grey[..end]), Err(IoError::Picture(PictureError::Png { .. }))),
+            "cut at {end}"
+        );
     }
     // A header that declares more than there is.
     let mut lie = grey.clone();

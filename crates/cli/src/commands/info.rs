@@ -4,15 +4,14 @@ use crate::args::reading::InfoArgs;
 use crate::commands::{lattice, print_json, print_text};
 use crate::error::CliError;
 use crate::input::{Input, Source};
-use crate::interrupt;
-use crate::{files, geometry};
+use crate::{files, geometry, interrupt};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
 use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Symmetry, Tensor2, is_totally_anisotropic};
 use tigereye_input::{Content, Reading, TensorFile, suggested_local_above};
 use tigereye_io::volume::lattice_from_image;
-use tigereye_io::{DataArray, IoError, PROVENANCE, Rows, Wanted, vti};
+use tigereye_io::{ChoiceError, DataArray, IoError, PROVENANCE, Rows, Wanted, vti};
 use tigereye_lines::is_complex;
 
 /// Relative difference of the semi-axes below which a tensor counts as degenerate: files hold single precision.
@@ -71,7 +70,10 @@ fn facts_of_result(args: &InfoArgs) -> Result<Option<Value>, CliError> {
         return Ok(None);
     }
     let image = vti::read(&files::read(path)?).map_err(|e| CliError::input(&args.input, e))?;
-    if !matches!(lattice_from_image(&image, None, Wanted::Tensors), Err(IoError::NoArray { .. })) {
+    if !matches!(
+        lattice_from_image(&image, None, Wanted::Tensors),
+        Err(IoError::Choice(ChoiceError::NoArray { .. }))
+    ) {
         return Ok(None);
     }
     let arrays: Vec<Value> = image.point_arrays.iter().map(array_facts).collect();

@@ -112,6 +112,8 @@ struct Sweep<'a, T, const N: usize> {
 struct Worker<T, const N: usize> {
     edges: Vec<Lanes<T, N>>,
     workspace: Workspace<T, N>,
+    /// Where the next responses go.
+    spare: Vec<Responses<T>>,
 }
 
 /// Responses of the columns of a strip in an even and an odd row.
@@ -257,20 +259,23 @@ impl<T: Real, const N: usize> Sweep<'_, T, N> {
                 return;
             }
             self.observer.busy(Some(Phase::Propagation));
-            let responses = self.solve(y, batch);
+            let mut worker = self.take_worker();
+            self.solve(&mut worker, y, batch);
             self.observer.busy(Some(Phase::Difference));
-            for (&x, responses) in batch.iter().zip(responses) {
-                if is_target(x, y) {
-                    here[x - columns.start].lock().unwrap_or_else(PoisonError::into_inner).turned =
-                        self.turned(Cell::new(x, y), &responses);
-                }
+            for (&x, responses) in batch.iter().zip(&mut worker.spare) {
+                let cell = Cell::new(x, y);
                 let mut place = ring.places[ring.at(x, y)].write().unwrap_or_else(PoisonError::into_inner);
-                if y > 1 && is_target(x, y - 1) {
-                    last[x - columns.start].lock().unwrap_or_else(PoisonError::into_inner).along_y =
-                        self.moved([(Cell::new(x, y - 2), &*place), (Cell::new(x, y), &responses)]);
+                let two_above = (y > 1 && is_target(x, y - 1)).then(|| (Cell::new(x, y - 2), &*place));
+                let [moved, turned] = self.differences((cell, responses), two_above, is_target(x, y));
+                if is_target(x, y) {
+                    here[x - columns.start].lock().unwrap_or_else(PoisonError::into_inner).turned = turned;
                 }
-                *place = responses;
+                if two_above.is_some() {
+                    last[x - columns.start].lock().unwrap_or_else(PoisonError::into_inner).along_y = moved;
+                }
+                std::mem::swap(&mut *place, responses);
             }
+            self.workers.lock().unwrap_or_else(PoisonError::into_inner).push(worker);
             self.observer.busy(None);
             let solved = 8 * batch.len() as u64;
             let done = self.done.fetch_add(solved, Ordering::Relaxed) + solved;
@@ -285,7 +290,8 @@ impl<T: Real, const N: usize> Sweep<'_, T, N> {
                 let read =
                     |x: usize| ring.places[ring.at(x, y)].read().unwrap_or_else(PoisonError::into_inner);
                 let (left, right) = (read(x - 1), read(x + 1));
-                let along_x = self.moved([(Cell::new(x - 1, y), &*left), (Cell::new(x + 1, y), &*right)]);
+                let (left, right) = ((Cell::new(x - 1, y), &*left), (Cell::new(x + 1, y), &*right));
+                let [along_x, _] = self.differences(right, Some(left), false);
                 here[x - columns.start].lock().unwrap_or_else(PoisonError::into_inner).along_x = along_x;
                 self.observer.busy(None);
             });
@@ -293,66 +299,79 @@ impl<T: Real, const N: usize> Sweep<'_, T, N> {
         here.into_iter().map(|d| d.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
     }
 
-    /// The responses of up to N / 8 cells of a row.
-    fn solve(&self, y: usize, columns: &[usize]) -> Vec<Responses<T>> {
-        let grid = self.field.grid();
+    fn take_worker(&self) -> Worker<T, N> {
         let waiting = self.workers.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let mut worker = waiting.unwrap_or_else(|| Worker {
-            edges: vec![Lanes::zero(); 8 * grid.cells()],
+        waiting.unwrap_or_else(|| Worker {
+            edges: vec![Lanes::zero(); 8 * self.field.grid().cells()],
             workspace: self.dissection.workspace(),
-        });
-        worker.edges.fill(Lanes::zero());
+            spare: vec![Vec::new(); N / 8],
+        })
+    }
+
+    /// Leaves the responses of up to N / 8 cells of a row in `worker.spare`.
+    fn solve(&self, worker: &mut Worker<T, N>, y: usize, columns: &[usize]) {
+        let grid = self.field.grid();
         let lit: Vec<Cell> = columns.iter().map(|&x| Cell::new(x, y)).collect();
+        let mut sources = Vec::new();
         for (i, &cell) in lit.iter().enumerate() {
             for k in 0..8 {
                 if let Some(there) = grid.neighbour(cell, k) {
-                    worker.edges[8 * grid.index(there) + k].0[8 * i + k] = T::from_f64(1.0);
+                    sources.push((8 * grid.index(there) + k, 8 * i + k, T::from_f64(1.0)));
                 }
             }
         }
-        self.dissection.solve_near(&lit, &mut worker.edges, &mut worker.workspace);
-        let dark = || vec![[T::from_f64(0.0); 8]; grid.cells()];
-        let mut all: Vec<Responses<T>> = lit.iter().map(|_| (0..8).map(|_| dark()).collect()).collect();
+        self.dissection.solve_near(&lit, &sources, &mut worker.edges, &mut worker.workspace);
+        for responses in worker.spare.iter_mut().take(columns.len()) {
+            responses.resize_with(8, Vec::new);
+            for response in responses {
+                response.resize(grid.cells(), [T::from_f64(0.0); 8]);
+            }
+        }
         for (cell, edges) in worker.edges.as_chunks::<8>().0.iter().enumerate() {
-            for (i, responses) in all.iter_mut().enumerate() {
+            for (i, responses) in worker.spare.iter_mut().enumerate().take(columns.len()) {
                 for (k, response) in responses.iter_mut().enumerate() {
-                    response[cell] = std::array::from_fn(|j| edges[j].0[8 * i + k]);
+                    let lane = 8 * i + k;
+                    let lobes = &mut response[cell];
+                    for (lobe, edge) in lobes.iter_mut().zip(edges) {
+                        *lobe = edge.0[lane];
+                    }
                 }
             }
         }
-        self.workers.lock().unwrap_or_else(PoisonError::into_inner).push(worker);
-        all
     }
 
-    /// Half the L1 differences of the pulses of each moved class in two cells.
-    fn moved(&self, [(one, responses), (other, others)]: [(Cell, &Responses<T>); 2]) -> Vec<f64> {
-        let energies = [one, other].map(|cell| self.comparisons.energies(self.field, cell));
-        let distributions: Vec<&[[T; 8]]> = responses.iter().chain(others).map(|r| &**r).collect();
-        let combination = |class: usize| -> Combination<T> {
-            let lit = (0..8).filter(|k| self.comparisons.classes[class][*k] != 0.0);
-            lit.flat_map(|k| {
-                let weight = self.comparisons.classes[class][k];
-                [(k, 0.5 * energies[0][class] * weight), (8 + k, -0.5 * energies[1][class] * weight)]
-            })
-            .map(|(i, factor)| (i, T::from_f64(factor)))
-            .collect()
-        };
-        let combinations: Vec<_> = self.comparisons.moved().into_iter().map(combination).collect();
-        l1_norms(self.field.scattering(), self.level, &distributions, &combinations)
-    }
-
-    /// Half the L1 differences between the pulses of each turn in one cell.
-    fn turned(&self, cell: Cell, responses: &Responses<T>) -> Vec<f64> {
-        let energies = self.comparisons.energies(self.field, cell);
-        let distributions: Vec<&[[T; 8]]> = responses.iter().map(|r| &**r).collect();
-        let combination = |&[before, after]: &[usize; 2]| -> Combination<T> {
-            let pulse = |class: usize, k: usize| energies[class] * self.comparisons.classes[class][k];
-            let factor = |k: usize| 0.5 * (pulse(after, k) - pulse(before, k));
-            let lit = (0..8).map(|k| (k, factor(k))).filter(|(_, factor)| *factor != 0.0);
-            lit.map(|(k, factor)| (k, T::from_f64(factor))).collect()
-        };
-        let combinations: Vec<_> = self.comparisons.turns.iter().map(combination).collect();
-        l1_norms(self.field.scattering(), self.level, &distributions, &combinations)
+    /// Half the L1 differences between the pulses of each moved class in two cells, and between those of each turn in
+    /// the first: both read its responses, which come from far away.
+    fn differences(
+        &self,
+        (own, responses): (Cell, &Responses<T>),
+        other: Option<(Cell, &Responses<T>)>,
+        turns: bool,
+    ) -> [Vec<f64>; 2] {
+        let comparisons = self.comparisons;
+        let energies = comparisons.energies(self.field, own);
+        let lit = |class: usize| (0..8).filter(move |k| comparisons.classes[class][*k] != 0.0);
+        let half = |energy: f64, class: usize, k: usize| 0.5 * energy * comparisons.classes[class][k];
+        let mut distributions: Vec<&[[T; 8]]> = responses.iter().map(|r| &**r).collect();
+        let mut combinations: Vec<Combination<T>> = Vec::new();
+        if let Some((cell, responses)) = other {
+            distributions.extend(responses.iter().map(|r| &**r));
+            let others = comparisons.energies(self.field, cell);
+            for class in comparisons.moved() {
+                let here = lit(class).map(|k| (k, half(energies[class], class, k)));
+                let there = lit(class).map(|k| (8 + k, -half(others[class], class, k)));
+                combinations.push(here.chain(there).map(|(i, f)| (i, T::from_f64(f))).collect());
+            }
+        }
+        let moved = combinations.len();
+        for &[before, after] in comparisons.turns.iter().filter(|_| turns) {
+            let factor = |k| half(energies[after], after, k) - half(energies[before], before, k);
+            let changed = (0..8).map(|k| (k, factor(k))).filter(|(_, factor)| *factor != 0.0);
+            combinations.push(changed.map(|(k, factor)| (k, T::from_f64(factor))).collect());
+        }
+        let mut norms = l1_norms(self.field.scattering(), self.level, &distributions, &combinations);
+        let turned = norms.split_off(moved);
+        [norms, turned]
     }
 }
 

@@ -6,6 +6,7 @@ use crate::real::Real;
 use crate::scattering::Scattering;
 use crate::simd::{Level, Octet, Proven, Task};
 use core::f64::consts::FRAC_1_SQRT_2;
+use std::ops::Range;
 
 /// A linear combination of distributions: which ones, each with its factor.
 pub type Combination<T> = Vec<(usize, T)>;
@@ -48,14 +49,18 @@ impl<T: Real> Task for Norms<'_, T> {
         let cells = distributions.first().map_or(0, |d| d.len());
         for first in (0..cells).step_by(width) {
             rows.fill(zero);
-            for cell in first..first + width {
-                for (row, combination) in rows.iter_mut().zip(combinations) {
-                    let mut light = <P::Octet as Octet>::splat(proof, T::default());
-                    for &(i, factor) in combination {
-                        let lobes = <P::Octet as Octet>::load(proof, &distributions[i][cell]);
-                        light = lobes.mul_add(<P::Octet as Octet>::splat(proof, factor), light);
-                    }
-                    let sum = <P::Octet as Octet>::load(proof, row) + norm::<T, P::Octet>(sums, proof, light);
+            // What all combinations read stays in the cache from one to the next.
+            for start in (first..first + width).step_by(NEAR) {
+                let near = start..(start + NEAR).min(first + width);
+                for (row, terms) in rows.iter_mut().zip(combinations) {
+                    let sum = <P::Octet as Octet>::load(proof, row);
+                    let sum = match terms.len() {
+                        2 => sum_near::<T, P::Octet, 2>(sums, proof, distributions, terms, near.clone(), sum),
+                        3 => sum_near::<T, P::Octet, 3>(sums, proof, distributions, terms, near.clone(), sum),
+                        4 => sum_near::<T, P::Octet, 4>(sums, proof, distributions, terms, near.clone(), sum),
+                        6 => sum_near::<T, P::Octet, 6>(sums, proof, distributions, terms, near.clone(), sum),
+                        _ => sum_near::<T, P::Octet, 0>(sums, proof, distributions, terms, near.clone(), sum),
+                    };
                     sum.store(row);
                 }
             }
@@ -66,6 +71,46 @@ impl<T: Real> Task for Norms<'_, T> {
         }
         totals.iter().map(|total| total * sums.scale).collect()
     }
+}
+
+/// Cells whose distributions fit into the innermost cache together.
+const NEAR: usize = 16;
+
+/// Adds the sums of a combination in some cells of a row to `sum`. `K` is its number of terms, or 0 for any.
+#[inline(always)]
+fn sum_near<T: Number, O: Octet<Number = T>, const K: usize>(
+    sums: &SectorSums<T>,
+    proof: O::Proof,
+    distributions: &[&[[T; 8]]],
+    terms: &[(usize, T)],
+    near: Range<usize>,
+    mut sum: O,
+) -> O {
+    if K == 0 {
+        for cell in near {
+            let mut light = O::splat(proof, T::default());
+            for &(i, factor) in terms {
+                let lobes = O::load(proof, &distributions[i][cell]);
+                light = lobes.mul_add(O::splat(proof, factor), light);
+            }
+            sum = sum + norm::<T, O>(sums, proof, light);
+        }
+        return sum;
+    }
+    let mut lobes: [&[[T; 8]]; K] = [&[]; K];
+    let mut factors = [O::splat(proof, T::default()); K];
+    for k in 0..K {
+        lobes[k] = &distributions[terms[k].0][near.clone()];
+        factors[k] = O::splat(proof, terms[k].1);
+    }
+    for cell in 0..near.len() {
+        let mut light = O::splat(proof, T::default());
+        for k in 0..K {
+            light = O::load(proof, &lobes[k][cell]).mul_add(factors[k], light);
+        }
+        sum = sum + norm::<T, O>(sums, proof, light);
+    }
+    sum
 }
 
 /// The sums of one cell's samples, sector by sector, times `L` ([`SectorSums`] says how).

@@ -17,7 +17,7 @@ use super::dense::{Lanes, Packed, Tiles, inverse_of_one_minus};
 use super::parallel::{Parallel, Serial};
 use crate::TransportError;
 use crate::real::Real;
-use crate::simd::{Level, Proven, Task};
+use crate::simd::{Level, Proven, Task, Vector};
 use std::sync::{Mutex, OnceLock};
 use tigereye_core::{Cell, Grid};
 
@@ -299,11 +299,19 @@ impl<T: Real, const N: usize> Dissection<T, N> {
     ///
     /// Panics where `edges` has not eight rows a cell.
     pub fn solve(&self, edges: &mut [Lanes<T, N>], workspace: &mut Workspace<T, N>) {
-        self.run(edges, workspace, &self.blocks.order);
+        self.run(edges, workspace, &self.blocks.order, &vec![true; self.blocks.blocks.len()]);
     }
 
-    /// [`Self::solve`] for sources in few places: `lit` lists the cells whose outgoing edges alone are not 0 at first.
-    pub fn solve_near(&self, lit: &[Cell], edges: &mut [Lanes<T, N>], workspace: &mut Workspace<T, N>) {
+    /// [`Self::solve`] for sources beside few cells: `sources` lists edges that leave the cells `lit`, each with a lane and
+    /// what the source puts there. What `edges` held before does not matter, but for edges that lead into the grid from
+    /// outside.
+    pub fn solve_near(
+        &self,
+        lit: &[Cell],
+        sources: &[(usize, usize, T)],
+        edges: &mut [Lanes<T, N>],
+        workspace: &mut Workspace<T, N>,
+    ) {
         let mut is_lit = vec![false; self.blocks.blocks.len()];
         for cell in lit {
             let mut block = self.blocks.of_cell[self.grid.index(*cell)];
@@ -314,13 +322,29 @@ impl<T: Real, const N: usize> Dissection<T, N> {
             }
         }
         let lit: Vec<usize> = self.blocks.order.iter().copied().filter(|&block| is_lit[block]).collect();
-        self.run(edges, workspace, &lit);
+        for &block in &lit {
+            let Some((halves, _)) = self.blocks.halves(block) else { continue };
+            let first = self.blocks.blocks[block].first as isize * 8;
+            for edge in halves.forth.iter().chain(&halves.back) {
+                edges[(first + edge) as usize] = Lanes::zero();
+            }
+        }
+        for &(edge, lane, value) in sources {
+            edges[edge].0[lane] = value;
+        }
+        self.run(edges, workspace, &lit, &is_lit);
     }
 
-    /// `lit`: the blocks with sources inside, each after its halves.
-    fn run(&self, edges: &mut [Lanes<T, N>], workspace: &mut Workspace<T, N>, lit: &[usize]) {
+    /// `lit`: the blocks with sources inside, each after its halves; `is_lit` says the same of every block.
+    fn run(
+        &self,
+        edges: &mut [Lanes<T, N>],
+        workspace: &mut Workspace<T, N>,
+        lit: &[usize],
+        is_lit: &[bool],
+    ) {
         assert_eq!(edges.len(), self.grid.cells() * 8, "eight edges a cell");
-        self.level.dispatch(Solve { dissection: self, edges, workspace, lit });
+        self.level.dispatch(Solve { dissection: self, edges, workspace, lit, is_lit });
     }
 }
 
@@ -329,6 +353,7 @@ struct Solve<'a, T, const N: usize> {
     edges: &'a mut [Lanes<T, N>],
     workspace: &'a mut Workspace<T, N>,
     lit: &'a [usize],
+    is_lit: &'a [bool],
 }
 
 impl<T: Real, const N: usize> Task for Solve<'_, T, N> {
@@ -337,7 +362,7 @@ impl<T: Real, const N: usize> Task for Solve<'_, T, N> {
 
     #[inline(always)]
     fn work<P: Proven<T>>(self, proof: P) {
-        let Self { dissection, edges, workspace: Workspace(buffers), lit } = self;
+        let Self { dissection, edges, workspace: Workspace(buffers), lit, is_lit } = self;
         let blocks = &dissection.blocks;
         // Halves before wholes, then wholes before halves.
         let collect = lit.iter().map(|&block| (block, Pass::Collect));
@@ -396,9 +421,14 @@ impl<T: Real, const N: usize> Task for Solve<'_, T, N> {
                     scatter(&one.leaving, first, &buffers[OUTSIDE[0]], edges);
                     scatter(&two.leaving, first, &buffers[OUTSIDE[1]], edges);
                 }
+                // In the dark, there is nothing to add to.
+                Pass::Distribute if !is_lit[block] => {
+                    scatter(&halves.forth, first, &buffers[FORTH], edges);
+                    scatter(&halves.back, first, &buffers[BACK], edges);
+                }
                 Pass::Distribute => {
-                    add(&halves.forth, first, &buffers[FORTH], edges);
-                    add(&halves.back, first, &buffers[BACK], edges);
+                    add::<P::Vector, N>(proof.vector(), &halves.forth, first, &buffers[FORTH], edges);
+                    add::<P::Vector, N>(proof.vector(), &halves.back, first, &buffers[BACK], edges);
                 }
             }
         }
@@ -430,11 +460,17 @@ fn scatter<T: Real, const N: usize>(
 }
 
 #[inline(always)]
-fn add<T: Real, const N: usize>(of: &[isize], first: isize, from: &[Lanes<T, N>], edges: &mut [Lanes<T, N>]) {
+fn add<V: Vector, const N: usize>(
+    proof: V::Proof,
+    of: &[isize],
+    first: isize,
+    from: &[Lanes<V::Number, N>],
+    edges: &mut [Lanes<V::Number, N>],
+) {
     for (from, edge) in from.iter().zip(of) {
-        let to = &mut edges[(first + edge) as usize];
-        for (to, from) in to.0.iter_mut().zip(&from.0) {
-            *to = *to + *from;
+        let to = &mut edges[(first + edge) as usize].0;
+        for c in 0..N / V::WIDTH {
+            (V::load(proof, to, c) + V::load(proof, &from.0, c)).store(to, c);
         }
     }
 }

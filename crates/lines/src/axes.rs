@@ -391,14 +391,12 @@ const fn quarter_turned(v: [f64; 2]) -> [f64; 2] {
 mod tests {
     use super::*;
     use tigereye_core::{Eigenvalues, Svd};
+    use tigereye_test_support::Random;
 
     /// Tensors of all kinds, from a fixed sequence.
     fn tensors() -> Vec<Tensor2> {
-        let mut seed = 5_u64;
-        let mut random = move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            2.0 * ((seed >> 11) as f64 / (1_u64 << 53) as f64) - 1.0
-        };
+        let mut numbers = Random::seeded(5);
+        let mut random = move || numbers.signed();
         let mut all: Vec<Tensor2> =
             (0..500).map(|_| Tensor2::new(random(), random(), random(), random())).collect();
         all.extend((0..500).map(|_| Tensor2::symmetric(random(), random(), random())));

@@ -233,11 +233,10 @@ mod tests {
     use super::*;
     use core::f64::consts::PI;
     use tigereye_core::Svd;
-    use tigereye_fields::{generate, parse_spec};
+    use tigereye_test_support::{Random, field};
 
     fn points(spec: &str) -> Vec<DegeneratePoint> {
-        let spec = parse_spec(spec).expect("a generator");
-        degenerate_points(&generate(&spec.name, &spec.arguments).expect("a field"))
+        degenerate_points(&field(spec))
     }
 
     #[test]
@@ -273,16 +272,10 @@ mod tests {
             ("wedge:size=21", 1),
             ("trisector:size=21", -1),
         ] {
-            let spec = parse_spec(spec).expect("a generator");
-            let ellipses = crate::ellipse_tensors(&generate(&spec.name, &spec.arguments).expect("a field"));
+            let ellipses = crate::ellipse_tensors(&field(spec));
             let found = degenerate_points(&ellipses);
-            assert_eq!(found.len(), 1, "{}: {found:?}", spec.name);
-            assert_eq!(
-                (found[0].position, found[0].half_turns()),
-                ([10.0, 10.0], half_turns),
-                "{}",
-                spec.name
-            );
+            assert_eq!(found.len(), 1, "{spec}: {found:?}");
+            assert_eq!((found[0].position, found[0].half_turns()), ([10.0, 10.0], half_turns), "{spec}");
         }
         for none in ["x:size=9", "isotropic:size=9", "step:size=15", "cross_x:size=15", "drain:size=20"] {
             assert_eq!(points(none), [], "{none}");
@@ -307,11 +300,8 @@ mod tests {
     /// How often the axes turn along the border is what the points inside add up to, symmetric or not.
     #[test]
     fn indices_add_up_to_that_of_the_border() {
-        let mut seed = 11_u64;
-        let mut random = move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
+        let mut numbers = Random::seeded(11);
+        let mut random = move || numbers.unit() - 0.5;
         let mut with_points = 0;
         for round in 0..40 {
             let symmetric = round % 2 == 0;
@@ -352,24 +342,22 @@ mod tests {
     #[test]
     fn broken_cells_hide_what_is_around_them() {
         for bad in [f64::NAN, f64::INFINITY] {
-            let spec = parse_spec("wedge:size=21").expect("a generator");
-            let mut field = generate(&spec.name, &spec.arguments).expect("a field");
-            let broken = field.grid().index(Cell::new(10, 10));
-            field.values_mut()[broken] = Tensor2::isotropic(bad);
-            assert_eq!(degenerate_points(&field), []);
+            let mut wedge = field("wedge:size=21");
+            let broken = wedge.grid().index(Cell::new(10, 10));
+            wedge.values_mut()[broken] = Tensor2::isotropic(bad);
+            assert_eq!(degenerate_points(&wedge), []);
             // Elsewhere it is no matter.
-            let mut field = generate(&spec.name, &spec.arguments).expect("a field");
-            let broken = field.grid().index(Cell::new(3, 15));
-            field.values_mut()[broken] = Tensor2::isotropic(bad);
-            assert_eq!(degenerate_points(&field).len(), 1);
+            let mut wedge = field("wedge:size=21");
+            let broken = wedge.grid().index(Cell::new(3, 15));
+            wedge.values_mut()[broken] = Tensor2::isotropic(bad);
+            assert_eq!(degenerate_points(&wedge).len(), 1);
         }
     }
 
     /// Weak tensors have their points too.
     #[test]
     fn strength_does_not_matter() {
-        let spec = parse_spec("wedge:size=20").expect("a generator");
-        let plain = generate(&spec.name, &spec.arguments).expect("a field");
+        let plain = field("wedge:size=20");
         let mut strong = plain.map(|t| t.scaled(1e-9));
         strong.values_mut()[0] = Tensor2::symmetric(1e9, 0.0, 1.0);
         assert_eq!(degenerate_points(&strong).len(), degenerate_points(&plain).len());

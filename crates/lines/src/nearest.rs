@@ -142,18 +142,12 @@ fn distance_to([p, q]: [[f64; 2]; 2], point: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
     use crate::Polyline;
-
-    fn random() -> impl FnMut() -> f64 {
-        let mut seed = 3_u64;
-        move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 11) as f64 / (1_u64 << 53) as f64
-        }
-    }
+    use tigereye_test_support::Random;
 
     #[test]
     fn the_nearest_of_all_segments_is_found() {
-        let mut random = random();
+        let mut numbers = Random::seeded(3);
+        let mut random = move || numbers.unit();
         // Short steps, long ones, all in one row, all in one point.
         for (steps, width, height) in [(300, 0.4, 0.4), (40, 30.0, 20.0), (50, 10.0, 0.0), (5, 0.0, 0.0)] {
             let mut at = [0.0, 0.0];

@@ -231,7 +231,7 @@ chmod +x "$CARGO_TARGET_DIR/release/tigereye"
     fn git(place: &Place, args: &[&str]) -> String {
         let identity = ["-c", "user.name=a", "-c", "user.email=a@b", "-c", "commit.gpgsign=false"];
         let mut git = Command::new("git");
-        let output = git.args(identity).args(args).current_dir(place.folder()).output().unwrap();
+        let output = git.args(identity).args(args).current_dir(place.root()).output().unwrap();
         assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).unwrap()
     }

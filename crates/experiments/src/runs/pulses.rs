@@ -342,12 +342,8 @@ mod tests {
     use tigereye_core::{CellShape, Directions, Grid, Normalization, Svd, Tensor2};
     use tigereye_transport::SharedWeights;
 
-    struct Nothing;
-
-    impl Host for Nothing {
-        fn read(&self, path: &str) -> Result<Vec<u8>, String> {
-            Err(path.to_owned())
-        }
+    fn no_file(path: &str) -> Result<Vec<u8>, String> {
+        Err(path.to_owned())
     }
 
     fn records(field: &Field<Tensor2>, pulses: &[(Cell, usize)]) -> Vec<PulseRecord> {
@@ -360,7 +356,7 @@ mod tests {
         };
         let named = NamedField { name: String::new(), field: field.clone(), cell: CellShape::SQUARE };
         let media = Media { fields: vec![named], scenes: Vec::new() };
-        Plan { setup, pulses: pulses.to_vec() }.run("run", &media, 0, &Nothing).expect("pulses").records
+        Plan { setup, pulses: pulses.to_vec() }.run("run", &media, 0, &no_file).expect("pulses").records
     }
 
     #[test]

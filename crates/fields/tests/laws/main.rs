@@ -11,13 +11,7 @@ mod topology;
 mod user_field;
 
 use tigereye_core::{Cell, Field, Svd, Tensor2};
-use tigereye_fields::{generate, parse_spec};
-
-/// The field of a specification that is right.
-fn field(spec: &str) -> Field<Tensor2> {
-    let parsed = parse_spec(spec).unwrap_or_else(|e| panic!("{spec}: {e}"));
-    generate(&parsed.name, &parsed.arguments).unwrap_or_else(|e| panic!("{spec}: {e}"))
-}
+use tigereye_test_support::field;
 
 /// Direction of the major semi-axis in degrees, 0 to 180.
 fn major_deg(t: &Tensor2) -> f64 {

@@ -275,11 +275,10 @@ fn cut_volumes_are_refused() {
     }
 }
 
-/// Four hundred bytes that declare more than there can be.
+/// Four hundred bytes that declare more than there can be. What would be allocated for them, `memory.rs` measures.
 #[test]
-fn small_volumes_with_many_voxels_are_refused_at_once() {
+fn small_volumes_with_many_voxels_are_refused() {
     let limits = Limits { cells: u64::MAX, values: u64::MAX };
-    let start = std::time::Instant::now();
     for size in [
         "10000 10000 10000",
         "99999999999 99999999999 99999999999",
@@ -312,7 +311,6 @@ fn small_volumes_with_many_voxels_are_refused_at_once() {
     let message = nifti::read(&nifti_large).unwrap_err().to_string();
     assert!(message.contains("cells are declared, the limit is"), "{message}");
     assert!(matches!(nifti::read_with_limits(&nifti_large, limits), Err(IoError::DataTruncated { .. })));
-    assert!(start.elapsed().as_secs() < 1);
 }
 
 /// Headers that ask for files elsewhere, or for what is not read.

@@ -92,6 +92,7 @@ fn smallest3(h: [f64; 6]) -> (f64, f64, [f64; 3]) {
 mod tests {
     use super::*;
     use tigereye_core::symmetric_eigenvalues3;
+    use tigereye_test_support::Random;
 
     fn residual(h: [f64; 6], l: f64, v: [f64; 3]) -> f64 {
         let [xx, xy, xz, yy, yz, zz] = h;
@@ -101,11 +102,8 @@ mod tests {
 
     #[test]
     fn eigenvectors_are_eigenvectors() {
-        let mut seed = 7_u64;
-        let mut random = move || {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
+        let mut numbers = Random::seeded(7);
+        let mut random = move || numbers.unit() - 0.5;
         for _ in 0..2000 {
             let h: [f64; 6] = core::array::from_fn(|_| random());
             let (l, gap, v) = smallest3(h);

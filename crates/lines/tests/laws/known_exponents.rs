@@ -2,16 +2,11 @@
 
 use rayon::prelude::*;
 use tigereye_core::{Cell, Field, Grid, Tensor2, math};
-use tigereye_fields::{generate, parse_spec};
 use tigereye_lines::{
     Axes, Family, Ftle, FtleOptions, Interpolated, NearestSegment, Polyline, Polylines, RidgeOptions,
     SamplingError, Threshold, advected, ellipse_tensors, exponents, ftle, ridge_lines,
 };
-
-fn field(spec: &str) -> Field<Tensor2> {
-    let spec = parse_spec(spec).expect("a generator");
-    generate(&spec.name, &spec.arguments).expect("a field")
-}
+use tigereye_test_support::field;
 
 fn of(field: &Field<Tensor2>, family: Family, length: f64, samples: usize) -> Ftle {
     let options = FtleOptions { length, samples, step: 0.1, ..FtleOptions::default() };

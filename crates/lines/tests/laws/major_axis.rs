@@ -4,6 +4,7 @@ use tigereye_core::{Field, Grid, Tensor2};
 use tigereye_lines::{
     Axes, Family, Interpolated, LineEnd, LineOptions, Major, Topology, signed_ellipse_tensors, tensor_line,
 };
+use tigereye_test_support::Random;
 
 /// Rounding of unit vectors.
 const ROUNDING: f64 = 1e-12;
@@ -18,11 +19,8 @@ fn along(t: &Tensor2, [x, y]: [f64; 2]) -> f64 {
 
 /// Tensors of all kinds, from a fixed sequence.
 fn tensors() -> impl Iterator<Item = Tensor2> {
-    let mut seed = 11_u64;
-    let mut random = move || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        2.0 * ((seed >> 11) as f64 / (1_u64 << 53) as f64) - 1.0
-    };
+    let mut numbers = Random::seeded(11);
+    let mut random = move || numbers.signed();
     (0..500).map(move |i| {
         let (xx, xy, yx, yy) = (random(), random(), random(), random());
         Tensor2::new(xx, xy, if i % 2 == 0 { xy } else { yx }, yy)

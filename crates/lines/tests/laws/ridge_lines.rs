@@ -2,6 +2,7 @@
 
 use tigereye_core::{Cell, Field, Grid, math};
 use tigereye_lines::{ExtractionError, NearestSegment, RidgeLines, RidgeOptions, Threshold, ridge_lines};
+use tigereye_test_support::Random;
 
 fn field(width: usize, height: usize, f: impl Fn(f64, f64) -> f64) -> Field<f64> {
     Field::from_fn(Grid::new(width, height).expect("a size"), |c| f(c.x as f64, c.y as f64))
@@ -148,11 +149,8 @@ fn a_saddle_has_the_crest_through_it() {
 
 #[test]
 fn valleys_ramps_constants_and_noise_have_none() {
-    let mut seed = 5_u64;
-    let mut noise = move || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-    };
+    let mut numbers = Random::seeded(5);
+    let mut noise = move || numbers.unit() - 0.5;
     let noisy = Field::from_fn(Grid::new(30, 30).expect("a size"), |_| 1.0 + 1e-15 * noise());
     let fields = [
         field(30, 25, |x, y| 0.3 * x - 0.7 * y + 5.0),

@@ -6,6 +6,7 @@ use crate::{
     SharedWeights, Stopping, StoppingRule, l1_difference,
 };
 use tigereye_core::{Directions, Field, Grid, Normalization, Tensor2, TransmissionField};
+use tigereye_test_support::Random;
 
 const SAMPLES: usize = 16;
 /// Inner, border and corner cells, one of them absorbing.
@@ -14,11 +15,8 @@ const SOURCES: [Cell; 5] =
 
 /// No symmetry: random axes, weaker cells that absorb a part and some that absorb everything.
 fn rough_field(width: usize, height: usize) -> TransmissionField {
-    let mut seed = 7_u64;
-    let mut random = move || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut numbers = Random::seeded(7);
+    let mut random = move || numbers.unit();
     let field = Field::from_fn(Grid::new(width, height).expect("a grid"), |c| {
         let axes = Tensor2::from_axes(6.0 * random(), 1.0 + 2.0 * random(), 0.02 + random());
         if (c.x + 3 * c.y) % 10 == 4 { Tensor2::default() } else { axes }

@@ -9,6 +9,7 @@
 
 mod anisotropy;
 mod cell_shape;
+mod choice;
 mod decomposition;
 mod directions;
 mod error;
@@ -17,6 +18,7 @@ mod field;
 mod grid;
 mod limits;
 pub mod math;
+mod normalization;
 mod profile;
 mod reflection;
 mod results;
@@ -28,12 +30,14 @@ mod transmission;
 
 pub use anisotropy::Anisotropy;
 pub use cell_shape::CellShape;
+pub use choice::Choice;
 pub use decomposition::{AxisSign, Eigenvalues, Svd};
 pub use directions::Directions;
 pub use error::CoreError;
 pub use factors::{OrthogonalFactor, PrincipalAxes};
 pub use field::Field;
 pub use grid::{Cell, Grid, NEIGHBOUR_OFFSETS};
+pub use normalization::{Below, Normalization};
 pub use profile::PolarProfile;
 pub use reflection::{Reflection, Surface};
 pub use results::{LightDistribution, LtgVolume, StopReason, SweepWork, Work};
@@ -42,6 +46,6 @@ pub use symmetric3::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
 pub use symmetry::Symmetry;
 pub use tensor::Tensor2;
 pub use transmission::{
-    Below, CellTransmission, Normalization, RateScale, TOTAL_ANISOTROPY_RATIO, TransmissionField,
-    is_totally_anisotropic, transmission_ellipse,
+    CellTransmission, RateScale, TOTAL_ANISOTROPY_RATIO, TransmissionField, is_totally_anisotropic,
+    transmission_ellipse,
 };

@@ -32,7 +32,7 @@ pub use reduced::EightLobe;
 pub use scattering::Scattering;
 pub use scheme::{Scheme, SharedWeights, half_angle_beta_rad, half_core_alpha_rad, sector_lobes};
 pub use simd::Level;
-pub use stopping::{Stopping, StoppingRule};
+pub use stopping::{StopMeasure, Stopping, StoppingRule};
 
 /// Every engine, the oracle first. Laws of propagations are tested for each of them, and experiment files choose them
 /// by [`Engine::id`].

@@ -1,7 +1,7 @@
 //! What a generator of test fields is, and what it sees: arguments checked and completed.
 
 use crate::parameter::SIZES;
-use crate::{Arguments, FieldError, Parameter};
+use crate::{Arguments, FieldError, Known, Parameter};
 use tigereye_core::{Field, Grid, Tensor2};
 
 /// A test field: what it is, what it can be told, and what is known about it.
@@ -19,6 +19,8 @@ pub struct Generator {
     pub determinant_one: bool,
     /// Whether every tensor is symmetric for the default parameters.
     pub symmetric: bool,
+    /// What else is known about its fields, at least one answer.
+    pub known: &'static [Known],
     pub(crate) build: fn(&Settings) -> Field<Tensor2>,
 }
 

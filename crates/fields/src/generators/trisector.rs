@@ -8,7 +8,7 @@
 //! second-order tensor fields", IEEE Visualization 1994.
 
 use crate::geometry::Window;
-use crate::{Generator, Parameter, Settings};
+use crate::{Generator, Known, Mirror, Parameter, Settings};
 use tigereye_core::{Field, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -24,6 +24,7 @@ pub(crate) const GENERATOR: Generator = Generator {
     )],
     determinant_one: false,
     symmetric: true,
+    known: &[Known::Symmetries("", &[Mirror::UpDown]), Known::Index("", -0.5)],
     build,
 };
 

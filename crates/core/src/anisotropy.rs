@@ -6,8 +6,7 @@
 
 use crate::{Eigenvalues, Svd, Tensor2, fractional_anisotropy3, math, symmetric_eigenvalues3};
 
-/// The measures of one tensor. A zero tensor is isotropic: `linear = planar = fractional = 0`, `spherical = 1`, `mode =
-/// 0`.
+/// The measures of one tensor. A zero tensor is isotropic: its `spherical` is 1, all others are 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anisotropy {
     /// Linear coefficient `c_l = (s1 - s2) / (s1 + s2)` in [0, 1] (Westin et al. 2002, reduced to two axes).
@@ -15,13 +14,13 @@ pub struct Anisotropy {
     /// Spherical coefficient `c_s = 2 s2 / (s1 + s2) = 1 - c_l` in [0, 1].
     pub spherical: f64,
     /// Planar anisotropy of the semi-axes, `|s1 - s2| / sqrt(s1^2 + s2^2)` in [0, 1]: the norm of the deviator of the
-    /// tensor's symmetric factor over its norm, times sqrt(2) so that one vanishing axis gives 1. The form of
-    /// fractional anisotropy with two axes and without signs, and another number.
+    /// tensor's symmetric factor over its norm, times sqrt(2) so that one vanishing axis gives 1. It has the
+    /// form of fractional anisotropy for two axes without signs, but is a different number.
     pub planar: f64,
     /// Fractional anisotropy, FA (Basser and Pierpaoli 1996): [`fractional_anisotropy3`] of the tensor as a volume
     /// holds it, with a third row and column of zeros, so that a plane and a volume of one layer say the same. From the
     /// signed eigenvalues of the symmetric part: sqrt(1/2) for isotropic tensors, 1 for one vanishing axis, above 1
-    /// only where the signs differ, up to sqrt(3/2) for pure shear; not a number where the eigenvalues are not finite.
+    /// only where the signs differ, up to sqrt(3/2) for pure shear; NaN if the eigenvalues are not finite.
     pub fractional: f64,
     /// Mean semi-axis `(s1 + s2) / 2`, in the tensor's unit.
     pub mean: f64,

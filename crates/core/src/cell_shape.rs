@@ -1,13 +1,13 @@
-//! How lengths are measured where cells are not square.
+//! The shape of cells that need not be square, and lengths measured with it.
 
-use crate::math;
+use crate::{PhysicalPoint, Point, Vector, length};
 
-/// Sides that differ by less than this part are equal: spacings are kept in single precision, and as differences of
-/// positions.
+/// Sides that differ by less than this fraction are equal: files store spacings in single precision or as differences
+/// of positions.
 const SQUARE: f64 = 1e-6;
 
-/// The sides of a cell. Points are counted in cells along x and y; directions, lengths and areas are physical, in the
-/// unit of the smaller side. Where cells are square the two are the same, to the last bit.
+/// The sides of a cell. Points are counted in cells along x and y; directions, lengths and areas are physical, in units
+/// of the smaller side. For square cells the two agree to the last bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellShape {
     /// Along x and y, the smaller one 1.
@@ -24,8 +24,8 @@ impl CellShape {
     /// Cells as high as they are wide.
     pub const SQUARE: Self = Self { sides: [1.0; 2] };
 
-    /// Of cells at distances `spacing` along x and y, in any unit and of either sign. Distances that are none (zero, or
-    /// not finite) make squares.
+    /// Shape of cells at distances `spacing` along x and y, in any unit and of either sign; a square where a distance
+    /// is zero or not finite.
     #[must_use]
     pub fn of(spacing: [f64; 2]) -> Self {
         let [dx, dy] = spacing.map(f64::abs);
@@ -42,36 +42,42 @@ impl CellShape {
         self.sides
     }
 
-    /// A point, or a difference of points, in the unit of the smaller side.
+    /// The physical position of a point in cells.
     #[must_use]
-    pub fn physical(self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [x * self.sides[0], y * self.sides[1]]
+    pub fn physical(self, p: Point) -> PhysicalPoint {
+        PhysicalPoint::new(p.x * self.sides[0], -(p.y * self.sides[1]))
     }
 
-    /// A physical point, or direction, in cells.
+    /// The point in cells of a physical position.
     #[must_use]
-    pub fn in_cells(self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [x / self.sides[0], y / self.sides[1]]
+    pub fn in_cells(self, p: PhysicalPoint) -> Point {
+        Point::new(p.x / self.sides[0], -(p.y / self.sides[1]))
+    }
+
+    /// The point at `length` times a direction from another.
+    #[must_use]
+    pub fn ahead(self, from: Point, direction: Vector, length: f64) -> Point {
+        let [width, height] = self.sides;
+        Point::new(from.x + length * direction.x / width, from.y - length * direction.y / height)
     }
 
     /// Length of a line through points in cells.
     #[must_use]
-    pub fn length(self, points: &[[f64; 2]]) -> f64 {
+    pub fn length(self, points: &[Point]) -> f64 {
         points.windows(2).map(|p| self.distance(p[0], p[1])).sum()
     }
 
     /// Distance of two points in cells.
     #[must_use]
-    pub fn distance(self, a: [f64; 2], b: [f64; 2]) -> f64 {
-        let (p, q) = (self.physical(a), self.physical(b));
-        math::hypot(p[0] - q[0], p[1] - q[1])
+    pub fn distance(self, a: Point, b: Point) -> f64 {
+        length(self.physical(a) - self.physical(b))
     }
 
-    /// The longer side of so many cells along x and y, in the unit of the smaller side of one.
+    /// The longer side of a grid of `width` x `height` cells, in units of the smaller side of a cell.
     #[must_use]
     pub fn longer_side(self, [width, height]: [usize; 2]) -> f64 {
-        let [w, h] = self.physical([width as f64, height as f64]);
-        w.max(h)
+        let [w, h] = self.sides;
+        (width as f64 * w).max(height as f64 * h)
     }
 }
 
@@ -94,7 +100,11 @@ mod tests {
         }
         let cell = CellShape::of([0.2, 0.1]);
         assert_eq!((cell.longer_side([3, 5]), cell.longer_side([2, 5])), (6.0, 5.0));
-        assert_eq!(cell.distance([1.0, 1.0], [3.0, 4.0]), 5.0);
-        assert_eq!(cell.in_cells(cell.physical([3.5, 7.25])), [3.5, 7.25]);
+        assert_eq!(cell.distance(Point::new(1.0, 1.0), Point::new(3.0, 4.0)), 5.0);
+        let p = Point::new(3.5, 7.25);
+        assert_eq!(cell.physical(p), PhysicalPoint::new(7.0, -7.25));
+        assert_eq!(cell.in_cells(cell.physical(p)), p);
+        // Rows run downwards, directions upwards.
+        assert_eq!(cell.ahead(p, Vector::new(1.0, 0.5), 4.0), Point::new(5.5, 5.25));
     }
 }

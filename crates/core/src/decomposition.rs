@@ -3,8 +3,8 @@
 //! Everything is computed on the tensor scaled by a power of two so that its largest component lies in [0.5, 1):
 //! entries near 1e-300 or 1e200 are as accurate as those near 1.
 
-use crate::{Tensor2, math};
-use nalgebra::{Matrix2, Vector2};
+use crate::{Conformal, Tensor2, Vector, math};
+use nalgebra::{Complex, Matrix2, Vector2};
 
 /// `A = U diag(s1, s2) V^T` with `s1 >= s2 >= 0`, `U` a rotation, `V` a rotation (det A >= 0) or a reflection.
 ///
@@ -31,15 +31,14 @@ impl Svd {
             return Self { u: Matrix2::identity(), s: [s, s], v: Matrix2::identity() };
         }
         let [p, q, r, t] = a.components().map(|c| math::scale_by_power_of_two(c, -exponent));
-        // A = rotation-like part (e, h) + reflection-like part (f, g); their lengths add up to s1.
-        let (e, h) = (0.5 * (p + t), 0.5 * (r - q));
-        let (f, g) = (0.5 * (p - t), 0.5 * (r + q));
-        let s1 = math::hypot(e, h) + math::hypot(f, g);
+        let Conformal { e, f } = Conformal::of(&Tensor2::new(p, q, r, t));
+        let (e, f) = (e * 0.5, f * 0.5);
+        let s1 = math::hypot(e.re, e.im) + math::hypot(f.re, f.im);
         let det = math::difference_of_products(p, t, q, r);
         let s2 = (det.abs() / s1).min(s1);
 
-        // The product of both parts, as complex numbers, points to twice the angle of the major left vector.
-        let u1 = half_angle(e * f - h * g, e * g + h * f);
+        // The product of both parts points to twice the angle of the major left vector.
+        let u1 = half_angle(e * f);
         let u2 = Vector2::new(-u1.y, u1.x);
         let scaled = Matrix2::new(p, q, r, t);
         let v1 = (scaled.transpose() * u1) / s1;
@@ -59,10 +58,10 @@ impl Svd {
         math::atan2(self.u[(1, 0)], self.u[(0, 0)])
     }
 
-    /// Unit vector of the major semi-axis (x right, y up); its sign is arbitrary.
+    /// Unit vector of the major semi-axis; its sign is arbitrary.
     #[must_use]
-    pub fn major(&self) -> [f64; 2] {
-        [self.u[(0, 0)], self.u[(1, 0)]]
+    pub fn major(&self) -> Vector {
+        Vector::new(self.u[(0, 0)], self.u[(1, 0)])
     }
 
     /// `s2 / s1` in [0, 1]; 1 for a zero tensor.
@@ -72,8 +71,9 @@ impl Svd {
     }
 }
 
-/// Unit vector at half the angle of `(x, y)`, taken in (-pi/2, pi/2].
-pub(crate) fn half_angle(x: f64, y: f64) -> Vector2<f64> {
+/// Unit vector at half the argument of `z`, taken in (-pi/2, pi/2].
+pub(crate) fn half_angle(z: Complex<f64>) -> Vector2<f64> {
+    let (x, y) = (z.re, z.im);
     let r = math::hypot(x, y);
     if r == 0.0 {
         return Vector2::new(1.0, 0.0);
@@ -139,12 +139,12 @@ impl Eigenvalues {
         }
     }
 
-    /// A real part up to this part of the larger one is zero: what single precision leaves of a vanishing eigenvalue
-    /// has either sign.
+    /// A real part counts as zero up to this fraction of the larger one: in single precision a vanishing eigenvalue
+    /// becomes a small number of either sign.
     pub const ROUNDING: f64 = 1e-6;
 
-    /// What each axis does: the sign of the real parts (thesis, section 2.3), neutral where one is [`Self::ROUNDING`].
-    /// Colours glyphs, never the propagation.
+    /// The signs of the real parts (thesis, section 2.3), neutral for those within [`Self::ROUNDING`] of zero. They
+    /// colour glyphs and never affect the propagation.
     #[must_use]
     pub fn axis_signs(&self) -> [AxisSign; 2] {
         let parts = self.real_parts();
@@ -163,14 +163,14 @@ impl Eigenvalues {
         a != b && a != AxisSign::Neutral && b != AxisSign::Neutral
     }
 
-    /// How many real parts are negative by more than [`Self::ROUNDING`].
+    /// Number of real parts that are negative by more than [`Self::ROUNDING`].
     #[must_use]
     pub fn negative(&self) -> usize {
         self.axis_signs().into_iter().filter(|s| *s == AxisSign::Compression).count()
     }
 }
 
-/// Whether an axis is stretched or squeezed.
+/// Whether an axis is in tension or compression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisSign {
     /// Positive real part.
@@ -251,7 +251,7 @@ mod tests {
 
     #[test]
     fn signs_follow_the_eigenvalues() {
-        // What single precision makes of a vanishing eigenvalue has no sign.
+        // A vanishing eigenvalue rounded to single precision has no sign.
         for rounding in [3e-8, 0.0, -3e-8] {
             let values = Eigenvalues::of(&Tensor2::symmetric(2.0, 0.0, 2.0 * rounding));
             assert_eq!(values.axis_signs(), [AxisSign::Tension, AxisSign::Neutral]);
@@ -272,7 +272,7 @@ mod tests {
         #[test]
         fn svd_finds_the_axes_it_was_built_from(phi in -3.1..3.1f64, s2 in 0.0..0.999f64) {
             let svd = Svd::of(&Tensor2::from_axes(phi, 1.0, s2));
-            let [x, y] = svd.major();
+            let [x, y] = svd.major().to_array();
             let off_axis = x * math::sin(phi) - y * math::cos(phi);
             prop_assert!(off_axis.abs() < 4e-16 / (1.0 - s2) + 1e-15);
             prop_assert!((svd.s[1] - s2).abs() < 1e-15);

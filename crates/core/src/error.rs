@@ -1,4 +1,4 @@
-//! What can be wrong with the arguments of core's constructors.
+//! Errors in the arguments of core's constructors.
 
 use thiserror::Error;
 
@@ -23,7 +23,7 @@ pub enum CoreError {
         /// Grid height in cells.
         height: usize,
     },
-    /// The number of angular samples is no multiple of 8 or too large.
+    /// The number of angular samples is not a multiple of 8, or too large.
     #[error("{samples} directions are not possible: expected a multiple of 8 from 8 to {max}", max = crate::limits::MAX_DIRECTIONS)]
     Directions {
         /// Requested number of samples.

@@ -1,14 +1,13 @@
 //! Parts of a real 2x2 tensor in closed form: its orthogonal factor and the principal axes of its symmetric part.
 
 use crate::decomposition::{Eigenvalues, half_angle};
-use crate::{Tensor2, math};
+use crate::{Conformal, Tensor2, Vector, math, quarter_turned};
 
-/// The orthogonal factor `Q = U V^T` of the polar decomposition `A = P Q` with the symmetric `P = U S U^T`: what the
-/// tensor does apart from stretching.
+/// The orthogonal factor `Q = U V^T` of the polar decomposition `A = P Q` with the symmetric `P = U S U^T`: the
+/// rotation or reflection that remains apart from stretching.
 ///
-/// With `A = [[e + f, g - h], [g + h, e - f]]` the part `(e, h)` is a multiple of a rotation, `(f, g)` one of a
-/// reflection, and `det A = e^2 + h^2 - f^2 - g^2`: the longer of both parts points to `Q` (Higham 1986, "Computing the
-/// polar decomposition", for the general case).
+/// Of the two parts of [`Conformal`], `E` is a multiple of a rotation, `F` one of a reflection, and the larger one
+/// points to `Q` (Higham 1986, "Computing the polar decomposition", for the general case).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OrthogonalFactor {
     /// `det A >= 0`: a rotation, counter-clockwise.
@@ -33,14 +32,15 @@ impl OrthogonalFactor {
         }
         let exponent = math::binary_exponent(a.max_abs());
         let [p, q, r, t] = a.components().map(|c| math::scale_by_power_of_two(c, -exponent));
-        // What rounding of the components of a file moves a determinant by.
+        // Largest effect of rounded components, as in files, on the determinant.
         let largest = p.abs().max(q.abs()).max(r.abs()).max(t.abs());
         let rounding = Eigenvalues::ROUNDING * largest * largest;
+        let Conformal { e, f } = Conformal::of(&Tensor2::new(p, q, r, t));
         // Adding 0 makes a negative zero positive: half a turn is pi, never -pi.
         if math::difference_of_products(p, t, q, r) < -rounding {
-            Self::Reflection { axis_rad: 0.5 * math::atan2(q + r + 0.0, p - t) }
+            Self::Reflection { axis_rad: 0.5 * math::atan2(f.im + 0.0, f.re) }
         } else {
-            Self::Rotation { angle_rad: math::atan2(r - q + 0.0, p + t) }
+            Self::Rotation { angle_rad: math::atan2(e.im + 0.0, e.re) }
         }
     }
 }
@@ -50,32 +50,32 @@ impl OrthogonalFactor {
 pub struct PrincipalAxes {
     /// Eigenvalues of the symmetric part in the tensor's unit, the algebraically larger first.
     pub values: [f64; 2],
-    /// Unit vector (x right, y up) of the first value, its angle in (-pi/2, pi/2]; the second axis is perpendicular.
-    /// `[1, 0]` where both values are equal and every direction is an axis.
-    pub first: [f64; 2],
+    /// Unit vector of the first value, its angle in (-pi/2, pi/2]; the second axis is perpendicular.
+    /// (1, 0) where both values are equal and every direction is an axis.
+    pub first: Vector,
 }
 
 impl PrincipalAxes {
-    /// Axes of `(a + a^T) / 2`; values that are not a number where `a` is not finite.
+    /// Axes of `(a + a^T) / 2`; the values are NaN if `a` is not finite.
     #[must_use]
     pub fn of(a: &Tensor2) -> Self {
         if a.is_zero() || !a.is_finite() {
             let l = if a.is_finite() { 0.0 } else { f64::NAN };
-            return Self { values: [l, l], first: [1.0, 0.0] };
+            return Self { values: [l, l], first: Vector::new(1.0, 0.0) };
         }
         let exponent = math::binary_exponent(a.max_abs());
         let [p, q, r, t] = a.components().map(|c| math::scale_by_power_of_two(c, -exponent));
         let [l1, l2] = Eigenvalues::of(&Tensor2::symmetric(p, 0.5 * (q + r), t)).real_parts();
         let values = [l1.max(l2), l1.min(l2)].map(|l| math::scale_by_power_of_two(l, exponent));
         // The deviator points to twice the angle of the larger value's axis.
-        let axis = half_angle(p - t, q + r);
-        Self { values, first: [axis.x, axis.y] }
+        let axis = half_angle(Conformal::of(&Tensor2::new(p, q, r, t)).f);
+        Self { values, first: Vector::new(axis.x, axis.y) }
     }
 
     /// Unit vector of the second value, a quarter turn counter-clockwise from the first.
     #[must_use]
-    pub const fn second(&self) -> [f64; 2] {
-        [-self.first[1], self.first[0]]
+    pub const fn second(&self) -> Vector {
+        quarter_turned(self.first)
     }
 }
 
@@ -122,11 +122,11 @@ mod tests {
     fn axes_of_known_tensors() {
         let shear = PrincipalAxes::of(&Tensor2::symmetric(0.0, 2.0, 0.0));
         assert_eq!(shear.values, [2.0, -2.0]);
-        assert!((shear.first[0] - shear.first[1]).abs() < 1e-15 && shear.first[0] > 0.0);
+        assert!((shear.first.x - shear.first.y).abs() < 1e-15 && shear.first.x > 0.0);
         let pressed = PrincipalAxes::of(&Tensor2::symmetric(-3.0, 0.0, -1e-20));
-        assert_eq!((pressed.values, pressed.first), ([-1e-20, -3.0], [0.0, 1.0]));
+        assert_eq!((pressed.values, pressed.first), ([-1e-20, -3.0], Vector::new(0.0, 1.0)));
         assert_eq!(PrincipalAxes::of(&Tensor2::new(0.0, -7.0, 7.0, 0.0)).values, [0.0, 0.0]);
-        assert_eq!(PrincipalAxes::of(&Tensor2::isotropic(2.0)).first, [1.0, 0.0]);
+        assert_eq!(PrincipalAxes::of(&Tensor2::isotropic(2.0)).first, Vector::new(1.0, 0.0));
         assert!(PrincipalAxes::of(&Tensor2::isotropic(f64::INFINITY)).values[0].is_nan());
         let huge = PrincipalAxes::of(&Tensor2::new(0.0, f64::MAX, f64::MAX, 0.0));
         assert_eq!(huge.values, [f64::MAX, -f64::MAX]);
@@ -149,7 +149,7 @@ mod tests {
             let t = Tensor2::new(a, b, c, d);
             let axes = PrincipalAxes::of(&t);
             prop_assert!(axes.values[0] >= axes.values[1]);
-            let part = Tensor2::from_eigen(math::atan2(axes.first[1], axes.first[0]), axes.values[0], axes.values[1]);
+            let part = Tensor2::from_eigen(math::atan2(axes.first.y, axes.first.x), axes.values[0], axes.values[1]);
             let off = part.components().into_iter().zip(t.symmetric_part().components());
             prop_assert!(off.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) < 2e-14, "{axes:?}");
             prop_assert_eq!(axes, PrincipalAxes::of(&t.transposed()));

@@ -41,13 +41,13 @@ impl<T> Field<T> {
     pub fn values_mut(&mut self) -> &mut [T] {
         &mut self.values
     }
-    /// The value at `cell`. Panics where the cell lies outside the grid.
+    /// The value at `cell`. Panics if the cell lies outside the grid.
     #[must_use]
     pub fn at(&self, cell: Cell) -> &T {
         assert!(self.grid.contains(cell), "cell {cell:?} outside {:?}", self.grid);
         &self.values[self.grid.index(cell)]
     }
-    /// A field of the same grid with every value changed by `f`.
+    /// A field on the same grid with `f` applied to every value.
     pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Field<U> {
         Field { grid: self.grid, values: self.values.iter().map(f).collect() }
     }
@@ -64,7 +64,7 @@ impl Field<Tensor2> {
         self.iter().find(|(_, t)| !t.is_finite()).map(|(c, _)| c)
     }
 
-    /// The field turned counter-clockwise by a quarter, cells and tensors together.
+    /// The field rotated by a quarter turn counter-clockwise, cells and tensors together.
     #[must_use]
     pub fn quarter_turned(&self) -> Self {
         let w = self.grid.width();

@@ -1,6 +1,6 @@
 //! Cells, their order and their neighbours.
 
-use crate::CoreError;
+use crate::{CoreError, Point};
 
 /// One cell: column `x` to the right, row `y` downwards, both from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -16,6 +16,12 @@ impl Cell {
     #[must_use]
     pub const fn new(x: usize, y: usize) -> Self {
         Self { x, y }
+    }
+
+    /// The centre of the cell.
+    #[must_use]
+    pub const fn centre(self) -> Point {
+        Point::new(self.x as f64, self.y as f64)
     }
 }
 
@@ -86,7 +92,7 @@ impl Grid {
     pub const fn is_border(&self, cell: Cell) -> bool {
         cell.x == 0 || cell.y == 0 || cell.x + 1 >= self.width || cell.y + 1 >= self.height
     }
-    /// The cell in the middle; left or above of it where a side is even.
+    /// The cell in the middle; for an even side, the one to the left of or above it.
     #[must_use]
     pub const fn centre(&self) -> Cell {
         Cell { x: (self.width - 1) / 2, y: (self.height - 1) / 2 }

@@ -2,10 +2,10 @@
 
 use crate::{Cell, CoreError};
 
-/// What a reflecting cell does to the light that arrives: an 8 x 8 matrix of shares from 0 to 1.
+/// The reflection of arriving light by a cell: an 8 x 8 matrix of shares from 0 to 1.
 ///
 /// A cell with a tensor passes its light on in a shape of its own and therefore normalises it (eq. 3.12). A wall does
-/// the same to whatever arrives: it is linear, its columns add up to its reflectance, and what is missing to 1 is
+/// the same to all arriving light: it is linear, its columns add up to its reflectance, and what is missing to 1 is
 /// absorbed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reflection {
@@ -49,7 +49,7 @@ impl Reflection {
     }
 }
 
-/// What light meets in a cell of a scene that is not empty.
+/// The surface of a non-empty cell of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Surface {
     /// Passes nothing on.
@@ -63,18 +63,18 @@ pub enum Surface {
     Crystal,
     /// Sends light back as a mirror does.
     Mirror {
-        /// Direction of its line, degrees from 0 to 180; `None` where it faces whatever light arrives.
+        /// Direction of its line, degrees from 0 to 180; `None` if it faces all arriving light.
         angle_deg: Option<f64>,
     },
     /// Sends light back to its side in all directions, as a diffuse wall does.
     Diffuse {
-        /// Direction of its line, degrees from 0 to 180; `None` where it faces whatever light arrives.
+        /// Direction of its line, degrees from 0 to 180; `None` if it faces all arriving light.
         angle_deg: Option<f64>,
     },
 }
 
 impl Surface {
-    /// Whether it is that of a wall: no light passes through, and none can be put in.
+    /// Whether it is a wall: no light passes through, and no source can lie in it.
     #[must_use]
     pub const fn is_wall(&self) -> bool {
         match self {
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_wall_never_sends_back_more_than_arrives() {
+    fn a_wall_never_reflects_more_than_arrives() {
         let mut shares = [[0.0; 8]; 8];
         shares[2][6] = 0.75;
         shares[1][6] = 0.25;

@@ -1,6 +1,6 @@
-//! What computations leave behind. Drawing and writing depend on these types, not on the algorithms.
+//! Results of computations. Drawing and writing depend on these types, not on the algorithms.
 
-use crate::{Cell, Directions, Field, Grid};
+use crate::{Cell, Directions, Field, Grid, Vector};
 
 /// Why a propagation ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub struct LightDistribution {
 
 impl LightDistribution {
     /// Assembles a distribution: `samples[cell * S + t]` is the radiant intensity (W/rad) of a cell, row-major;
-    /// `incoming[cell][k]` the radiant flux (W) that its last step brought along direction `k`. Panics where the
+    /// `incoming[cell][k]` the radiant flux (W) that its last step brought along direction `k`. Panics if the
     /// sizes do not fit: both come from one engine.
     #[must_use]
     pub fn new(directions: Directions, samples: Vec<f64>, incoming: Field<[f64; 8]>) -> Self {
@@ -78,12 +78,15 @@ impl LightDistribution {
         let energy = self.energy();
         energy.values().chunks(self.grid.width()).map(|row| row.iter().sum::<f64>()).sum()
     }
-    /// Net radiant flux vector of each cell, W: the incoming fluxes times their unit vectors (x right, y up).
+    /// Net radiant flux vector of each cell, W: the sum of the incoming fluxes times their unit vectors.
     #[must_use]
-    pub fn net_flux(&self) -> Field<[f64; 2]> {
+    pub fn net_flux(&self) -> Field<Vector> {
         self.incoming.map(|a| {
             let r = core::f64::consts::FRAC_1_SQRT_2;
-            [a[0] - a[4] + r * (a[1] - a[3] - a[5] + a[7]), a[2] - a[6] + r * (a[1] + a[3] - a[5] - a[7])]
+            Vector::new(
+                a[0] - a[4] + r * (a[1] - a[3] - a[5] + a[7]),
+                a[2] - a[6] + r * (a[1] + a[3] - a[5] - a[7]),
+            )
         })
     }
 }
@@ -121,7 +124,7 @@ pub struct LtgVolume {
 }
 
 impl LtgVolume {
-    /// Assembles a volume; `values[(i * height + y) * width + x]` belongs to direction `slices[i]`. Panics where the
+    /// Assembles a volume; `values[(i * height + y) * width + x]` belongs to direction `slices[i]`. Panics if the
     /// sizes do not fit or `slices` is not ascending.
     #[must_use]
     pub fn new(grid: Grid, directions: Directions, slices: Vec<usize>, values: Vec<f64>) -> Self {
@@ -217,7 +220,7 @@ mod tests {
         a[2] = 2.0;
         let field = Field::from_values(g, vec![a]).expect("a field");
         let light = LightDistribution::new(d, vec![0.5; 8], field);
-        assert_eq!(light.net_flux().values(), [[0.0, 2.0]]);
+        assert_eq!(light.net_flux().values(), [Vector::new(0.0, 2.0)]);
         assert!((light.total_energy() - std::f64::consts::PI).abs() < 1e-15);
     }
 }

@@ -1,6 +1,6 @@
 //! Statistics of samples.
 
-/// Pearson's correlation of pairs; `None` where one of the two is constant, or where there is no pair.
+/// Pearson's correlation of pairs; `None` if one of the two is constant or there are no pairs.
 #[must_use]
 pub fn pearson(pairs: &[(f64, f64)]) -> Option<f64> {
     let n = pairs.len() as f64;

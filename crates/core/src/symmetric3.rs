@@ -55,9 +55,9 @@ fn rotate(a: &mut [[f64; 3]; 3], p: usize, q: usize) {
     (a[p][r], a[q][r]) = (a[r][p], a[r][q]);
 }
 
-/// Fractional anisotropy of three eigenvalues, from 0 to 1 where none is negative: the norm of the deviator over the
-/// norm of the tensor, times sqrt(3/2) (Basser and Pierpaoli 1996). 0 for the zero tensor, not a number where an
-/// eigenvalue is infinite or none.
+/// Fractional anisotropy of three eigenvalues, from 0 to 1 if none is negative: the norm of the deviator over the
+/// norm of the tensor, times sqrt(3/2) (Basser and Pierpaoli 1996). 0 for the zero tensor, NaN if an
+/// eigenvalue is infinite or NaN.
 #[must_use]
 pub fn fractional_anisotropy3(l: [f64; 3]) -> f64 {
     if !l.iter().all(|v| v.is_finite()) {
@@ -74,7 +74,7 @@ pub fn fractional_anisotropy3(l: [f64; 3]) -> f64 {
 
 /// Mode of three eigenvalues, from -1 (one small, planar) over 0 (orthotropic) to 1 (one large, linear): the
 /// determinant of the deviator of norm 1, times 3 sqrt(6) (Criscione et al. 2000; Ennis and Kindlmann 2006). 0 for
-/// isotropic tensors, not a number where an eigenvalue is infinite or none.
+/// isotropic tensors, NaN if an eigenvalue is infinite or NaN.
 #[must_use]
 pub fn mode3(l: [f64; 3]) -> f64 {
     if !l.iter().all(|v| v.is_finite()) {
@@ -88,7 +88,7 @@ pub fn mode3(l: [f64; 3]) -> f64 {
     let mean = (scaled[0] + scaled[1] + scaled[2]) / 3.0;
     let [a, b, c] = scaled.map(|v| v - mean);
     let norm = (a * a + b * b + c * c).sqrt();
-    // What is left of an isotropic tensor is rounding, which has no mode.
+    // The deviator of an isotropic tensor is a rounding error, which has no mode.
     if norm <= 8.0 * f64::EPSILON {
         return 0.0;
     }
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn invariants_of_no_number_are_none() {
+    fn invariants_of_nan_are_nan() {
         for l in [[f64::NAN; 3], [1.0, f64::NAN, 0.0], [f64::INFINITY, 1.0, 0.0]] {
             assert!(fractional_anisotropy3(l).is_nan() && mode3(l).is_nan(), "{l:?}");
         }

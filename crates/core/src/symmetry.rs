@@ -18,7 +18,7 @@ impl Symmetry {
     /// A field is symmetric below this [`Symmetry::ratio`]. Single precision leaves 1e-7 and text of four digits 1e-4;
     /// the rotation of a measured flow, or of a field made of rotations times axes, is some tenths.
     pub const SYMMETRIC_BELOW: f64 = 1e-3;
-    /// A tensor is symmetric where `|xy - yx|` is at most this part of the largest component of its field: a hundred
+    /// A tensor is symmetric if `|xy - yx|` is at most this fraction of the largest component of its field: a hundred
     /// times the rounding of single precision.
     pub const ROUNDING: f64 = 1e-5;
 
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn rounding_of_a_cell_does_not_decide() {
+    fn rounding_in_one_cell_does_not_affect_symmetry() {
         for off in [2e-9, 1e-7, 1e-4, 1e-2] {
             let rounded = field(|c| {
                 let more = if c == Cell::new(3, 4) { off } else { 0.0 };
@@ -108,8 +108,8 @@ mod tests {
     }
 
     #[test]
-    fn tensors_are_measured_by_their_field() {
-        // Nearly nothing beside a large tensor: its shear components are what rounding left.
+    fn symmetry_of_a_tensor_is_relative_to_its_field() {
+        // Tiny beside a large tensor: the asymmetry of its shear components is rounding.
         let weak = Tensor2::new(1e-6, 3e-7, -2e-7, 0.0);
         let all = field(|c| if c == Cell::new(0, 0) { weak } else { Tensor2::symmetric(3.0, 1.0, 0.5) });
         let symmetry = Symmetry::of(&all);
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_says_nothing() {
+    fn non_finite_tensors_do_not_affect_symmetry() {
         for bad in [f64::NAN, f64::INFINITY] {
             let broken = Tensor2::new(bad, 0.0, 1.0, 0.0);
             let all = field(|c| if c.x == 0 { broken } else { Tensor2::new(2.0, 1.0 + 1e-9, 1.0, 0.0) });

@@ -10,8 +10,8 @@ use nalgebra::Matrix2;
 ///   | yx  yy |     column = direction it acts on
 /// ```
 ///
-/// Components live in the frame x right, y up. Entries may be anything a file holds; [`Tensor2::is_finite`] tells
-/// whether the decompositions mean something.
+/// Components live in the frame x right, y up. Entries may be anything a file holds; the decompositions
+/// are meaningful if [`Tensor2::is_finite`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tensor2 {
     m: [[f64; 2]; 2],
@@ -145,7 +145,7 @@ impl Tensor2 {
         self.components().iter().all(|&c| c == 0.0)
     }
 
-    /// The same tensor seen from a frame turned so that the old +x axis becomes +y (a quarter turn counter-clockwise).
+    /// The tensor rotated by a quarter turn counter-clockwise: what acted along +x acts along +y.
     #[must_use]
     pub const fn quarter_turned(&self) -> Self {
         Self::new(self.m[1][1], -self.m[1][0], -self.m[0][1], self.m[0][0])
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn four_quarter_turns_are_none() {
+    fn four_quarter_turns_are_the_identity() {
         let t = Tensor2::new(1.0, 2.0, 3.0, 4.0);
         let turned = t.quarter_turned().quarter_turned().quarter_turned().quarter_turned();
         assert_eq!(turned, t);

@@ -51,7 +51,7 @@ impl Shape {
             return Self { samples, s1 };
         }
         let q = svd.axis_ratio();
-        let [ux, uy] = svd.major();
+        let [ux, uy] = svd.major().to_array();
         for i in 0..n / 2 {
             let [wx, wy] = directions.unit(i);
             // Cosine and sine of the angle to the major semi-axis.

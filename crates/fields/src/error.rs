@@ -1,4 +1,4 @@
-//! What can be wrong with a field's name, arguments or expressions.
+//! Errors in the name, arguments or expressions of a field.
 
 use crate::nearest::did_you_mean;
 use crate::{ExpressionError, ParameterKind};
@@ -26,7 +26,7 @@ pub enum FieldError {
         /// Keys it has.
         known: Vec<&'static str>,
     },
-    /// A value that is no number, not finite, or out of range.
+    /// A value that is not a number, not finite, or out of range.
     #[error("parameter `{parameter}` of field `{generator}` is `{text}`: expected {expected}")]
     InvalidValue {
         /// Generator asked for.
@@ -35,7 +35,7 @@ pub enum FieldError {
         parameter: &'static str,
         /// Value given.
         text: String,
-        /// What the parameter accepts.
+        /// The accepted values.
         expected: ParameterKind,
     },
     /// The same key twice.
@@ -80,7 +80,7 @@ pub enum FieldError {
     Expression {
         /// Which one: `phi`, `s1`, `s2`, `xx`, `xy`, `yx` or `yy`.
         expression: &'static str,
-        /// Where and why.
+        /// The error and its position.
         #[source]
         error: ExpressionError,
     },

@@ -3,11 +3,11 @@
 use crate::{Expression, FieldError, MAX_SIDE};
 use tigereye_core::{Cell, Field, Grid, Tensor2, math};
 
-/// A field whose tensors are formulas of the place.
+/// A field whose tensors are formulas of the position.
 ///
 /// | variable | meaning |
 /// | --- | --- |
-/// | `x`, `y` | place relative to the middle, -1 to 1 from rim to rim of each side, `y` **up**; 0 along a side of one cell |
+/// | `x`, `y` | position relative to the middle, -1 to 1 from edge to edge of each side, `y` **up**; 0 along a side of one cell |
 /// | `i`, `j` | column and row, from 0, row 0 on top |
 /// | `n` | width in cells |
 /// | `r`, `theta` | `hypot(x, y)` and `atan2(y, x)` |
@@ -21,7 +21,7 @@ pub struct ExpressionField {
     pub form: Form,
 }
 
-/// The formulas of a tensor, as text; see [`crate::expression`] for what they may hold.
+/// The formulas of a tensor, as text; see [`crate::expression`] for their syntax.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Form {
     /// A rotation by `phi` times `diag(s1, s2)`, as [`Tensor2::from_axes`]: a semi-axis of length `s1` in direction
@@ -92,7 +92,7 @@ fn each_cell(
     grid.iter().map(|cell| tensor(cell, &variables(grid, cell))).collect()
 }
 
-/// Values of [`ExpressionField::VARIABLES`] in a cell.
+/// Values of [`ExpressionField::VARIABLES`] at a cell.
 #[must_use]
 pub fn variables(grid: Grid, cell: Cell) -> [f64; 7] {
     // Twice the distance from the middle over the side: both exact, so that mirrored cells have opposite values.

@@ -1,17 +1,17 @@
-//! What a generator of test fields is, and what it sees: arguments checked and completed.
+//! Generators of test fields, and the settings they receive: arguments checked and completed.
 
 use crate::parameter::SIZES;
 use crate::{Arguments, FieldError, Known, Parameter};
 use tigereye_core::{Field, Grid, Tensor2};
 
-/// A test field: what it is, what it can be told, and what is known about it.
+/// A test field: its name and source, its parameters, and what is known about it.
 #[derive(Debug)]
 pub struct Generator {
     /// Name, unique.
     pub name: &'static str,
     /// One line on what the field shows.
     pub summary: &'static str,
-    /// Where it comes from.
+    /// Its source.
     pub source: &'static str,
     /// Parameters besides `size`, `width` and `height`; see [`Generator::parameters`].
     pub own_parameters: &'static [Parameter],

@@ -1,4 +1,4 @@
-//! Where a cell lies: in index space for the thesis's fields, in a physical window for the others.
+//! Positions of cells: in index space for the thesis's fields, in a physical window for the others.
 
 use crate::{Parameter, Settings};
 use tigereye_core::{Cell, Field, Grid, Tensor2, math};
@@ -9,7 +9,7 @@ pub(crate) fn glyph(q: f64, phi_rad: f64) -> Tensor2 {
     Tensor2::from_axes(phi_rad, root, 1.0 / root)
 }
 
-/// The glyph along the vector `(dx, dy)`, the identity where it vanishes.
+/// The glyph along the vector `(dx, dy)`, the identity if it vanishes.
 pub(crate) fn glyph_along(q: f64, dy: f64, dx: f64) -> Tensor2 {
     if dx == 0.0 && dy == 0.0 { Tensor2::IDENTITY } else { glyph(q, math::atan2(dy, dx)) }
 }
@@ -40,7 +40,7 @@ impl Place {
         let last_i = (grid.width() - 1) as f64;
         Self { i: cell.x as f64, j: cell.y as f64, last_i, last_j: (grid.height() - 1) as f64 }
     }
-    /// Column relative to the middle; half-integer where the width is even.
+    /// Column relative to the middle; half-integer if the width is even.
     pub(crate) fn right_of_middle(&self) -> f64 {
         self.i - 0.5 * self.last_i
     }
@@ -82,7 +82,7 @@ impl Place {
     }
 }
 
-/// A field whose tensors are functions of the place in index space.
+/// A field whose tensors are functions of the position in index space.
 pub(crate) fn index_field(settings: &Settings, tensor: impl Fn(&Place) -> Tensor2) -> Field<Tensor2> {
     let grid = settings.grid();
     Field::from_fn(grid, |cell| tensor(&Place::new(grid, cell)))

@@ -23,7 +23,6 @@ mod nearest;
 mod noise;
 mod parameter;
 mod registry;
-mod splitmix;
 
 pub use arguments::{Arguments, FieldSpec, parse_spec};
 pub use error::FieldError;

@@ -1,20 +1,19 @@
-//! Noise, as measured tensors have it.
+//! Noise, as in measured tensors.
 
-use crate::splitmix::SplitMix64;
-use tigereye_core::{Field, Symmetry, Tensor2, math};
+use tigereye_core::{Field, SplitMix64, Symmetry, Tensor2, math};
 
 /// Adds to every tensor a random one whose expected square is `share` squared times the square of the tensor itself
 /// (Frobenius norm), the same in every frame: independent normal components for tensors that are not symmetric, and the
 /// Gaussian orthogonal ensemble (the shear component has half of the variance of the others) for symmetric ones, which
-/// stay so; those of a symmetric field ([`Symmetry`]) are, whatever rounding made of them. Zero tensors stay zero. The
-/// same numbers for a seed everywhere.
+/// stay so; tensors of a symmetric field ([`Symmetry`]) count as symmetric despite rounding. Zero tensors stay zero.
+/// The numbers of a seed are the same on every platform.
 #[must_use]
 pub fn with_noise(field: &Field<Tensor2>, share: f64, seed: u64) -> Field<Tensor2> {
     let mut random = Normal { uniform: SplitMix64::new(seed), second: None };
     let symmetric = Symmetry::of(field).is_symmetric();
     field.map(|t| {
         let [xx, xy, yx, yy] = t.components();
-        // Four numbers a cell, whatever it holds: its noise does not depend on other cells.
+        // Always four numbers per cell, so that its noise does not depend on other cells.
         let n: [f64; 4] = core::array::from_fn(|_| random.next());
         let size = math::hypot(math::hypot(xx, xy), math::hypot(yx, yy));
         let noise = if symmetric || t.asymmetry() == 0.0 {
@@ -77,7 +76,7 @@ mod tests {
         }
     }
 
-    /// Turning the tensor changes no variance: that of the shear component is that of half the difference of the
+    /// Rotating the frame changes no variance: that of the shear component is that of half the difference of the
     /// others.
     #[test]
     fn noise_prefers_no_direction() {

@@ -1,4 +1,4 @@
-//! What a generator can be told: names, defaults, ranges.
+//! Parameters of generators: names, defaults, ranges.
 
 use core::fmt;
 
@@ -10,7 +10,7 @@ pub const MAX_SIDE: usize = 4096;
 pub struct Parameter {
     /// Key, as in `inverse:size=51`.
     pub name: &'static str,
-    /// Value where none is given: the number, 0 or 1 for a flag, the index for a choice.
+    /// Default value: the number, 0 or 1 for a flag, the index for a choice.
     pub default: f64,
     /// Type and range.
     pub kind: ParameterKind,
@@ -42,8 +42,8 @@ pub enum ParameterKind {
 }
 
 impl ParameterKind {
-    /// The value `text` stands for: the number, 0 or 1 for a flag, the index for a choice. `None` if it is none or out
-    /// of range; infinities and NaN are.
+    /// The value `text` stands for: the number, 0 or 1 for a flag, the index for a choice. `None` if it is invalid or
+    /// out of range; infinities and NaN are.
     #[must_use]
     pub fn parse(&self, text: &str) -> Option<f64> {
         let number = || text.parse::<f64>().ok().filter(|v| v.is_finite());
@@ -106,12 +106,12 @@ impl Parameter {
         Self { name, default: default as f64, kind: ParameterKind::Integer { min, max }, help }
     }
 
-    /// A flag, off where not given.
+    /// A flag, off by default.
     pub(crate) const fn flag(name: &'static str, help: &'static str) -> Self {
         Self { name, default: 0.0, kind: ParameterKind::Flag, help }
     }
 
-    /// A choice, the first word where not given.
+    /// A choice, the first word by default.
     pub(crate) const fn choice(
         name: &'static str,
         words: &'static [&'static str],

@@ -2,7 +2,11 @@
 
 use thiserror::Error;
 use tigereye_fields::FieldError;
-use tigereye_io::IoError;
+use tigereye_io::matrices::MatricesError;
+use tigereye_io::npy::NpyError;
+use tigereye_io::table::TableError;
+use tigereye_io::volume::{PlaneError, VolumeError};
+use tigereye_io::{ChoiceError, IoError};
 
 /// What keeps a file from being a tensor field.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -31,7 +35,7 @@ pub enum InputError {
     #[error("{}{source}{}", detached.as_ref().map_or(String::new(), |d| format!("with its data in {d}: ")), hint(source))]
     File {
         /// The reader's words.
-        source: IoError,
+        source: Box<IoError>,
         /// The data file of a header.
         detached: Option<Box<str>>,
     },
@@ -123,22 +127,48 @@ pub enum InputError {
 /// Which option helps.
 fn hint(source: &IoError) -> &'static str {
     match source {
-        IoError::PlaneNeeded { .. } => " (option --slice AXIS=INDEX)",
-        IoError::SliceNeeded { .. } => " (option --slice)",
-        IoError::AmbiguousArray { candidates } if candidates.iter().any(|c| c.contains(", ")) => {
+        IoError::Plane(PlaneError::Needed { .. }) => " (option --slice AXIS=INDEX)",
+        IoError::Plane(PlaneError::SliceNeeded { .. }) => " (option --slice)",
+        IoError::Choice(ChoiceError::Ambiguous { candidates })
+            if candidates.iter().any(|c| c.contains(", ")) =>
+        {
             " (option --array, or --components for those of several arrays)"
         }
-        IoError::AmbiguousArray { .. } => " (option --array)",
-        IoError::NoTensor { .. } => " (option --order)",
-        IoError::TooManyCells { .. } | IoError::TooManyValues { .. } => " (option --limit)",
-        IoError::NpyShape { .. } => " (option --derive for vectors and numbers)",
+        IoError::Choice(ChoiceError::Ambiguous { .. }) | IoError::Table(TableError::Times { .. }) => {
+            " (option --array)"
+        }
+        IoError::Volume(VolumeError::NoTensor { .. }) => " (option --order)",
+        // Components whose names are not understood.
+        IoError::Choice(ChoiceError::NoArray { wanted, available })
+            if wanted.starts_with("array of tensors")
+                && available.iter().filter(|a| a.ends_with("(1 component)")).count() >= 3 =>
+        {
+            " (option --components XX=NAME,YY=NAME,XY=NAME for arrays of one component each)"
+        }
+        IoError::Matrices(MatricesError::OddColumns { .. }) => {
+            " (a table, one point a line, needs a line of names such as x,y,S11,S22,S12 above the numbers)"
+        }
+        IoError::Limit(_) => " (option --limit)",
+        IoError::Npy(NpyError::Shape { .. }) => " (option --derive for vectors and numbers)",
         _ => "",
     }
 }
 
 impl From<IoError> for InputError {
     fn from(source: IoError) -> Self {
-        Self::File { source, detached: None }
+        Self::File { source: Box::new(source), detached: None }
+    }
+}
+
+impl From<VolumeError> for InputError {
+    fn from(source: VolumeError) -> Self {
+        IoError::from(source).into()
+    }
+}
+
+impl From<PlaneError> for InputError {
+    fn from(source: PlaneError) -> Self {
+        IoError::from(source).into()
     }
 }
 

@@ -2,11 +2,11 @@
 
 use crate::error::InputError;
 use crate::foreign::unreadable;
-use crate::formats::{Format, Request, format_of, is_readable};
+use crate::formats::{Format, NUMPY, Request, format_of, is_readable};
 use crate::provenance::hash_of_bytes;
 use crate::reading::{Derivation, Reading};
 use tigereye_core::math;
-use tigereye_io::volume::{Frame, Known, Lattice, PlaneChoice, TensorVolume};
+use tigereye_io::volume::{Frame, Known, Lattice, PlaneChoice, TensorVolume, World};
 use tigereye_io::{ArrayChoice, Limits, ScalarType, Wanted};
 
 /// What a data file holds.
@@ -232,6 +232,28 @@ impl TensorFile {
     /// What had to be assumed about the components, a sentence each.
     #[must_use]
     pub fn assumptions(&self) -> Vec<String> {
+        let mut all = self.assumptions_of_content();
+        all.extend(self.runs_of_rows());
+        all
+    }
+
+    /// What is assumed of planes of NumPy's arrays: their rows run downwards, while components are along the axes of a
+    /// picture.
+    fn runs_of_rows(&self) -> Option<String> {
+        let lattice = self.lattice();
+        let is_open = match &self.content {
+            Content::Tensors(volume) => volume.frame().1 == Known::Convention,
+            Content::Numbers(_) => lattice.components > 1 && !self.frame_is_given,
+        };
+        let is_plane = lattice.world == World::Absent && lattice.frame.1 == Known::Convention;
+        (NUMPY.contains(&self.kind) && is_open && is_plane).then(|| {
+            "took row 0 on top and components along x (right) and y (up); --frame voxel for components along columns and rows, y \
+             down"
+                .to_owned()
+        })
+    }
+
+    fn assumptions_of_content(&self) -> Vec<String> {
         match &self.content {
             Content::Tensors(volume) => assumptions_of_tensors(volume),
             Content::Numbers(lattice) if lattice.components > 1 && !self.frame_is_given => {
@@ -258,10 +280,16 @@ impl TensorFile {
     pub fn remarks(&self) -> Vec<String> {
         let warnings = self.lattice().warnings.iter().cloned().chain(self.warning());
         let warnings = warnings.map(|w| format!("WARNING: {w}"));
+        // Those about the order of tensors are among the remarks already; vectors have no option for it.
         let said = self.lattice().remarks.iter().cloned();
+        let of_vectors = match &self.content {
+            Content::Numbers(lattice) if lattice.components > 1 => lattice.order_remarks.clone(),
+            _ => Vec::new(),
+        };
         self.assumptions()
             .into_iter()
             .chain(said)
+            .chain(of_vectors)
             .chain(warnings)
             .chain(self.mask_elsewhere.clone())
             .collect()

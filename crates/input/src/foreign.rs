@@ -35,7 +35,11 @@ const FOREIGN: &[(&[&str], &str, &str)] = &[
         "ParaView's Resample To Image, saved as .vti, puts it on a lattice (for .frd, ccx2paraview first)",
     ),
     (&["mat"], "MATLAB's format", "scipy.io.loadmat and numpy.save write an array as .npy"),
-    (&["tif", "tiff", "jpg", "jpeg", "bmp"], "a picture", "any picture program saves it as .png"),
+    (
+        &["tif", "tiff", "jpg", "jpeg", "bmp"],
+        "a picture",
+        "any picture program saves it as .png, turned as it shows it",
+    ),
     (&["pkl", "nc", "zarr", "parquet"], "an array store", "numpy.save writes an array as .npy"),
 ];
 

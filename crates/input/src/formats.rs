@@ -2,12 +2,13 @@
 
 use crate::error::InputError;
 use tigereye_core::{Field, Tensor2};
+use tigereye_io::table::TableError;
 use tigereye_io::volume::{
     Frame, Lattice, TensorVolume, lattice_from_image, lattice_from_points, points_from_image,
 };
 use tigereye_io::{
-    ArrayChoice, ImageData, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, picture, table, vti,
-    vtp,
+    ArrayChoice, ChoiceError, ImageData, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd,
+    picture, table, vti, vtp,
 };
 
 /// A file format, known by the extensions of its files.
@@ -70,6 +71,9 @@ pub(crate) type Found = (&'static str, Lattice);
 /// Text matrices: their tensors are normalised cell by cell where nobody says otherwise.
 pub const TEXT_MATRICES: &str = "text matrices";
 
+/// NumPy's formats, whose arrays say nothing of the axes of components.
+pub(crate) const NUMPY: [&str; 2] = ["NumPy array", "NumPy archive"];
+
 /// A table, one point a line.
 const TABLE: &str = "table";
 
@@ -98,7 +102,7 @@ pub const FORMATS: &[Format] = &[
         has_names: false,
         read_as: "tensors (H, W, 2, 2) and [other shapes](../../crates/io/src/npy/mod.rs); numbers and vectors (`--derive`)",
         written_for: "light (H, W, S); gradient (S, H, W); tensors (H, W, 2, 2)",
-        read: |r| Ok(("NumPy array", npy::read_lattice(r.bytes, r.wanted)?)),
+        read: |r| Ok((NUMPY[0], npy::read_lattice(r.bytes, r.wanted)?)),
         detached: None,
         tensors: Some(TensorWriter::Plane(|field| Ok(npy::write_tensors(field)))),
     },
@@ -107,7 +111,7 @@ pub const FORMATS: &[Format] = &[
         has_names: true,
         read_as: "the same, placed by the arrays x and y beside them",
         written_for: "",
-        read: |r| Ok(("NumPy archive", npy::read_archive(r.bytes, r.array, r.wanted)?)),
+        read: |r| Ok((NUMPY[1], npy::read_archive(r.bytes, r.array, r.wanted)?)),
         detached: None,
         tensors: None,
     },
@@ -348,10 +352,12 @@ fn read_table(request: &Request<'_>) -> Result<Lattice, InputError> {
     }
     match table::read_columns(bytes, request.array, wanted) {
         // Vectors are read without names, too; of tensors nobody knows which columns they are.
-        Err(IoError::TableHeader { .. }) if table::kind(bytes) != table::Kind::Named => {
+        Err(IoError::Table(TableError::Header { .. })) if table::kind(bytes) != table::Kind::Named => {
             Err(InputError::UnnamedTable)
         }
-        Err(IoError::NoArray { .. }) if table::read_vectors(bytes).is_ok() => Err(InputError::VectorTable),
+        Err(IoError::Choice(ChoiceError::NoArray { .. })) if table::read_vectors(bytes).is_ok() => {
+            Err(InputError::VectorTable)
+        }
         other => Ok(other?),
     }
 }

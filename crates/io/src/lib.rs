@@ -13,6 +13,7 @@
 //! with a world are laid out by it ([`volume::Cut`]). VTK image data run upwards, and so do results on fields that lie
 //! somewhere; those of other fields keep row 0 first, as the published volumes do ([`Rows`]).
 
+mod array_error;
 mod convert;
 mod error;
 mod image;
@@ -30,19 +31,27 @@ mod polydata;
 pub mod pvd;
 mod scalar;
 pub mod table;
+mod text;
 pub mod volume;
 pub mod vti;
 pub mod vtp;
 mod words;
+mod write_error;
 mod xml;
 
+pub use array_error::ArrayError;
 pub(crate) use convert::choose_array;
 pub use convert::{
-    ArrayChoice, Association, LTG_ARRAY, LtgImage, PROVENANCE, Rows, SLICES, TENSOR_ARRAY, Wanted,
-    image_from_light, image_from_ltg, image_of_energy, ltg_from_image,
+    ArrayChoice, Association, ChoiceError, LTG_ARRAY, LtgImage, PROVENANCE, Rows, SLICES, TENSOR_ARRAY,
+    Wanted, image_from_light, image_from_ltg, image_of_energy, ltg_from_image,
 };
 pub use error::IoError;
 pub use image::{ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData};
-pub use limits::Limits;
+pub use inflate::DataError;
+pub use limits::{LimitError, Limits};
+pub(crate) use points::Y_UPWARDS;
 pub use polydata::{Cells, PolyData};
 pub use scalar::{ByteOrder, ScalarType};
+pub use text::TextError;
+pub use write_error::WriteError;
+pub use xml::XmlError;

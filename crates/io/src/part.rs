@@ -17,7 +17,8 @@
 //! values are sums of squared differences and the marks say for each set of directions and each inner cell whether its
 //! differences are in them. The header tells what determines both.
 
-use crate::IoError;
+mod error;
+pub use error::PartError;
 
 /// First bytes of a file.
 const MAGIC: &[u8; 8] = b"tigerprt";
@@ -63,37 +64,37 @@ pub fn write(header: &str, values: &[f64], marks: &[bool]) -> Vec<u8> {
 /// Reads a part. Sizes are compared with the bytes there before anything is allocated.
 ///
 /// # Errors
-/// [`IoError::PartField`], [`IoError::PartVersion`], [`IoError::PartLength`], [`IoError::PartChecksum`].
-pub fn read(bytes: &[u8]) -> Result<Part, IoError> {
+/// [`PartError::Field`], [`PartError::Version`], [`PartError::Length`], [`PartError::Checksum`].
+pub fn read(bytes: &[u8]) -> Result<Part, PartError> {
     if !bytes.starts_with(MAGIC) {
-        return Err(IoError::PartField { byte: 0, expected: "`tigerprt`, the first bytes of a part" });
+        return Err(PartError::Field { byte: 0, expected: "`tigerprt`, the first bytes of a part" });
     }
     let truncated =
-        IoError::PartLength { byte: bytes.len(), present: bytes.len(), declared: (START + CHECKSUM) as u128 };
+        PartError::Length { byte: bytes.len(), present: bytes.len(), declared: (START + CHECKSUM) as u128 };
     let start: &[u8; START] = bytes.first_chunk().ok_or(truncated)?;
     let version = u32::from_le_bytes([start[8], start[9], start[10], start[11]]);
     if version != VERSION {
-        return Err(IoError::PartVersion { byte: 8, found: version, expected: VERSION });
+        return Err(PartError::Version { byte: 8, found: version, expected: VERSION });
     }
     if start[12..16] != [0; 4] {
-        return Err(IoError::PartField { byte: 12, expected: "four zero bytes" });
+        return Err(PartError::Field { byte: 12, expected: "four zero bytes" });
     }
     let size = |at: usize| start[at..at + 8].iter().rev().fold(0_u64, |n, &b| n << 8 | u64::from(b));
     let [header, values, marks] = [16, 24, 32].map(|at| u128::from(size(at)));
     let declared = (START + CHECKSUM) as u128 + header + 8 * values + marks.div_ceil(8);
     if declared != bytes.len() as u128 {
         let byte = usize::try_from(declared).map_or(bytes.len(), |d| d.min(bytes.len()));
-        return Err(IoError::PartLength { byte, present: bytes.len(), declared });
+        return Err(PartError::Length { byte, present: bytes.len(), declared });
     }
     let (content, checksum) = bytes.split_at(bytes.len() - CHECKSUM);
     if blake3::hash(content).as_bytes() != checksum {
-        return Err(IoError::PartChecksum { byte: content.len() });
+        return Err(PartError::Checksum { byte: content.len() });
     }
     // All sizes are below that of the file now.
     let (header, rest) = content[START..].split_at(header as usize);
     let (values, packed) = rest.split_at(8 * values as usize);
     let header = std::str::from_utf8(header)
-        .map_err(|e| IoError::PartField { byte: START + e.valid_up_to(), expected: "a header in UTF-8" })?;
+        .map_err(|e| PartError::Field { byte: START + e.valid_up_to(), expected: "a header in UTF-8" })?;
     let number = |b: &[u8; 8]| f64::from_le_bytes(*b);
     let (values, _) = values.as_chunks();
     let count = marks as usize;
@@ -101,7 +102,7 @@ pub fn read(bytes: &[u8]) -> Result<Part, IoError> {
         packed.iter().flat_map(|byte| (0..8).map(move |i| byte >> i & 1 == 1)).collect();
     if marks[count..].contains(&true) {
         let byte = content.len() - 1;
-        return Err(IoError::PartField { byte, expected: "zeros in the bits behind the last mark" });
+        return Err(PartError::Field { byte, expected: "zeros in the bits behind the last mark" });
     }
     marks.truncate(count);
     Ok(Part { header: header.to_owned(), values: values.iter().map(number).collect(), marks })

@@ -1,7 +1,10 @@
 //! Photographs and other pictures as images of one number a pixel.
 
+mod error;
+use crate::limits::LimitError;
 use crate::volume::{Frame, Known, Lattice, World};
 use crate::{IoError, Limits, ScalarType};
+pub use error::PictureError;
 use std::io::Cursor;
 
 /// Weights of red, green and blue (ITU-R BT.709), applied to the stored values.
@@ -10,13 +13,13 @@ const LUMA: [f64; 3] = [0.2126, 0.7152, 0.0722];
 /// Columns and rows of a PNG picture, by its header alone.
 ///
 /// # Errors
-/// [`IoError::Png`].
+/// [`PictureError::Png`].
 pub fn size_of_png(bytes: &[u8]) -> Result<[usize; 2], IoError> {
     let reader = reader(bytes)?;
     Ok([reader.info().width as usize, reader.info().height as usize])
 }
 
-fn reader(bytes: &[u8]) -> Result<png::Reader<Cursor<&[u8]>>, IoError> {
+fn reader(bytes: &[u8]) -> Result<png::Reader<Cursor<&[u8]>>, PictureError> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     // Palettes and bits become bytes, a colour that stands for nothing an alpha channel.
     decoder.set_transformations(png::Transformations::EXPAND);
@@ -24,8 +27,8 @@ fn reader(bytes: &[u8]) -> Result<png::Reader<Cursor<&[u8]>>, IoError> {
 }
 
 #[allow(clippy::needless_pass_by_value, reason = "for map_err")]
-fn fault(e: png::DecodingError) -> IoError {
-    IoError::Png { problem: e.to_string() }
+fn fault(e: png::DecodingError) -> PictureError {
+    PictureError::Png { problem: e.to_string() }
 }
 
 fn luma(r: f64, g: f64, b: f64) -> f64 {
@@ -40,16 +43,16 @@ fn over_white(brightness: f64, alpha: f64) -> f64 {
 /// behind it.
 ///
 /// # Errors
-/// [`IoError::Png`], [`IoError::TooManyCells`].
+/// [`PictureError::Png`], [`LimitError::Cells`].
 pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
     let mut reader = reader(bytes)?;
     let (width, height) = (reader.info().width as usize, reader.info().height as usize);
     let (cells, limit) = (width as u128 * height as u128, Limits::default().cells);
     if cells > u128::from(limit) {
-        return Err(IoError::TooManyCells { byte: 16, cells, limit });
+        return Err(LimitError::Cells { byte: 16, cells, limit }.into());
     }
     if reader.info().interlaced {
-        return Err(IoError::Png { problem: "it is interlaced, expected plain rows".to_owned() });
+        return Err(PictureError::Png { problem: "it is interlaced, expected plain rows".to_owned() }.into());
     }
     let (mut values, mut format) = (Vec::new(), ScalarType::UInt8);
     let (colour, depth) = reader.output_color_type();
@@ -70,8 +73,9 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
             _ => p[0],
         }));
     }
+    let warnings = orientation(reader.info()).map(unapplied).into_iter().collect();
     if values.len() as u128 != cells {
-        return Err(IoError::Png { problem: "the rows do not fill the picture".to_owned() });
+        return Err(PictureError::Png { problem: "the rows do not fill the picture".to_owned() }.into());
     }
     Ok(Lattice {
         size: [width, height, 1],
@@ -89,6 +93,63 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
         component_names: Vec::new(),
         notes: vec!["brightness of a picture, 0 to 1, row 0 on top".to_owned()],
         remarks: Vec::new(),
-        warnings: Vec::new(),
+        order_remarks: Vec::new(),
+        warnings,
     })
+}
+
+/// Words for an orientation that is not applied: masks and other pictures of the same pixels would no longer fit.
+fn unapplied(orientation: u16) -> String {
+    format!(
+        "the picture's EXIF data turn or mirror it (orientation {orientation}), which is not applied: rows and columns as stored"
+    )
+}
+
+/// The orientation in the EXIF data of a picture, where it is another than that of the rows and columns as stored.
+fn orientation(info: &png::Info) -> Option<u16> {
+    exif_orientation(info.exif_metadata.as_ref()?).filter(|orientation| (2..=8).contains(orientation))
+}
+
+/// The tag `Orientation` of the first directory of EXIF data (TIFF 6.0, section 2; EXIF 2.3, section 4.6.4).
+fn exif_orientation(exif: &[u8]) -> Option<u16> {
+    const TAG: u16 = 0x0112;
+    const ENTRY: usize = 12;
+    let is_big = match exif.get(..4)? {
+        [b'M', b'M', 0, 42] => true,
+        [b'I', b'I', 42, 0] => false,
+        _ => return None,
+    };
+    let short = |at: usize| {
+        let b = [*exif.get(at)?, *exif.get(at + 1)?];
+        Some(if is_big { u16::from_be_bytes(b) } else { u16::from_le_bytes(b) })
+    };
+    let halves = [short(4)?, short(6)?].map(usize::from);
+    let directory = if is_big { halves[0] << 16 | halves[1] } else { halves[1] << 16 | halves[0] };
+    let entries = (0..usize::from(short(directory)?)).map(|i| directory + 2 + ENTRY * i);
+    // A short stands at the beginning of the entry's value.
+    entries
+        .map_while(|at| Some((at, short(at)?)))
+        .find(|(_, tag)| *tag == TAG)
+        .and_then(|(at, _)| short(at + 8))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orientations_are_found_in_both_byte_orders() {
+        let little = [
+            &b"II\x2a\x00\x08\x00\x00\x00\x02\x00"[..],
+            &[0x00, 0x01, 3, 0, 1, 0, 0, 0, 9, 0, 0, 0],
+            &[0x12, 0x01, 3, 0, 1, 0, 0, 0, 6, 0, 0, 0],
+        ];
+        let big = [&b"MM\x00\x2a\x00\x00\x00\x08\x00\x01"[..], &[0x01, 0x12, 0, 3, 0, 0, 0, 1, 0, 8, 0, 0]];
+        assert_eq!(exif_orientation(&little.concat()), Some(6));
+        assert_eq!(exif_orientation(&big.concat()), Some(8));
+        for end in 0..34 {
+            let _ = exif_orientation(&little.concat()[..end]);
+        }
+        assert_eq!(exif_orientation(b"II\x2a\x00\xff\xff\xff\xff"), None);
+    }
 }

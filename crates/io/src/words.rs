@@ -1,7 +1,7 @@
 //! Words of text with the byte each begins at.
 
-use crate::error::shortened;
-use crate::{IoError, ScalarType};
+use crate::ScalarType;
+use crate::text::{TextError, shortened};
 
 /// Words separated by ASCII blanks.
 pub(crate) struct Words<'a> {
@@ -41,7 +41,7 @@ pub(crate) fn numbers_in_text(
     start: usize,
     scalar: ScalarType,
     count: u64,
-) -> Result<Vec<f64>, IoError> {
+) -> Result<Vec<f64>, TextError> {
     let mut words = Words::new(text);
     numbers(&mut words, start, scalar, count)
 }
@@ -52,13 +52,12 @@ pub(crate) fn numbers(
     start: usize,
     scalar: ScalarType,
     count: u64,
-) -> Result<Vec<f64>, IoError> {
+) -> Result<Vec<f64>, TextError> {
     let mut values = Vec::new();
     for _ in 0..count {
         let (byte, word) = words.next().unwrap_or((words.text.len(), b""));
         let number = std::str::from_utf8(word).ok().and_then(|w| scalar.parse(w));
-        let fault =
-            || IoError::DataWord { byte: start + byte, found: shortened(word), scalar: scalar.name() };
+        let fault = || TextError::Word { byte: start + byte, found: shortened(word), scalar: scalar.name() };
         values.push(number.ok_or_else(fault)?);
     }
     Ok(values)

@@ -1,19 +1,20 @@
-//! Segments to connected lines.
+//! Joins segments into lines.
 
 use crate::Polyline;
+use tigereye_core::Point;
 
 /// No neighbour.
 const NONE: u32 = u32::MAX;
 
-/// Connects segments between `points` points, of which each has at most two: open lines first, from the end with the
-/// lower index on, then closed ones.
+/// Joins segments between `points` points, each of which belongs to at most two segments: open lines first, starting
+/// from the end with the lower index, then closed ones.
 pub(crate) fn chained(points: usize, segments: &[[u32; 2]]) -> Vec<Polyline> {
     let mut neighbours = vec![[NONE; 2]; points];
     for &[a, b] in segments {
         for (from, to) in [(a, b), (b, a)] {
-            let place = &mut neighbours[from as usize];
-            debug_assert!(place[1] == NONE, "more than two segments at a point");
-            place[usize::from(place[0] != NONE)] = to;
+            let slots = &mut neighbours[from as usize];
+            debug_assert!(slots[1] == NONE, "more than two segments at a point");
+            slots[usize::from(slots[0] != NONE)] = to;
         }
     }
     let mut seen = vec![false; points];
@@ -43,12 +44,12 @@ fn walk(neighbours: &[[u32; 2]], seen: &mut [bool], start: usize) -> Vec<u32> {
     }
 }
 
-/// Takes points away that lie where their predecessor lies, to `reach` along each axis: lines through nodes of a mesh
-/// cross several edges there. What is left of a closed line by fewer than three points is no line.
-pub(crate) fn without_repetitions(lines: &mut Vec<Polyline>, points: &[[f64; 2]], reach: f64) {
+/// Removes points that coincide with their predecessor to within `reach` along each axis: a line through a node of a
+/// mesh crosses several edges there. Lines of fewer than two points, or three if closed, are removed.
+pub(crate) fn without_repetitions(lines: &mut Vec<Polyline>, points: &[Point], reach: f64) {
     let same = |a: u32, b: u32| {
         let (p, q) = (points[a as usize], points[b as usize]);
-        (p[0] - q[0]).abs() <= reach && (p[1] - q[1]).abs() <= reach
+        (p.x - q.x).abs() <= reach && (p.y - q.y).abs() <= reach
     };
     for line in lines.iter_mut() {
         line.points.dedup_by(|a, b| same(*a, *b));
@@ -79,7 +80,7 @@ mod tests {
 
     #[test]
     fn repeated_points_are_left_out() {
-        let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
+        let points = [(0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.0, 0.0)].map(Point::from);
         let mut lines = vec![
             Polyline { points: vec![0, 1, 2, 3, 4], closed: true },
             Polyline { points: vec![1, 2], closed: false },

@@ -1,17 +1,17 @@
-//! Noise smeared along axes: line integral convolution.
+//! Line integral convolution: noise smoothed along axes.
 
 use crate::ftle::{MAX_SAMPLES_A_CELL, check_length, check_work};
 use crate::{Family, Interpolated, SamplingError, fine_grid};
 use core::f64::consts::PI;
 use rayon::prelude::*;
-use tigereye_core::{CellShape, Field, Grid, math};
+use tigereye_core::{Cell, CellShape, Field, Grid, Point, SplitMix64, Vector, math};
 
-/// How noise is smeared.
+/// Options of a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConvolutionOptions {
-    /// Samples a cell along its smaller side, see [`Self::samples_a_cell`].
+    /// Samples per cell along its smaller side, see [`Self::samples_a_cell`].
     pub samples: usize,
-    /// How far the noise is smeared to each side, in the unit of [`tigereye_core::CellShape`].
+    /// Length of the window to each side, in units of the smaller side of a cell ([`tigereye_core::CellShape`]).
     pub half_length: f64,
     /// Seed of the noise.
     pub seed: u64,
@@ -24,9 +24,8 @@ impl Default for ConvolutionOptions {
 }
 
 impl ConvolutionOptions {
-    /// Samples a cell along x and y: as many along its smaller side as are asked for, and about as far apart along the
-    /// other, at most
-    /// 64. Noise has no direction of its own then.
+    /// Samples per cell along x and y: as many as requested along the smaller side, and at about the same distance
+    /// along the other, at most 64, so that the noise is isotropic.
     #[must_use]
     pub fn samples_a_cell(&self, cell: CellShape) -> [usize; 2] {
         let most = MAX_SAMPLES_A_CELL.max(self.samples);
@@ -34,20 +33,20 @@ impl ConvolutionOptions {
     }
 }
 
-/// Steps a sample's width.
+/// Steps per width of a sample.
 const STEPS_A_SAMPLE: f64 = 2.0;
-/// Where axes differ by less than this part of the longer one there are none.
+/// Tensors whose axes differ by less than this fraction of the longer one count as isotropic.
 const LEAST: f64 = 1e-3;
 /// Standard deviation of the texture's brightness about 1/2.
 const CONTRAST: f64 = 0.2;
-/// Cosine of the largest turn within a step, 60 degrees.
-const LARGEST_TURN: f64 = 0.5;
+/// A line ends if its direction changes by more than 60 degrees within a step, so that the cosine falls below this.
+const LEAST_COSINE: f64 = 0.5;
 
-/// White noise, uniform in [0, 1), smeared along an axis with Hann's window (Cabral and Leedom, Imaging vector fields
-/// using line integral convolution, 1993), in samples finer than the cells ([`fine_grid`]). Lines end at the border and
-/// where there is no axis; what is left of the window counts whole. Brightness is stretched to a mean of 1/2 and a
-/// standard deviation of 0.2 over the field and clipped to [0, 1]. Round tensors keep their noise; zero tensors, and
-/// those that are not finite, have no brightness (not a number).
+/// White noise, uniform in [0, 1), convolved along an axis with a Hann window (Cabral and Leedom, Imaging vector fields
+/// using line integral convolution, 1993), at samples finer than the cells ([`fine_grid`]). Lines end at the border and
+/// where the axis is undefined; the remaining part of the window is normalised. Brightness is rescaled to a mean of 1/2
+/// and a standard deviation of 0.2 over the field and clipped to [0, 1]. The noise is unchanged where tensors are
+/// isotropic; brightness is NaN where they are zero or not finite.
 ///
 /// # Errors
 /// See [`SamplingError`].
@@ -59,14 +58,15 @@ pub fn convolved(
     let (grid, step) = sampled(field, options)?;
     let noise = noise(grid, options.seed);
     let walk = Walk { field, family, straight: None, step, samples: per_cell(field, options) };
-    let length = |_: [f64; 2]| options.half_length;
-    Ok(stretched(smeared(&noise, &walk, &length)))
+    let length = |_: Point| options.half_length;
+    Ok(rescaled(smoothed(&noise, &walk, &length)))
 }
 
-/// Noise smeared along both axes, along each as far as it is long: `half_length` along the longer semi-axis (or
-/// eigenvalue, by size), its share of that along the other. Round tensors blur noise alike in every direction, flat
-/// ones draw it into lines (Zheng and Pang, HyperLIC, 2003, in two passes: along the minor axis, and what that gives
-/// along the major one). A tensor without axes takes x and y for them. Brightness as in [`convolved`].
+/// Noise convolved along both axes, in proportion to their lengths: over `half_length` along the longer semi-axis (or
+/// eigenvalue of larger magnitude), and proportionally less along the other. Isotropic tensors blur the noise equally
+/// in every direction, anisotropic ones draw it out into lines (Zheng and Pang, HyperLIC, 2003: a first pass along the
+/// minor axis, a second one over its result along the major axis). The axes of an isotropic tensor are taken to be x
+/// and y. Brightness as in [`convolved`].
 ///
 /// # Errors
 /// See [`SamplingError`].
@@ -76,17 +76,19 @@ pub fn hyper_convolved(
 ) -> Result<Field<f64>, SamplingError> {
     let (grid, step) = sampled(field, options)?;
     let mut texture = noise(grid, options.seed);
-    for (family, straight) in [(Family::Minor, [0.0, 1.0]), (Family::Major, [1.0, 0.0])] {
+    for (family, straight) in
+        [(Family::Minor, Vector::new(0.0, -1.0)), (Family::Major, Vector::new(1.0, 0.0))]
+    {
         let walk = Walk { field, family, straight: Some(straight), step, samples: per_cell(field, options) };
-        let length = |at: [f64; 2]| {
+        let length = |at: Point| {
             let Some(frame) = field.frame(at, 0.0) else { return options.half_length };
             let [own, other] = [family as usize, 1 - family as usize].map(|i| frame.values[i].abs());
             let longer = own.max(other);
             if longer > 0.0 { options.half_length * own / longer } else { 0.0 }
         };
-        texture = smeared(&texture, &walk, &length);
+        texture = smoothed(&texture, &walk, &length);
     }
-    Ok(stretched(texture))
+    Ok(rescaled(texture))
 }
 
 fn sampled(field: &Interpolated<'_>, options: &ConvolutionOptions) -> Result<(Grid, f64), SamplingError> {
@@ -101,67 +103,65 @@ fn per_cell(field: &Interpolated<'_>, options: &ConvolutionOptions) -> [f64; 2] 
     options.samples_a_cell(field.cell()).map(|n| n as f64)
 }
 
-/// The same noise for a seed everywhere: every sample's number is a hash of its place (the finisher of SplitMix64,
-/// Steele, Lea and Flood 2014).
+/// White noise that depends only on the seed: the number of a sample is a hash of its column and row.
 fn noise(grid: Grid, seed: u64) -> Field<f64> {
+    // Odd, so that different seeds give different states.
+    const SEED_STEP: u64 = 0xd134_2543_de82_ef95;
     Field::from_fn(grid, |c| {
-        let place = ((c.y as u64) << 32 | c.x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        let mut z = place.wrapping_add(seed.wrapping_mul(0xd134_2543_de82_ef95));
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        let sample = ((c.y as u64) << 32 | c.x as u64).wrapping_mul(SplitMix64::STEP);
+        SplitMix64::unit_at(sample.wrapping_add(seed.wrapping_mul(SEED_STEP)))
     })
 }
 
 struct Walk<'a> {
     field: &'a Interpolated<'a>,
     family: Family,
-    /// The direction to take where there is no axis; lines end there without.
-    straight: Option<[f64; 2]>,
+    /// The direction to take where the axis is undefined; without it, lines end there.
+    straight: Option<Vector>,
     step: f64,
-    /// Samples a cell along x and y.
+    /// Samples per cell along x and y.
     samples: [f64; 2],
 }
 
 impl Walk<'_> {
-    fn direction(&self, at: [f64; 2]) -> Option<[f64; 2]> {
+    fn direction(&self, at: Point) -> Option<Vector> {
         let found = self.field.direction(at, self.family, LEAST);
         found.or_else(|| self.straight.filter(|_| self.field.at(at).is_some_and(|t| !t.is_zero())))
     }
 
-    /// A step of the midpoint rule: where it leads, and the direction there.
-    fn next(&self, at: [f64; 2], towards: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
-        let half = self.field.ahead(at, towards, 0.5 * self.step);
+    /// A step of the midpoint rule: the next point, and the direction there.
+    fn next(&self, at: Point, towards: Vector) -> Option<(Point, Vector)> {
+        let half = self.field.cell().ahead(at, towards, 0.5 * self.step);
         let middle = along(self.direction(half)?, towards)?;
-        let to = self.field.ahead(at, middle, self.step);
+        let to = self.field.cell().ahead(at, middle, self.step);
         Some((to, along(self.direction(to)?, middle)?))
     }
 
     /// The sample nearest to a point.
-    fn sample(&self, texture: &Field<f64>, at: [f64; 2]) -> f64 {
+    fn sample(&self, texture: &Field<f64>, at: Point) -> f64 {
         let grid = texture.grid();
-        let index =
-            |axis: usize, n: usize| ((at[axis] * self.samples[axis]).round().max(0.0) as usize).min(n - 1);
-        texture.values()[index(1, grid.height()) * grid.width() + index(0, grid.width())]
+        let index = |v: f64, samples: f64, n: usize| ((v * samples).round().max(0.0) as usize).min(n - 1);
+        let [per_x, per_y] = self.samples;
+        *texture.at(Cell::new(index(at.x, per_x, grid.width()), index(at.y, per_y, grid.height())))
     }
 }
 
-/// A direction with the sign of another; none where they differ by more than 60 degrees.
-fn along(d: [f64; 2], towards: [f64; 2]) -> Option<[f64; 2]> {
-    let cosine = d[0] * towards[0] + d[1] * towards[1];
-    if cosine.abs() < LARGEST_TURN {
+/// An axis with the sign that agrees with a direction; `None` if they differ by more than 60 degrees.
+fn along(d: Vector, towards: Vector) -> Option<Vector> {
+    let cosine = d.dot(towards);
+    if cosine.abs() < LEAST_COSINE {
         return None;
     }
-    Some(if cosine < 0.0 { [-d[0], -d[1]] } else { d })
+    Some(if cosine < 0.0 { -d } else { d })
 }
 
-/// The texture averaged along the lines through its samples, as far as `length` says for each.
-fn smeared(texture: &Field<f64>, walk: &Walk<'_>, length: &(dyn Fn([f64; 2]) -> f64 + Sync)) -> Field<f64> {
+/// The texture averaged along the lines through its samples, over `length` of each sample to both sides.
+fn smoothed(texture: &Field<f64>, walk: &Walk<'_>, length: &(dyn Fn(Point) -> f64 + Sync)) -> Field<f64> {
     let grid = texture.grid();
     let value = |i: usize| {
         let cell = grid.cell(i);
         let own = texture.values()[i];
-        let at = [cell.x as f64 / walk.samples[0], cell.y as f64 / walk.samples[1]];
+        let at = Point::new(cell.x as f64 / walk.samples[0], cell.y as f64 / walk.samples[1]);
         match walk.field.at(at) {
             Some(t) if !t.is_zero() => {}
             _ => return f64::NAN,
@@ -170,7 +170,7 @@ fn smeared(texture: &Field<f64>, walk: &Walk<'_>, length: &(dyn Fn([f64; 2]) -> 
         let half = length(at);
         let steps = (half / walk.step) as usize;
         let (mut sum, mut weights) = (own, 1.0);
-        for start in [start, start.map(|v| -v)] {
+        for start in [start, -start] {
             let (mut p, mut d) = (at, start);
             for k in 1..=steps {
                 let Some((to, direction)) = walk.next(p, d) else { break };
@@ -190,8 +190,8 @@ fn smeared(texture: &Field<f64>, walk: &Walk<'_>, length: &(dyn Fn([f64; 2]) -> 
     Field::from_fn(grid, |c| values[grid.index(c)])
 }
 
-/// Brightness with the usual mean and deviation.
-fn stretched(texture: Field<f64>) -> Field<f64> {
+/// Brightness rescaled to the usual mean and deviation.
+fn rescaled(texture: Field<f64>) -> Field<f64> {
     let finite = || texture.values().iter().copied().filter(|v| v.is_finite());
     let count = finite().count().max(1) as f64;
     let mean = finite().sum::<f64>() / count;
@@ -203,7 +203,7 @@ fn stretched(texture: Field<f64>) -> Field<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tigereye_core::{Cell, Tensor2};
+    use tigereye_core::Tensor2;
 
     fn field(size: [usize; 2], t: impl Fn(f64, f64) -> Tensor2) -> Field<Tensor2> {
         Field::from_fn(Grid::new(size[0], size[1]).expect("a size"), |c| t(c.x as f64, c.y as f64))
@@ -242,7 +242,7 @@ mod tests {
         let walk =
             Walk { field: &between, family: Family::Major, straight: None, step: 0.25, samples: [2.0; 2] };
         let noise = noise(fine_grid(tensors.grid(), [samples; 2]).expect("samples"), 3);
-        let found = smeared(&noise, &walk, &|_| half);
+        let found = smoothed(&noise, &walk, &|_| half);
         let grid = noise.grid();
         for cell in grid.iter() {
             let (mut sum, mut weights) = (0.0, 0.0);
@@ -291,17 +291,17 @@ mod tests {
         let n = texture.values().len() as f64;
         let mean = texture.values().iter().sum::<f64>() / n;
         let deviation = (texture.values().iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n).sqrt();
-        // Clipping takes a little of both.
+        // Clipping reduces both a little.
         assert!((mean - 0.5).abs() < 0.01 && (deviation - CONTRAST).abs() < 0.01, "{mean} {deviation}");
     }
 
     #[test]
-    fn round_tensors_keep_their_noise_and_missing_ones_have_none() {
+    fn isotropic_tensors_keep_their_noise_and_missing_ones_are_nan() {
         let round = field([100, 100], |_, _| Tensor2::IDENTITY);
         let between = Interpolated::new(&round);
         let plain = convolved(&between, Family::Major, &options(3.0, 2)).expect("samples");
-        assert_eq!(plain, stretched(noise(plain.grid(), 3)));
-        // Blurred alike in both directions.
+        assert_eq!(plain, rescaled(noise(plain.grid(), 3)));
+        // Blurred equally in both directions.
         let blurred = hyper_convolved(&between, &options(3.0, 2)).expect("samples");
         let difference = |dx: usize, dy: usize| {
             let inside = blurred.iter().filter(|(c, _)| c.x < 190 && c.y < 190);
@@ -311,8 +311,8 @@ mod tests {
         // Some thousand patches of blurred noise.
         assert!((0.9..1.1).contains(&ratio), "{ratio}");
         for t in [Tensor2::ZERO, Tensor2::isotropic(f64::NAN)] {
-            let none = field([5, 1], |_, _| t);
-            let between = Interpolated::new(&none);
+            let missing = field([5, 1], |_, _| t);
+            let between = Interpolated::new(&missing);
             for texture in [
                 convolved(&between, Family::Major, &options(3.0, 2)).expect("samples"),
                 hyper_convolved(&between, &options(3.0, 2)).expect("samples"),

@@ -1,36 +1,35 @@
-//! Points where both semi-axes are equally long, by how the axes turn around them.
+//! Degenerate points, where both semi-axes are equally long, classified by the rotation of the axes around them.
 //!
-//! A tensor is the sum of a conformal and an anticonformal map: with `F = (xx - yy) + i (xy + yx)` and `E = (xx + yy) +
-//! i (yx - xy)` the semi-axes are `(|E| + |F|) / 2` and `||E| - |F|| / 2`, and the longer one lies at `(arg E + arg F)
-//! / 2`. It has no direction where `F` or `E` is zero; going round such a point once turns it by half of the winding of
-//! that number. Symmetric tensors have a real `E`, so theirs are the zeros of `F`, the classical degenerate points
-//! (Delmarcelle and Hesselink 1994).
+//! By the two numbers of [`Conformal`], the longer semi-axis lies at `(arg E + arg F) / 2`. It has no direction where
+//! `F` or `E` is zero; on a closed path around such a point it rotates by half of the winding of that number. Symmetric
+//! tensors have a real `E`, so their degenerate points are the zeros of `F` (the classical ones of Delmarcelle and
+//! Hesselink 1994).
 
 use core::f64::consts::TAU;
-use tigereye_core::{Cell, Field, Grid, Tensor2, math};
+use tigereye_core::{Cell, Complex, Conformal, Field, Grid, Point, Tensor2, math};
 
-/// What lines do around a degenerate point.
+/// The pattern of the lines around a degenerate point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DegenerateKind {
     /// Index 1/2.
     Wedge,
     /// Index -1/2.
     Trisector,
-    /// Several of them in one place: another index, in halves.
+    /// Several of them merged: any other index, as a number of half turns.
     Merged(i32),
 }
 
-/// A point without axes.
+/// A point at which the axes are undefined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DegeneratePoint {
-    /// Where, in cells (y downwards).
-    pub position: [f64; 2],
-    /// What it is.
+    /// Where it is.
+    pub position: Point,
+    /// Its type.
     pub kind: DegenerateKind,
 }
 
 impl DegeneratePoint {
-    /// Half turns of the axes, counter-clockwise, on a counter-clockwise way around the point: twice the index.
+    /// Half turns of the axes, counter-clockwise, on a counter-clockwise path around the point: twice the index.
     #[must_use]
     pub const fn half_turns(&self) -> i32 {
         match self.kind {
@@ -41,48 +40,39 @@ impl DegeneratePoint {
     }
 }
 
-/// Numbers below this part of their tensor's largest component are zero: what rounding leaves.
+/// Numbers below this fraction of their tensor's largest component count as zero: they are rounding errors.
 const ROUNDING: f64 = 1e-12;
 
 /// All degenerate points between the centres of cells, row by row, of tensors interpolated component by component.
-/// Where whole cells are isotropic, connected ones are one point in their middle, with the index of the way around
-/// them; those at the border, whose way leaves the field, are left out, and so are points and lines around which the
-/// axes do not turn.
+/// A connected region of isotropic cells is one point at its centre, with the index of the path around the region.
+/// Regions at the border, around which no path lies inside the field, are omitted, as are points and lines of index 0.
 #[must_use]
 pub fn degenerate_points(field: &Field<Tensor2>) -> Vec<DegeneratePoint> {
-    zeros(field, &[field.map(anticonformal), field.map(conformal)])
+    zeros(field, &[field.map(|t| Conformal::of(t).f), field.map(|t| Conformal::of(t).e)])
 }
 
-/// The points where eigenvectors, and dual eigenvectors, have no direction: where nothing stretches.
+/// The degenerate points of eigenvectors and dual eigenvectors: the zeros of the stretching `F`.
 pub(crate) fn points_of_stretching(field: &Field<Tensor2>) -> Vec<DegeneratePoint> {
-    zeros(field, &[field.map(anticonformal)])
+    zeros(field, &[field.map(|t| Conformal::of(t).f)])
 }
 
-fn conformal(t: &Tensor2) -> [f64; 2] {
-    [t.xx() + t.yy(), t.yx() - t.xy()]
-}
-
-fn anticonformal(t: &Tensor2) -> [f64; 2] {
-    [t.xx() - t.yy(), t.xy() + t.yx()]
-}
-
-fn zeros(field: &Field<Tensor2>, numbers: &[Field<[f64; 2]>]) -> Vec<DegeneratePoint> {
+fn zeros(field: &Field<Tensor2>, numbers: &[Field<Complex<f64>>]) -> Vec<DegeneratePoint> {
     let grid = field.grid();
     if grid.width() < 2 || grid.height() < 2 {
         return Vec::new();
     }
     let mut found: Vec<DegeneratePoint> = numbers.iter().flat_map(|n| Plane::new(field, n).zeros()).collect();
     found.sort_by(|a, b| {
-        let key = |p: &DegeneratePoint| (p.position[1], p.position[0]);
+        let key = |p: &DegeneratePoint| (p.position.y, p.position.x);
         key(a).partial_cmp(&key(b)).unwrap_or(core::cmp::Ordering::Equal)
     });
     found
 }
 
-/// A complex number in every cell.
+/// One complex number per cell.
 struct Plane<'a> {
     grid: Grid,
-    numbers: &'a Field<[f64; 2]>,
+    numbers: &'a Field<Complex<f64>>,
     /// Whether the number of a cell is zero.
     zero: Vec<bool>,
 }
@@ -92,8 +82,8 @@ struct Plane<'a> {
 const CORNERS: [(usize, usize); 4] = [(0, 1), (1, 1), (1, 0), (0, 0)];
 
 impl<'a> Plane<'a> {
-    fn new(field: &Field<Tensor2>, numbers: &'a Field<[f64; 2]>) -> Self {
-        let is_zero = |(z, t): (&[f64; 2], &Tensor2)| math::hypot(z[0], z[1]) <= ROUNDING * t.max_abs();
+    fn new(field: &Field<Tensor2>, numbers: &'a Field<Complex<f64>>) -> Self {
+        let is_zero = |(z, t): (&Complex<f64>, &Tensor2)| math::hypot(z.re, z.im) <= ROUNDING * t.max_abs();
         let zero = numbers.values().iter().zip(field.values()).map(is_zero).collect();
         Self { grid: field.grid(), numbers, zero }
     }
@@ -102,20 +92,21 @@ impl<'a> Plane<'a> {
         CORNERS.map(|(dx, dy)| Cell::new(quad.x + dx, quad.y + dy))
     }
 
-    /// Magnitude of a cell's number, 0 where it is rounding.
+    /// Magnitude of a cell's number, 0 if it is a rounding error.
     fn size(&self, cell: Cell) -> f64 {
-        let [a, b] = *self.numbers.at(cell);
-        if self.is_zero(cell) { 0.0 } else { math::hypot(a, b) }
+        let z = self.numbers.at(cell);
+        if self.is_zero(cell) { 0.0 } else { math::hypot(z.re, z.im) }
     }
 
-    /// By how much the argument grows from one cell to the next, the short way; `None` where there is none.
+    /// Change of the argument from one cell to the next along the shorter arc; `None` if neither arc is shorter.
     fn turn(&self, from: Cell, to: Cell) -> Option<f64> {
         if self.is_zero(from) || self.is_zero(to) {
             return None;
         }
-        let ([a, b], [c, d]) = (*self.numbers.at(from), *self.numbers.at(to));
-        let (cross, dot) = (a * d - b * c, a * c + b * d);
-        // Half a circle has no short way: real numbers of both signs, which are zero along lines and not in points.
+        let (a, b) = (self.numbers.at(from), self.numbers.at(to));
+        let (cross, dot) = (a.re * b.im - a.im * b.re, a.re * b.re + a.im * b.im);
+        // Opposite numbers have no shorter arc: real numbers of both signs, which vanish on lines rather than at
+        // points.
         let opposite = cross.abs() <= ROUNDING * dot.abs() && dot < 0.0;
         let angle = math::atan2(cross, dot);
         (angle.is_finite() && !opposite).then_some(angle)
@@ -125,7 +116,7 @@ impl<'a> Plane<'a> {
         self.zero[self.grid.index(cell)]
     }
 
-    /// Quads that share an edge without a short way are taken together: the number vanishes on that edge.
+    /// Quads are merged across an edge on which [`Self::turn`] is undefined: the number vanishes on that edge.
     fn zeros(&self) -> Vec<DegeneratePoint> {
         let mut found = Vec::new();
         let mut seen = vec![false; self.grid.cells()];
@@ -140,7 +131,7 @@ impl<'a> Plane<'a> {
         found
     }
 
-    /// The quad beyond each edge, if there is one: below, to the right, above, to the left.
+    /// The neighbouring quad across each edge, if it exists: below, right, above, left.
     fn beyond(&self, quad: Cell) -> [Option<Cell>; 4] {
         [
             (quad.y + 2 < self.grid.height()).then(|| Cell::new(quad.x, quad.y + 1)),
@@ -150,17 +141,18 @@ impl<'a> Plane<'a> {
         ]
     }
 
-    /// The point in a quad and those taken together with it, if the way around them lies inside and turns.
+    /// The degenerate point of a quad and those merged with it, if the path around them lies inside the field and its
+    /// index is not 0.
     fn around(&self, first: Cell, seen: &mut [bool]) -> Option<DegeneratePoint> {
         let mut quads = vec![first];
         let (mut total, mut next, mut leaves) = (0.0, 0, false);
-        // Where the number vanishes on edges.
-        let (mut middle, mut count) = ([0.0; 2], 0.0);
+        // Sum and count of the zeros on edges.
+        let (mut middle, mut count) = (Point::zero(), 0.0);
         while next < quads.len() {
             let corners = self.corners(quads[next]);
             for (i, beyond) in self.beyond(quads[next]).into_iter().enumerate() {
                 let (from, to) = (corners[i], corners[(i + 1) % 4]);
-                // Edges between two quads of the way cancel.
+                // Edges between two merged quads are traversed in both directions and cancel.
                 if let Some(turn) = self.turn(from, to) {
                     total += turn;
                     continue;
@@ -169,8 +161,8 @@ impl<'a> Plane<'a> {
                 // Paths around cells that are not finite are undefined.
                 leaves |= !(a + b).is_finite();
                 let t = if a + b > 0.0 { a / (a + b) } else { 0.5 };
-                middle[0] += (1.0 - t) * from.x as f64 + t * to.x as f64;
-                middle[1] += (1.0 - t) * from.y as f64 + t * to.y as f64;
+                middle.x += (1.0 - t) * from.x as f64 + t * to.x as f64;
+                middle.y += (1.0 - t) * from.y as f64 + t * to.y as f64;
                 count += 1.0;
                 match beyond {
                     None => leaves = true,
@@ -187,13 +179,16 @@ impl<'a> Plane<'a> {
         if leaves || half_turns == 0 {
             return None;
         }
-        let position = if count > 0.0 { middle.map(|v| v / count) } else { self.zero_in(first) };
+        let position = if count > 0.0 { middle / count } else { self.zero_in(first) };
         Some(DegeneratePoint { position, kind: kind_of(half_turns) })
     }
 
-    /// Where the bilinear number vanishes in a quad, by Newton's method; the middle where it does not get there.
-    fn zero_in(&self, quad: Cell) -> [f64; 2] {
-        let at = |dx: usize, dy: usize| *self.numbers.at(Cell::new(quad.x + dx, quad.y + dy));
+    /// The zero of the bilinear number in a quad, by Newton's method; the centre of the quad if it does not converge.
+    fn zero_in(&self, quad: Cell) -> Point {
+        let at = |dx: usize, dy: usize| {
+            let z = self.numbers.at(Cell::new(quad.x + dx, quad.y + dy));
+            [z.re, z.im]
+        };
         let (a, b, c, d) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1));
         // p + q u + r v + s u v
         let coefficients = [0, 1].map(|i| (a[i], b[i] - a[i], c[i] - a[i], a[i] - b[i] - c[i] + d[i]));
@@ -211,11 +206,11 @@ impl<'a> Plane<'a> {
         };
         let starts = [[0.5, 0.5], [0.1, 0.1], [0.9, 0.1], [0.1, 0.9], [0.9, 0.9]];
         let [u, v] = starts.into_iter().find_map(newton).unwrap_or([0.5; 2]);
-        [quad.x as f64 + u, quad.y as f64 + v]
+        Point::new(quad.x as f64 + u, quad.y as f64 + v)
     }
 }
 
-/// Turns of a number by whole circles turn the axes by half circles.
+/// A full turn of the number is half a turn of the axes.
 fn half_turns_of(angle: f64) -> i32 {
     (angle / TAU).round() as i32
 }
@@ -232,8 +227,8 @@ const fn kind_of(half_turns: i32) -> DegenerateKind {
 mod tests {
     use super::*;
     use core::f64::consts::PI;
-    use tigereye_core::Svd;
-    use tigereye_test_support::{Random, field};
+    use tigereye_core::{SplitMix64, Svd};
+    use tigereye_test_support::field;
 
     fn points(spec: &str) -> Vec<DegeneratePoint> {
         degenerate_points(&field(spec))
@@ -252,9 +247,12 @@ mod tests {
             assert_eq!(found[0].kind, kind, "{spec}");
             let side: f64 = if spec.ends_with("20") { 20.0 } else { 21.0 };
             let middle = 0.5 * (side - 1.0);
-            assert!(found[0].position.iter().all(|v| (v - middle).abs() < 1e-9), "{spec}: {found:?}");
+            assert!(
+                found[0].position.to_array().iter().all(|v| (v - middle).abs() < 1e-9),
+                "{spec}: {found:?}"
+            );
         }
-        // A rotation times a diagonal matrix is not symmetric: both of its numbers turn, each by its own point.
+        // A rotation times a diagonal matrix is not symmetric: both of its numbers have zeros of their own.
         for (spec, half_turns) in [("inverse:size=21", -2), ("star:size=21", 2), ("rings:size=21", 2)] {
             let found = points(spec);
             assert_eq!(
@@ -262,9 +260,9 @@ mod tests {
                 half_turns,
                 "{spec}: {found:?}"
             );
-            assert!(found.iter().all(|p| (p.position[0] - 10.0).abs() < 1.0), "{spec}: {found:?}");
+            assert!(found.iter().all(|p| (p.position.x - 10.0).abs() < 1.0), "{spec}: {found:?}");
         }
-        // What the pictures show: their ellipses.
+        // The ellipses, which pictures show, have one common point.
         for (spec, half_turns) in [
             ("inverse:size=21", -2),
             ("star:size=21", 2),
@@ -275,14 +273,18 @@ mod tests {
             let ellipses = crate::ellipse_tensors(&field(spec));
             let found = degenerate_points(&ellipses);
             assert_eq!(found.len(), 1, "{spec}: {found:?}");
-            assert_eq!((found[0].position, found[0].half_turns()), ([10.0, 10.0], half_turns), "{spec}");
+            assert_eq!(
+                (found[0].position, found[0].half_turns()),
+                (Point::new(10.0, 10.0), half_turns),
+                "{spec}"
+            );
         }
-        for none in ["x:size=9", "isotropic:size=9", "step:size=15", "cross_x:size=15", "drain:size=20"] {
-            assert_eq!(points(none), [], "{none}");
+        for spec in ["x:size=9", "isotropic:size=9", "step:size=15", "cross_x:size=15", "drain:size=20"] {
+            assert_eq!(points(spec), [], "{spec}");
         }
     }
 
-    /// Points are found between the cells, where linear components vanish.
+    /// Points between cells are exact if the components are linear.
     #[test]
     fn positions_are_exact_for_linear_components() {
         let field = Field::from_fn(Grid::new(12, 9).expect("a size"), |c| {
@@ -292,15 +294,15 @@ mod tests {
         let found = degenerate_points(&field);
         assert_eq!(found.len(), 1);
         assert!(
-            (found[0].position[0] - 6.3).abs() < 1e-9 && (found[0].position[1] - 4.45).abs() < 1e-9,
+            (found[0].position.x - 6.3).abs() < 1e-9 && (found[0].position.y - 4.45).abs() < 1e-9,
             "{found:?}"
         );
     }
 
-    /// How often the axes turn along the border is what the points inside add up to, symmetric or not.
+    /// The rotation of the axes along the border is the sum of the indices inside, for symmetric tensors and others.
     #[test]
     fn indices_add_up_to_that_of_the_border() {
-        let mut numbers = Random::seeded(11);
+        let mut numbers = SplitMix64::new(11);
         let mut random = move || numbers.unit() - 0.5;
         let mut with_points = 0;
         for round in 0..40 {
@@ -317,20 +319,20 @@ mod tests {
                         + v * ((1.0 - u) * at(i, j + 1) + u * at(i + 1, j + 1))
                 };
                 let (xy, yx) = (mix(1), mix(2));
-                // Symmetric ones positive: along a line of zero trace both axes are equally long too.
+                // Symmetric ones are positive: both semi-axes are also equally long along a line of zero trace.
                 let more = if symmetric { 2.0 } else { 0.0 };
                 Tensor2::new(more + mix(0), xy, if symmetric { xy } else { yx }, more + mix(3))
             });
             let phi = |x: usize, y: usize| Svd::of(field.at(Cell::new(x, y))).phi_rad();
-            let mut way: Vec<f64> = (0..160).map(|x| phi(x, 160)).collect();
-            way.extend((0..160).map(|y| phi(160, 160 - y)));
-            way.extend((0..160).map(|x| phi(160 - x, 0)));
-            way.extend((0..160).map(|y| phi(0, y)));
+            let mut path: Vec<f64> = (0..160).map(|x| phi(x, 160)).collect();
+            path.extend((0..160).map(|y| phi(160, 160 - y)));
+            path.extend((0..160).map(|x| phi(160 - x, 0)));
+            path.extend((0..160).map(|y| phi(0, y)));
             let turn = |i: usize| {
-                let off = way[(i + 1) % way.len()] - way[i];
+                let off = path[(i + 1) % path.len()] - path[i];
                 off - PI * (off / PI).round()
             };
-            let border = ((0..way.len()).map(turn).sum::<f64>() / PI).round() as i32;
+            let border = ((0..path.len()).map(turn).sum::<f64>() / PI).round() as i32;
             let inside: i32 = degenerate_points(&field).iter().map(DegeneratePoint::half_turns).sum();
             assert_eq!(inside, border, "round {round}");
             with_points += usize::from(!degenerate_points(&field).is_empty());
@@ -338,7 +340,7 @@ mod tests {
         assert!(with_points > 30);
     }
 
-    /// What is around a cell without numbers is not known.
+    /// The index around a non-finite cell is unknown.
     #[test]
     fn broken_cells_hide_what_is_around_them() {
         for bad in [f64::NAN, f64::INFINITY] {
@@ -346,7 +348,7 @@ mod tests {
             let broken = wedge.grid().index(Cell::new(10, 10));
             wedge.values_mut()[broken] = Tensor2::isotropic(bad);
             assert_eq!(degenerate_points(&wedge), []);
-            // Elsewhere it is no matter.
+            // Elsewhere it does not matter.
             let mut wedge = field("wedge:size=21");
             let broken = wedge.grid().index(Cell::new(3, 15));
             wedge.values_mut()[broken] = Tensor2::isotropic(bad);
@@ -354,9 +356,9 @@ mod tests {
         }
     }
 
-    /// Weak tensors have their points too.
+    /// The points do not depend on the magnitude of the tensors.
     #[test]
-    fn strength_does_not_matter() {
+    fn scale_does_not_matter() {
         let plain = field("wedge:size=20");
         let mut strong = plain.map(|t| t.scaled(1e-9));
         strong.values_mut()[0] = Tensor2::symmetric(1e9, 0.0, 1.0);
@@ -364,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn thin_and_broken_fields_have_none() {
+    fn thin_and_broken_fields_have_no_degenerate_points() {
         for (width, height) in [(1, 1), (1, 9), (9, 1), (2, 2)] {
             for t in [Tensor2::ZERO, Tensor2::isotropic(f64::NAN), Tensor2::from_axes(1.0, 2.0, 1.0)] {
                 let field = Field::from_fn(Grid::new(width, height).expect("a size"), |_| t);

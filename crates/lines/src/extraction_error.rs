@@ -1,8 +1,8 @@
-//! What can be wrong with a volume or with the options of an extraction.
+//! Errors of volumes and of the options of an extraction.
 
 use thiserror::Error;
 
-/// Samples that ridges and contours are looked for in at most.
+/// Largest number of samples from which ridges and contours are extracted.
 pub(crate) const MAX_SAMPLES: usize = 1 << 28;
 
 /// A volume or an option outside its range.
@@ -22,7 +22,7 @@ pub enum ExtractionError {
         /// Samples of the volume.
         samples: usize,
     },
-    /// The slices of a gradient are not equally far from each other.
+    /// The slices of a gradient are not equally spaced.
     #[error(
         "the slices of the gradient are not equally far from each other: slice {slice} where {expected} is expected"
     )]
@@ -39,15 +39,15 @@ pub enum ExtractionError {
         option: &'static str,
         /// Its value.
         value: f64,
-        /// What it may be.
+        /// The accepted values.
         expected: &'static str,
     },
     /// The refined mesh would have too many nodes.
-    #[error("{samples_per_cell} samples a cell give a mesh of {nodes} nodes: expected at most {most}")]
+    #[error("{samples_per_cell} samples per cell give a mesh of {nodes} nodes: expected at most {most}")]
     MeshSize {
-        /// Samples a cell asked for.
+        /// Samples per cell requested.
         samples_per_cell: usize,
-        /// Nodes of the mesh they give.
+        /// Nodes of the resulting mesh.
         nodes: u128,
         /// Most nodes allowed.
         most: usize,

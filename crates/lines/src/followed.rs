@@ -1,19 +1,19 @@
-//! What lines follow: which axes of which tensors, over cells of which shape.
+//! A field prepared for following its axes: the tensors to interpolate, the axes, and the shape of a cell.
 
 use crate::{Axes, Decomposition, Interpolated, Major, OrderedAxes, ellipse_tensors, signed_ellipse_tensors};
 use tigereye_core::{CellShape, Field, Grid, Symmetry, Tensor2};
 
-/// The axes that are usual for a field: eigenvectors where it is symmetric ([`Symmetry`]), semi-axes otherwise.
+/// The usual axes of a field: eigenvectors if it is symmetric ([`Symmetry`]), semi-axes otherwise.
 #[must_use]
 pub fn usual_axes(field: &Field<Tensor2>) -> Axes {
     if Symmetry::of(field).is_symmetric() { Axes::Eigenvectors } else { Axes::HalfAxes }
 }
 
-/// The part of the stretching by which the turning exceeds it at least: in simple shear both are equal but for
+/// Least excess of the rotation over the stretching, as a fraction of the latter: in simple shear they are equal up to
 /// rounding.
 const COMPLEX_ABOVE: f64 = 1e-6;
 
-/// Whether the eigenvalues of a tensor are complex: it turns more than it stretches. Ask it of
+/// Whether the eigenvalues of a tensor are complex: it rotates more than it stretches. Meant for tensors of
 /// [`Field::without_rounding`].
 #[must_use]
 pub fn is_complex(t: &Tensor2) -> bool {
@@ -21,7 +21,7 @@ pub fn is_complex(t: &Tensor2) -> bool {
     t.is_finite() && rotation.abs() > (1.0 + COMPLEX_ABOVE) * stretching
 }
 
-/// What lines follow: axes in an order, over cells of a shape.
+/// The axes to follow, in which order, and the shape of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Following {
     /// The axes, and which of them is major.
@@ -38,9 +38,9 @@ impl Following {
     }
 }
 
-/// A field whose axes are followed between its cells. Semi-axes are those of the ellipses, because the components of
-/// tensors that are not symmetric may cancel between cells whose ellipses agree. What rounding made asymmetric is
-/// symmetric.
+/// A field whose axes are followed between its cells. For semi-axes the ellipses are interpolated, because the
+/// components of asymmetric tensors may cancel between cells whose ellipses agree. A field that is asymmetric only by
+/// rounding counts as symmetric.
 #[derive(Clone, Debug)]
 pub struct Followed {
     tensors: Field<Tensor2>,
@@ -60,7 +60,7 @@ impl Followed {
         Self { tensors, following }
     }
 
-    /// What is followed.
+    /// The axes that are followed.
     #[must_use]
     pub const fn following(&self) -> Following {
         self.following
@@ -79,7 +79,7 @@ mod tests {
     use tigereye_fields::generators;
     use tigereye_test_support::field;
 
-    /// What is symmetric has no asymmetry but rounding, and what is not has much: nothing lies near to the border.
+    /// The asymmetry of each generator is either rounding or large; none lies near the threshold.
     #[test]
     fn generators_are_judged_with_a_wide_margin() {
         let (mut symmetric, mut others) = (0, 0);
@@ -95,7 +95,7 @@ mod tests {
         assert!(symmetric > 3 && others > 3, "{symmetric} {others}");
     }
 
-    /// Simple shear stretches as much as it turns, in single precision, too.
+    /// Simple shear stretches as much as it rotates, also in single precision.
     #[test]
     fn simple_shear_is_not_complex_by_rounding() {
         for rounding in [0.0, 6e-8, -6e-8] {

@@ -1,19 +1,19 @@
-//! The finite-time Lyapunov exponent on tensor lines.
+//! The finite-time Lyapunov exponent of tensor lines.
 
 use crate::flow_map::{exponent_of, gradient_at};
 use crate::{Family, Interpolated, LineEnd, LineOptions, half_line_end};
 use rayon::prelude::*;
 use thiserror::Error;
-use tigereye_core::{Cell, CellShape, Field, Grid};
+use tigereye_core::{Cell, CellShape, Field, Grid, PhysicalPoint, Point, Vector};
 
 /// How the exponent is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FtleOptions {
-    /// Length of the lines to each side, in the unit of [`tigereye_core::CellShape`].
+    /// Length of the lines to each side, in units of the smaller side of a cell ([`tigereye_core::CellShape`]).
     pub length: f64,
     /// Step of the lines, in the same unit.
     pub step: f64,
-    /// Samples a cell along each side.
+    /// Samples per cell along each side.
     pub samples: usize,
     /// See [`LineOptions::least_anisotropy`].
     pub least_anisotropy: f64,
@@ -25,38 +25,38 @@ impl Default for FtleOptions {
     }
 }
 
-/// What cannot be computed.
+/// Why an exponent or a texture cannot be computed.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum SamplingError {
     /// More samples than fit.
     #[error("{width} x {height} samples: expected at most {limit} together")]
     TooManySamples {
-        /// Samples a row.
+        /// Samples per row.
         width: usize,
         /// Rows.
         height: usize,
         /// Most samples.
         limit: usize,
     },
-    /// A number of samples a cell that is 0 or too large.
-    #[error("{samples} samples a cell: expected 1 to {limit}")]
+    /// Zero samples per cell, or too many.
+    #[error("{samples} samples per cell: expected 1 to {limit}")]
     Samples {
-        /// What was asked for.
+        /// The number requested.
         samples: usize,
         /// The largest number.
         limit: usize,
     },
-    /// More steps than can be waited for.
+    /// More steps than can be computed in reasonable time.
     #[error("{samples} lines of {steps} steps to each side: expected at most {limit:e} steps together")]
     Work {
         /// Lines.
         samples: usize,
         /// Steps to each side.
         steps: f64,
-        /// Most steps together.
+        /// Largest total number of steps.
         limit: f64,
     },
-    /// A length that is no length.
+    /// An invalid length or step.
     #[error(
         "a length of {length} cells in steps of {step}: expected positive numbers, and at most {limit} steps"
     )]
@@ -70,32 +70,32 @@ pub enum SamplingError {
     },
 }
 
-/// Exponents in samples finer than the cells: sample (i, j) lies at `(i / samples, j / samples)` in cells.
+/// Exponents at samples finer than the cells: sample (i, j) lies at `(i / samples, j / samples)` in cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ftle {
-    /// Samples a cell along each side.
+    /// Samples per cell along each side.
     pub samples: usize,
     /// The shape of a cell, whose smaller side is the unit of length.
     pub cell: CellShape,
-    /// The larger exponent of the two directions of the line, per unit of length ([`tigereye_core::CellShape`]); not a
-    /// number where there is no line, or where it leaves.
+    /// The larger exponent of the two directions of the line, per unit of length ([`tigereye_core::CellShape`]); NaN
+    /// where there is no line, or where it leaves the field.
     pub larger: Field<f64>,
     /// The smaller one.
     pub smaller: Field<f64>,
-    /// Share of the lines that leave the field, or meet a cell without numbers, before their length.
+    /// Share of the lines that leave the field, or reach a non-finite cell, before they have their full length.
     pub left: f64,
 }
 
-/// Most samples together, and along a cell's side.
+/// Most samples in all, and per cell along a side.
 const MAX_SAMPLES: usize = 1 << 26;
 pub(crate) const MAX_SAMPLES_A_CELL: usize = 64;
 /// Most steps of a line.
 const MAX_STEPS: f64 = 1e5;
-/// Most steps of all lines together: an hour and more.
+/// Most steps of all lines together: more than an hour of computation.
 const MAX_WORK: f64 = 1e11;
 
-/// The grid of samples finer than the cells of a grid: `m (W - 1) + 1` by `n (H - 1) + 1` for m samples a cell along x
-/// and n along y.
+/// The grid of samples finer than the cells of a grid: `m (W - 1) + 1` by `n (H - 1) + 1` for m samples per cell along
+/// x and n along y.
 ///
 /// # Errors
 /// [`SamplingError::Samples`] and [`SamplingError::TooManySamples`].
@@ -126,14 +126,13 @@ pub(crate) fn check_work(samples: Grid, length: f64, step: f64) -> Result<(), Sa
     Err(SamplingError::Work { samples: samples.cells(), steps: (length / step).ceil(), limit: MAX_WORK })
 }
 
-/// The exponent of the map that takes a point along its line by a length, after Hlawatsch, Vollrath, Sadlo and Weiskopf
-/// (Coherent structures of characteristic curves in symmetric second order tensor fields, 2011), with the flow map of
-/// both directions of the line. A line has no first direction, so the neighbours of a sample are taken in the
-/// directions nearer to its own, and of the two exponents that this gives, both are kept. A line that ends at a
-/// degenerate point stays there, while its neighbours go on to either side: they part. One that leaves the field, or
-/// meets cells without numbers, says nothing of how far neighbours part: beside it differences are one-sided, and its
-/// own sample has no exponent. (The one of the other direction alone would be smaller than that of the samples next to
-/// it, an edge that looks like a ridge.)
+/// The exponent of the map that moves a point along its line by a length, after Hlawatsch, Vollrath, Sadlo and Weiskopf
+/// (Coherent structures of characteristic curves in symmetric second order tensor fields, 2011), for both directions of
+/// the line. A line has no sign, so the directions of neighbouring samples are aligned with that of the sample; both
+/// resulting exponents are kept. A line that ends at a degenerate point stays there while its neighbours pass on either
+/// side, so they separate. A line that leaves the field, or reaches a non-finite cell, has no end point: differences
+/// beside it are one-sided, and its own sample has no exponent. (The exponent of the other direction alone would be
+/// smaller than those of the neighbouring samples, an edge that looks like a ridge.)
 ///
 /// # Errors
 /// See [`SamplingError`].
@@ -149,9 +148,9 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
         ..LineOptions::default()
     };
     let start = |cell: Cell| {
-        let at = [cell.x as f64 / samples, cell.y as f64 / samples];
+        let at = Point::new(cell.x as f64 / samples, cell.y as f64 / samples);
         let direction = field.direction(at, family, options.least_anisotropy)?;
-        let ends = [direction, direction.map(|v| -v)].map(|towards| {
+        let ends = [direction, -direction].map(|towards| {
             let (end, why) = half_line_end(field, at, towards, family, &follow);
             (why != LineEnd::Border).then(|| field.cell().physical(end))
         });
@@ -174,11 +173,11 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
     })
 }
 
-/// Where the line of a sample leads.
+/// The line of a sample: its direction and both end points.
 struct Start {
-    direction: [f64; 2],
-    /// Along that direction, and against it, physical; none where the line leaves.
-    ends: [Option<[f64; 2]>; 2],
+    direction: Vector,
+    /// Along that direction, and against it; `None` where the line leaves the field.
+    ends: [Option<PhysicalPoint>; 2],
 }
 
 fn both_exponents(
@@ -188,14 +187,14 @@ fn both_exponents(
     (shape, options): (CellShape, &FtleOptions),
 ) -> [f64; 2] {
     let Some(own) = &starts[grid.index(cell)] else { return [f64::NAN; 2] };
-    let spacing = shape.physical([1.0 / options.samples as f64; 2]);
+    let spacing = shape.sides().map(|side| side * (1.0 / options.samples as f64));
     [0, 1].map(|side| {
         let end = |c: Cell| {
             let s = starts[grid.index(c)].as_ref()?;
-            let along = s.direction[0] * own.direction[0] + s.direction[1] * own.direction[1];
+            let along = s.direction.dot(own.direction);
             s.ends[if along < 0.0 { 1 - side } else { side }]
         };
         let gradient = gradient_at(cell, grid, spacing, &end);
-        gradient.map_or(f64::NAN, |f| exponent_of(f, options.length))
+        gradient.map_or(f64::NAN, |f| exponent_of(&f, options.length))
     })
 }

@@ -1,10 +1,10 @@
 //! Tensors and their axes between the centres of cells.
 
 use crate::{Axes, Family, Frame, OrderedAxes};
-use tigereye_core::{Cell, CellShape, Field, Svd, Tensor2};
+use tigereye_core::{CellShape, Field, Point, Svd, Tensor2, Vector, bilinear};
 
-/// The symmetric tensor with the same ellipse in every cell: `U S U^T` for a tensor `U S V^T`, its left stretch tensor.
-/// The ellipse is all that light sees. Where tensors are not symmetric this is what to interpolate: their own
+/// The symmetric tensor with the same ellipse for every cell: `U S U^T` for a tensor `U S V^T`, its left stretch
+/// tensor. Light depends only on the ellipse. Asymmetric tensors should be interpolated in this form: their own
 /// components may cancel between cells whose ellipses agree.
 #[must_use]
 pub fn ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
@@ -14,9 +14,9 @@ pub fn ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     })
 }
 
-/// The same with the signs of what the tensor does along its semi-axes: an axis `u` counts as negative where `u . T u`
-/// is. That is the tensor itself where it is symmetric, and what to interpolate for semi-axes by value
-/// ([`crate::Major`]): in pure shear both are equally long, but one is stretched and the other squeezed.
+/// The same with signed semi-axes: an axis `u` has the sign of `u . T u`. A symmetric tensor is unchanged. This is the
+/// form to interpolate for semi-axes ordered by value ([`crate::Major`]): in pure shear both are equally long, but one
+/// is in tension and the other in compression.
 #[must_use]
 pub fn signed_ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     field.map(|t| {
@@ -32,11 +32,11 @@ pub fn signed_ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
     })
 }
 
-/// How far outside a point still counts as one of the border, cells: a line along the border leaves it by the rounding
-/// of its steps, which is some 1e-16 of the coordinate each.
+/// Largest distance outside the field, in cells, at which a point still counts as on the border: rounding moves a line
+/// along the border by some 1e-16 of the coordinate per step.
 const ROUNDING: f64 = 1e-9;
 
-/// A field between its cells.
+/// A tensor field interpolated between its cells.
 #[derive(Clone, Copy, Debug)]
 pub struct Interpolated<'a> {
     field: &'a Field<Tensor2>,
@@ -75,65 +75,47 @@ impl<'a> Interpolated<'a> {
         self.cell
     }
 
-    /// The point at a physical `length` from another in a physical direction, y downwards.
-    #[must_use]
-    pub fn ahead(&self, from: [f64; 2], direction: [f64; 2], length: f64) -> [f64; 2] {
-        let sides = self.cell.sides();
-        [0, 1].map(|i| from[i] + length * direction[i] / sides[i])
-    }
-
     /// The field.
     #[must_use]
     pub const fn field(&self) -> &'a Field<Tensor2> {
         self.field
     }
 
-    /// Largest x and y that lie between centres: width - 1 and height - 1.
+    /// The centre of the lower right cell, the last point with a tensor: (width - 1, height - 1).
     #[must_use]
-    pub const fn extent(&self) -> [f64; 2] {
+    pub const fn last(&self) -> Point {
         let grid = self.field.grid();
-        [(grid.width() - 1) as f64, (grid.height() - 1) as f64]
+        Point::new((grid.width() - 1) as f64, (grid.height() - 1) as f64)
     }
 
-    /// The tensor at a point, bilinear in every component; `None` outside of the centres of the outermost cells (by
-    /// more than rounding, a billionth of a cell), and where one of the four cells is not finite.
+    /// The tensor at a point, bilinear in every component; `None` more than a billionth of a cell (rounding) outside
+    /// the centres of the outermost cells, and where one of the four cells is not finite.
     #[must_use]
-    pub fn at(&self, [x, y]: [f64; 2]) -> Option<Tensor2> {
-        let [right, bottom] = self.extent();
-        if !((-ROUNDING..=right + ROUNDING).contains(&x) && (-ROUNDING..=bottom + ROUNDING).contains(&y)) {
+    pub fn at(&self, p: Point) -> Option<Tensor2> {
+        let last = self.last();
+        let is_within = |v: f64, last: f64| (-ROUNDING..=last + ROUNDING).contains(&v);
+        if !(is_within(p.x, last.x) && is_within(p.y, last.y)) {
             return None;
         }
-        let (x, y) = (x.clamp(0.0, right), y.clamp(0.0, bottom));
-        let before = |v: f64, last: f64| (v.floor()).min((last - 1.0).max(0.0)) as usize;
-        let (i, j) = (before(x, right), before(y, bottom));
-        let (u, v) = (x - i as f64, y - j as f64);
-        let grid = self.field.grid();
-        let corner = |di: usize, dj: usize| {
-            let cell = Cell::new((i + di).min(grid.width() - 1), (j + dj).min(grid.height() - 1));
-            self.field.at(cell).components()
-        };
-        let corners = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
-        let weights = [(1.0 - u) * (1.0 - v), u * (1.0 - v), (1.0 - u) * v, u * v];
         let mut t = [0.0; 4];
-        for (corner, weight) in corners.iter().zip(weights) {
-            t.iter_mut().zip(corner).for_each(|(t, c)| *t += weight * c);
+        for (cell, weight) in bilinear(self.field.grid(), p) {
+            t.iter_mut().zip(self.field.at(cell).components()).for_each(|(t, c)| *t += weight * c);
         }
         let t = Tensor2::new(t[0], t[1], t[2], t[3]);
         t.is_finite().then_some(t)
     }
 
-    /// The axes at a point (see [`Axes::of`] for `least`), y upwards; `None` as [`Self::at`], and where there are none.
+    /// The axes at a point (see [`Axes::of`] for `least`); `None` as for [`Self::at`], and where the
+    /// tensor is degenerate.
     #[must_use]
-    pub fn frame(&self, point: [f64; 2], least: f64) -> Option<Frame> {
+    pub fn frame(&self, point: Point, least: f64) -> Option<Frame> {
         self.axes.of(&self.at(point)?, least)
     }
 
-    /// Direction (physical unit vector, y downwards) of an axis at a point, with either sign; `None` as
-    /// [`Self::frame`].
+    /// Unit vector of an axis at a point, with either sign; `None` as for [`Self::frame`].
     #[must_use]
-    pub fn direction(&self, point: [f64; 2], family: Family, least: f64) -> Option<[f64; 2]> {
-        let [x, y] = self.frame(point, least)?.axes[family as usize];
-        Some([x, -y])
+    pub fn direction(&self, point: Point, family: Family, least: f64) -> Option<Vector> {
+        Some(self.frame(point, least)?.axes[family as usize])
     }
 }
 
@@ -141,41 +123,38 @@ impl<'a> Interpolated<'a> {
 mod tests {
     use super::*;
     use crate::Major;
-    use tigereye_core::Grid;
+    use tigereye_core::{Cell, Grid, math, quarter_turned};
 
     #[test]
-    fn linear_components_are_met_everywhere() {
+    fn bilinear_components_are_reproduced() {
         let grid = Grid::new(5, 4).expect("a size");
         let linear = |x: f64, y: f64| Tensor2::new(1.0 + x, 2.0 * y, x - y, 3.0 + x * y);
         let field = Field::from_fn(grid, |c| linear(c.x as f64, c.y as f64));
         let between = Interpolated::new(&field);
-        for p in [[0.0, 0.0], [4.0, 3.0], [1.25, 2.75], [3.999, 0.5]] {
-            let (found, expected) =
-                (between.at(p).expect("inside").components(), linear(p[0], p[1]).components());
+        for (x, y) in [(0.0, 0.0), (4.0, 3.0), (1.25, 2.75), (3.999, 0.5)] {
+            let p = Point::new(x, y);
+            let (found, expected) = (between.at(p).expect("inside").components(), linear(x, y).components());
             assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{p:?}");
         }
-        assert_eq!(between.at([-1e-15, 3.0 + 1e-15]), between.at([0.0, 3.0]));
-        for p in [[-1e-8, 1.0], [4.01, 1.0], [1.0, 3.2], [f64::NAN, 1.0]] {
-            assert_eq!(between.at(p), None, "{p:?}");
+        assert_eq!(between.at(Point::new(-1e-15, 3.0 + 1e-15)), between.at(Point::new(0.0, 3.0)));
+        for (x, y) in [(-1e-8, 1.0), (4.01, 1.0), (1.0, 3.2), (f64::NAN, 1.0)] {
+            assert_eq!(between.at(Point::new(x, y)), None, "{x} {y}");
         }
     }
 
     #[test]
-    fn axes_point_up_where_the_tensor_does() {
+    fn directions_are_those_of_the_tensor() {
         let field = Field::from_fn(Grid::new(2, 2).expect("a size"), |_| Tensor2::from_axes(0.6, 3.0, 1.0));
         let between = Interpolated::new(&field);
-        let major = between.direction([0.5, 0.5], Family::Major, 1e-3).expect("an axis");
-        let minor = between.direction([0.5, 0.5], Family::Minor, 1e-3).expect("an axis");
-        let along = |v: [f64; 2], phi: f64| {
-            (v[0] * tigereye_core::math::sin(phi) + v[1] * tigereye_core::math::cos(phi)).abs()
-        };
-        // y downwards: the direction of angle phi is (cos phi, -sin phi).
-        assert!(along(major, 0.6) < 1e-12 && along(minor, 0.6 + core::f64::consts::FRAC_PI_2) < 1e-12);
-        assert_eq!(between.direction([0.5, 0.5], Family::Major, 0.7), None, "too round");
+        let major = between.direction(Point::new(0.5, 0.5), Family::Major, 1e-3).expect("an axis");
+        let minor = between.direction(Point::new(0.5, 0.5), Family::Minor, 1e-3).expect("an axis");
+        let off = |v: Vector, phi: f64| v.cross(Vector::new(math::cos(phi), math::sin(phi))).abs();
+        assert!(off(major, 0.6) < 1e-12 && off(minor, 0.6 + math::FRAC_PI_2) < 1e-12);
+        assert_eq!(between.direction(Point::new(0.5, 0.5), Family::Major, 0.7), None, "too round");
     }
 
     #[test]
-    fn ellipses_stay_when_the_rest_goes() {
+    fn ellipse_tensors_are_symmetric_with_the_same_ellipse() {
         let tensors = [
             Tensor2::new(1.0, 2.0, -0.5, 0.25),
             Tensor2::from_axes(2.0, 3.0, 1.0),
@@ -195,9 +174,9 @@ mod tests {
         }
     }
 
-    /// Symmetric tensors stay; others keep their ellipse, with the sign of what they do along each of its axes.
+    /// Symmetric tensors are unchanged; others keep their ellipse, with the sign of `u . T u` along each of its axes.
     #[test]
-    fn signed_ellipses_stretch_and_squeeze_along_the_axes() {
+    fn signed_ellipses_have_tension_and_compression_along_the_axes() {
         let tensors = [
             Tensor2::new(1.0, 2.0, -0.5, 0.25),
             Tensor2::new(-1.0, 2.0, -0.5, 0.25),
@@ -214,25 +193,25 @@ mod tests {
                 assert_eq!(s, t);
                 continue;
             }
-            let along =
-                |t: &Tensor2, [x, y]: [f64; 2]| x * (t.xx() * x + t.xy() * y) + y * (t.yx() * x + t.yy() * y);
+            let along = |t: &Tensor2, Vector { x, y, .. }: Vector| {
+                x * (t.xx() * x + t.xy() * y) + y * (t.yx() * x + t.yy() * y)
+            };
             let svd = Svd::of(&t);
-            let [x, y] = svd.major();
-            for (axis, length) in [([x, y], svd.s[0]), ([-y, x], svd.s[1])] {
+            for (axis, length) in [(svd.major(), svd.s[0]), (quarter_turned(svd.major()), svd.s[1])] {
                 let (own, signed) = (along(&t, axis), along(&s, axis));
                 assert!((signed.abs() - length).abs() < 1e-14 && own * signed > 0.0, "{t:?}: {own} {signed}");
             }
-            // The larger eigenvalue of the one belongs to the larger u . T u of the other.
+            // The axis of the larger eigenvalue of one is that of the larger u . T u of the other.
             let [by_value, eigen] =
                 [Axes::HalfAxes.by(Major::Value).of(&t, 0.0), Axes::Eigenvectors.of(&s, 0.0)]
                     .map(|f| f.expect("axes").axes[0]);
-            assert!((by_value[0] * eigen[1] - by_value[1] * eigen[0]).abs() < 1e-14, "{t:?}");
+            assert!(by_value.cross(eigen).abs() < 1e-14, "{t:?}");
         }
     }
 
     #[test]
     fn one_row_has_tensors_along_it() {
         let field = Field::from_fn(Grid::new(3, 1).expect("a size"), |c| Tensor2::isotropic(c.x as f64));
-        assert_eq!(Interpolated::new(&field).at([1.5, 0.0]), Some(Tensor2::isotropic(1.5)));
+        assert_eq!(Interpolated::new(&field).at(Point::new(1.5, 0.0)), Some(Tensor2::isotropic(1.5)));
     }
 }

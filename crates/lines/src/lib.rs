@@ -1,10 +1,10 @@
-//! Lines along the axes of tensors, the points where tensors have none, how far lines part; textures; ridges and
+//! Lines along the axes of tensors, degenerate points, the separation of neighbouring lines, textures; ridges and
 //! contours of scalars.
 //!
-//! Points are `[x, y]` in cells: (0, 0) is the centre of the upper left cell, x to the right, y **downwards**.
-//! Directions and lengths are physical, in the unit of the smaller side of a cell ([`tigereye_core::CellShape`]): cells
-//! too, where these are square. Between the centres of four cells tensors are interpolated component by component. Axes
-//! ([`Axes`]) have no sign: a line goes on in the direction that is nearer to where it came from.
+//! Points are in cells ([`tigereye_core::Point`], y downwards), directions are physical ([`tigereye_core::Vector`], y
+//! upwards) and lengths count in the smaller side of a cell ([`tigereye_core::CellShape`]). Between the centres of four
+//! cells tensors are interpolated component by component. Axes ([`Axes`]) have no sign: a line continues in whichever
+//! of the two directions is closer to the one it came from.
 //!
 //! Scalars are interpolated by quintic splines for ridges and linearly for contours. A volume has a third axis, the
 //! direction of a light transport gradient, that may be periodic ([`Volume`]).

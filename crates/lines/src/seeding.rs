@@ -1,22 +1,22 @@
 //! Lines that cover a field evenly.
 
-use crate::line_options::distance;
 use crate::{Family, Interpolated, LineEnd, LineOptions, TensorLine, tensor_line};
 use std::collections::VecDeque;
+use tigereye_core::{PhysicalPoint, Point, Vector, length};
 
-/// Lines end closer to each other than they begin, by this factor (Jobard and Lefer).
+/// The distance at which lines end, as a fraction of the distance of their seeds (Jobard and Lefer).
 const CLOSEST: f64 = 0.5;
-/// Lines shorter than this many distances are left out.
+/// Lines shorter than this multiple of the separation are omitted.
 const SHORTEST: f64 = 0.5;
 
-/// So many points of lines are enough: drawn, written and held in memory they are gigabytes.
+/// Largest number of points of all lines together: beyond it, pictures and files take gigabytes.
 pub const MAX_POINTS: usize = 1 << 24;
 
-/// Lines about `separation` apart (in the unit of [`tigereye_core::CellShape`], at least 0.1), in an order that only
-/// depends on the field: seeds are tried beside the lines that are there, then all over the field (Jobard and Lefer,
-/// Creating evenly-spaced streamlines of arbitrary density, 1997). A line keeps away from the others, not from itself:
-/// one that winds inwards does so to its longest length. Fields without axes give no lines. After the line that makes
-/// them more than [`MAX_POINTS`] points together no further one follows.
+/// Evenly spaced lines about `separation` apart (in units of the smaller side of a cell, at least 0.1), in an order
+/// that depends only on the field: seeds are tried beside existing lines first, then all over the field (Jobard and
+/// Lefer, Creating evenly-spaced streamlines of arbitrary density, 1997). A line keeps its distance from other lines,
+/// but not from itself: a spiral continues up to the greatest length. Degenerate fields give no lines. The search stops
+/// after the line that brings the total above [`MAX_POINTS`] points.
 #[must_use]
 pub fn evenly_spaced(
     field: &Interpolated<'_>,
@@ -25,18 +25,18 @@ pub fn evenly_spaced(
     options: &LineOptions,
 ) -> Vec<TensorLine> {
     let separation = if separation >= 0.1 { separation } else { 0.1 };
-    let [right, bottom] = field.extent();
+    let last = field.last();
     let cell = field.cell();
-    let mut covered = Covered::new(cell.physical([right, bottom]), separation);
+    let mut covered = Covered::new(cell.physical(last), separation);
     let mut lines: Vec<TensorLine> = Vec::new();
     let mut queue = VecDeque::new();
     let mut points = 0;
-    let middle = [0.5 * right, 0.5 * bottom];
-    // Half a distance leaves no gap that a line would fit into.
+    let middle = last * 0.5;
+    // At half the separation, no gap is missed that a line would fit into.
     let stride = (0.5 * separation).max(1.0);
-    let [dx, dy] = cell.in_cells([stride; 2]);
+    let [dx, dy] = cell.sides().map(|side| stride / side);
     let along = move |last: f64, step: f64| (0..=(last / step) as usize).map(move |i| i as f64 * step);
-    let everywhere = along(bottom, dy).flat_map(|y| along(right, dx).map(move |x| [x, y]));
+    let everywhere = along(last.y, dy).flat_map(|y| along(last.x, dx).map(move |x| Point::new(x, y)));
     for start in std::iter::once(middle).chain(everywhere) {
         queue.push_back(start);
         while let Some(seed) = queue.pop_front() {
@@ -49,7 +49,7 @@ pub fn evenly_spaced(
             if line.points.len() < 2 || line.length(cell) < SHORTEST * separation {
                 continue;
             }
-            let physical: Vec<[f64; 2]> = line.points.iter().map(|p| cell.physical(*p)).collect();
+            let physical: Vec<PhysicalPoint> = line.points.iter().map(|p| cell.physical(*p)).collect();
             covered.add(&physical);
             queue.extend(beside(&physical, separation).into_iter().map(|p| cell.in_cells(p)));
             points += line.points.len();
@@ -62,53 +62,56 @@ pub fn evenly_spaced(
     lines
 }
 
-/// Points to both sides of a line, all physical.
-fn beside(line: &[[f64; 2]], separation: f64) -> Vec<[f64; 2]> {
+/// Candidate seeds at both sides of a line.
+fn beside(line: &[PhysicalPoint], separation: f64) -> Vec<PhysicalPoint> {
     let mut seeds = Vec::new();
     for p in line.windows(2).step_by(4) {
-        let size = distance(p[0], p[1]);
+        let along = p[1] - p[0];
+        let size = length(along);
         if size > 0.0 {
-            let across = [-(p[1][1] - p[0][1]) / size, (p[1][0] - p[0][0]) / size];
-            // A little more, so that rounding does not make it too near.
+            let across = Vector::new(along.y, -along.x) / size;
+            // A little further, so that rounding does not put the seed too close.
             for side in [1.0 + 1e-9, -1.0 - 1e-9] {
-                seeds.push([0, 1].map(|i| p[0][i] + side * separation * across[i]));
+                seeds.push(p[0] + across * (side * separation));
             }
         }
     }
     seeds
 }
 
-/// Physical points of finished lines, in squares.
+/// Points of the finished lines in a grid of squares.
 struct Covered {
-    squares: Vec<Vec<[f64; 2]>>,
+    squares: Vec<Vec<PhysicalPoint>>,
     columns: usize,
     rows: usize,
     side: f64,
-    /// Points of a line that are nearer to each other than this are one.
+    /// Points of a line that are closer to the last kept one than this are dropped.
     grain: f64,
 }
 
-/// Most squares along a side.
+/// Largest number of squares along a side.
 const MAX_SQUARES: f64 = 1024.0;
-/// Distance of the points that are kept of a line, in parts of the distance of the lines.
+/// Distance of the points kept of a line, as a fraction of the separation.
 const GRAIN: f64 = 0.1;
 
 impl Covered {
-    fn new([right, bottom]: [f64; 2], separation: f64) -> Self {
+    /// For points between the origin and `last`, to the right and below.
+    fn new(last: PhysicalPoint, separation: f64) -> Self {
+        let (right, bottom) = (last.x, -last.y);
         let side = separation.max(right.max(bottom) / MAX_SQUARES);
         let (columns, rows) = ((right / side) as usize + 1, (bottom / side) as usize + 1);
         Self { squares: vec![Vec::new(); columns * rows], columns, rows, side, grain: GRAIN * separation }
     }
 
-    fn square(&self, p: [f64; 2]) -> (usize, usize) {
+    fn square(&self, p: PhysicalPoint) -> (usize, usize) {
         let index = |v: f64, n: usize| ((v / self.side).max(0.0) as usize).min(n - 1);
-        (index(p[0], self.columns), index(p[1], self.rows))
+        (index(p.x, self.columns), index(-p.y, self.rows))
     }
 
-    fn add(&mut self, line: &[[f64; 2]]) {
+    fn add(&mut self, line: &[PhysicalPoint]) {
         let mut last = None;
         for (i, p) in line.iter().enumerate() {
-            if i + 1 < line.len() && last.is_some_and(|q| distance(*p, q) < self.grain) {
+            if i + 1 < line.len() && last.is_some_and(|q| length(*p - q) < self.grain) {
                 continue;
             }
             last = Some(*p);
@@ -117,19 +120,18 @@ impl Covered {
         }
     }
 
-    /// Whether a point is within `reach`, at most a square's side.
-    fn is_near(&self, p: [f64; 2], reach: f64) -> bool {
+    /// Whether a point of a line lies within `reach`, which is at most the side of a square.
+    fn is_near(&self, p: PhysicalPoint, reach: f64) -> bool {
         let (x, y) = self.square(p);
         let around = |v: usize, n: usize| v.saturating_sub(1)..(v + 2).min(n);
-        let near =
-            |q: &[f64; 2]| (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) < reach * reach;
+        let near = |q: &PhysicalPoint| (p - *q).square_length() < reach * reach;
         around(y, self.rows)
             .any(|y| around(x, self.columns).any(|x| self.squares[y * self.columns + x].iter().any(near)))
     }
 }
 
 impl TensorLine {
-    /// Whether it comes back to where it began.
+    /// Whether it returns to its seed.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.ends == [LineEnd::Closed; 2]
@@ -151,23 +153,23 @@ mod tests {
         let lines = evenly_spaced(&between, Family::Major, separation, &LineOptions::default());
         for (i, a) in lines.iter().enumerate() {
             for b in &lines[i + 1..] {
-                let closest = a.points.iter().flat_map(|p| b.points.iter().map(|q| distance(*p, *q)));
-                // Half of a grain may lie between the points that are compared.
+                let closest = a.points.iter().flat_map(|p| b.points.iter().map(|q| length(*p - *q)));
+                // The compared points may be up to half of a grain off.
                 let least = (CLOSEST - 0.5 * GRAIN) * separation;
                 assert!(closest.fold(f64::INFINITY, f64::min) >= least);
             }
         }
         for y in 0..21 {
             for x in 0..31 {
-                let p = [f64::from(x), f64::from(y)];
-                let near = lines.iter().flat_map(|l| &l.points).map(|q| distance(p, *q));
+                let p = Point::new(f64::from(x), f64::from(y));
+                let near = lines.iter().flat_map(|l| &l.points).map(|q| length(p - *q));
                 assert!(near.fold(f64::INFINITY, f64::min) < 1.5 * separation, "{p:?}");
             }
         }
     }
 
     #[test]
-    fn fields_without_axes_have_no_lines() {
+    fn degenerate_fields_have_no_lines() {
         for t in [Tensor2::ZERO, Tensor2::IDENTITY, Tensor2::isotropic(f64::NAN)] {
             let field = Field::from_fn(Grid::new(12, 9).expect("a size"), |_| t);
             let lines =

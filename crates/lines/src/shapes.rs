@@ -1,15 +1,17 @@
 //! Lines and surfaces as points with lists of indices.
 
+use tigereye_core::{Point, math};
+
 /// Connected lines over shared points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polylines {
-    /// Points `[x, y]` in cells (y downwards).
-    pub points: Vec<[f64; 2]>,
+    /// The points.
+    pub points: Vec<Point>,
     /// The lines.
     pub lines: Vec<Polyline>,
 }
 
-/// One line: which points it connects, in order.
+/// One line, as the indices of its points in order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Polyline {
     /// Indices of points. The first is not repeated at the end of a closed line.
@@ -19,21 +21,20 @@ pub struct Polyline {
 }
 
 impl Polylines {
-    /// Length of a line in cells, each axis counted `cell` times.
+    /// Length of a line in cells, with each axis scaled by `cell`.
     #[must_use]
     pub fn length(&self, line: &Polyline, cell: [f64; 2]) -> f64 {
-        let scaled = |i: u32| self.points[i as usize];
         line.segments()
-            .map(|[a, b]| {
-                let (p, q) = (scaled(a), scaled(b));
-                tigereye_core::math::hypot(cell[0] * (q[0] - p[0]), cell[1] * (q[1] - p[1]))
+            .map(|ends| {
+                let [p, q] = ends.map(|i| self.points[i as usize]);
+                math::hypot(cell[0] * (q.x - p.x), cell[1] * (q.y - p.y))
             })
             .sum()
     }
 }
 
 impl Polyline {
-    /// The pairs of points that are connected, in order.
+    /// The pairs of connected points, in order.
     pub fn segments(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
         let back =
             self.closed.then(|| self.points.last().copied().zip(self.points.first().copied())).flatten();
@@ -41,8 +42,8 @@ impl Polyline {
     }
 }
 
-/// Triangles over shared points. Nothing crosses the seam of a periodic axis: triangles end at it on either side,
-/// each with points of its own at the same places, so that the surface can be drawn in the box of the volume.
+/// Triangles over shared points. No triangle crosses the seam of a periodic axis: those on either side end at it with
+/// separate points at the same position, so that the surface fits into the box of the volume.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Surface {
     /// Points `[x, y, third]`: x and y in cells (y downwards), the third coordinate in the volume's unit
@@ -53,7 +54,7 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// Area of a triangle, each axis counted `cell` times.
+    /// Area of a triangle, with each axis scaled by `cell`.
     #[must_use]
     pub fn area_of(&self, triangle: [u32; 3], cell: [f64; 3]) -> f64 {
         let [p, q, r] = triangle.map(|i| self.points[i as usize]);
@@ -61,7 +62,7 @@ impl Surface {
         let n = cross(side(q), side(r));
         0.5 * dot(n, n).sqrt()
     }
-    /// Area of all triangles, each axis counted `cell` times.
+    /// Area of all triangles, with each axis scaled by `cell`.
     #[must_use]
     pub fn area(&self, cell: [f64; 3]) -> f64 {
         self.triangles.iter().map(|&t| self.area_of(t, cell)).sum()

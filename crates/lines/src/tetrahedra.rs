@@ -1,54 +1,53 @@
 //! Marching tetrahedra: surfaces between the nodes of a mesh, from crossings of its edges.
 //!
-//! Every cube of the mesh is cut into six tetrahedra along a diagonal (Freudenthal 1942): the one from the corner whose
-//! three indices are even to the one whose are odd (Tucker 1945). Neighbours are each other's mirror images, so they
-//! fit together, no direction is favoured, and the surfaces of a symmetric volume are symmetric where the number of
-//! nodes along the axis is odd. Whether and where an edge is crossed is decided once for the edge, so there are no
-//! cracks. A
-//! tetrahedron gives triangles where its crossings part the corners in two; other patterns, which crossings without a
-//! common orientation and missing nodes can have, give none.
+//! Every cube of the mesh is cut into six tetrahedra along a diagonal (Freudenthal 1942): the one from the corner with
+//! three even indices to the one with three odd indices (Tucker 1945). Neighbouring cubes are mirror images, so they
+//! fit together, no direction is favoured, and the surfaces of a symmetric volume are symmetric if the number of nodes
+//! along the axis is odd. The crossing of an edge is decided once for the edge, so there are no cracks. A tetrahedron
+//! gives triangles if its crossings separate its corners into two sets; it gives none for other patterns, which occur
+//! beside missing nodes and where crossings have no common orientation.
 
 use crate::shapes::{cross, dot};
 use rayon::prelude::*;
 
-/// What happens on an edge.
+/// The crossing of an edge by the surface.
 pub(crate) enum Crossing {
-    /// Both ends lie on the same side, or nothing is known of one.
+    /// Both ends lie on the same side, or one is missing.
     None,
-    /// It is crossed, but not by the surface that is looked for.
+    /// The edge is crossed, but by a surface that does not qualify.
     Rejected,
-    /// It is crossed at the fraction `at`; what is known there.
+    /// Crossed at the fraction `at`, with the values `known` there.
     At { at: f64, known: [f64; 2] },
 }
 
-/// What is marched through.
+/// A mesh to march through.
 pub(crate) trait Edges: Sync {
-    /// What is known of a node.
+    /// The data of a node.
     type Node: Send + Sync;
     /// Nodes along each axis.
     fn nodes(&self) -> [usize; 3];
     /// The nodes of layer `k`, x fastest.
     fn layer(&self, k: usize) -> Vec<Self::Node>;
-    /// The crossing of the edge between two nodes at places in nodes.
+    /// The crossing of the edge between two nodes, given with their positions in nodes.
     fn crossing(&self, a: (&Self::Node, [f64; 3]), b: (&Self::Node, [f64; 3])) -> Crossing;
-    /// Which side a node lies on, if sides are the same everywhere: triangles then turn their normal (by the
-    /// right-hand rule in x, y and the third axis) to the side that is `false`.
+    /// The side a node lies on, if sides are defined globally: the normals of triangles (by the right-hand rule in x, y
+    /// and the third axis) then point to the side that is `false`.
     fn side(&self, node: &Self::Node) -> Option<bool>;
 }
 
 /// A point on an edge.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
-    /// Eight times the index of the lowest node of the square or cube that the edge crosses, or of the edge itself, and
-    /// the axes along which it leads in bits (1 for x, 2 for y, 4 for the third axis); no bit for the node itself.
+    /// Identifies the edge: eight times the index of the lowest node of the edge, square or cube it spans, plus its
+    /// axes as bits (1 for x, 2 for y, 4 for the third axis); no bit for a vertex at the node itself.
     pub(crate) key: u64,
-    /// Place in nodes.
+    /// Position in nodes.
     pub(crate) place: [f64; 3],
-    /// What is known of it.
+    /// Its values.
     pub(crate) known: [f64; 2],
 }
 
-/// Vertices in ascending order of keys, each once, and triangles between them.
+/// Unique vertices in ascending order of keys, and the triangles between them.
 #[derive(Debug, Default)]
 pub(crate) struct Mesh {
     pub(crate) vertices: Vec<Vertex>,
@@ -57,14 +56,14 @@ pub(crate) struct Mesh {
 
 /// Layers of cubes a task marches through; the layer of nodes between two tasks is computed by both.
 const LAYERS: usize = 8;
-/// Nearer to a node than this part of an edge a point is the node.
+/// A point closer to a node than this fraction of an edge is moved to the node.
 const SNAP: f64 = 1e-6;
-/// In place of a vertex: there is none.
+/// Stands for an edge without a vertex.
 const NONE: u32 = u32::MAX;
-/// In place of a vertex: rejected.
+/// Stands for an edge whose vertex was rejected.
 const REJECTED: u32 = u32::MAX - 1;
 
-/// The surface of all edges.
+/// The surface through the crossings of all edges.
 pub(crate) fn march<E: Edges>(edges: &E) -> Mesh {
     let nodes = edges.nodes();
     if nodes.iter().any(|&n| n < 2) {
@@ -76,15 +75,14 @@ pub(crate) fn march<E: Edges>(edges: &E) -> Mesh {
     welded(parts)
 }
 
-/// What one task finds.
+/// The result of one task.
 #[derive(Default)]
 struct Part {
     vertices: Vec<Vertex>,
     triangles: Vec<[u32; 3]>,
 }
 
-/// A layer of nodes and the vertices on the edges across the squares and cubes that begin at each, by the axes along
-/// which they lead.
+/// A layer of nodes, and the vertices on the edges and diagonals that start at each, by the axes they span.
 struct Layer<N> {
     nodes: Vec<N>,
     on_edges: Vec<[u32; 8]>,
@@ -215,8 +213,8 @@ impl Part {
     }
 }
 
-/// The ends of the edge along the axes `d`, in bits, across what begins at a node: first the end whose indices along
-/// them are even, then the one whose are odd.
+/// The ends of the edge that spans the axes `d` (bits) and starts at a node: first the end whose indices along these
+/// axes are even, then the one whose are odd.
 fn ends(node: [usize; 3], d: usize) -> [[usize; 3]; 2] {
     let along = [0, 1, 2].map(|axis| (d >> axis) & 1);
     let even = [0, 1, 2].map(|axis| node[axis] + along[axis] * (node[axis] & 1));
@@ -228,7 +226,7 @@ const PATHS: [[usize; 2]; 6] = [[1, 2], [1, 4], [2, 1], [2, 4], [4, 1], [4, 2]];
 /// Edges of a tetrahedron by their corners.
 const EDGES: [(usize, usize); 6] = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 
-/// One corner or two are parted from the others, or there is nothing to part.
+/// One corner or two are separated from the others, or none is.
 fn triangles_of(on: [u32; 6]) -> [Option<[u32; 3]>; 2] {
     let pattern = (0..6).fold(0, |m, e| m | u8::from(on[e] != NONE) << e);
     let [triangle, second] = match pattern {
@@ -248,8 +246,8 @@ fn triangles_of(on: [u32; 6]) -> [Option<[u32; 3]>; 2] {
     [Some(of(triangle)), (second != [0; 3]).then(|| of(second))]
 }
 
-/// One vertex for each key, in their order. Triangles that lie in one point or line vanish, and so do two that lie
-/// upon each other: points drawn to nodes make them.
+/// Merges vertices of the same key, in the order of keys. Triangles that collapse to a point or line are removed, as
+/// are pairs that coincide: both arise from points moved to nodes.
 fn welded(parts: Vec<Part>) -> Mesh {
     let mut vertices: Vec<Vertex> = Vec::new();
     let mut triangles: Vec<[u32; 3]> = Vec::new();

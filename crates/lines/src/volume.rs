@@ -5,10 +5,10 @@ use tigereye_core::{Field, LtgVolume};
 
 /// A borrowed volume of scalars, x fastest, then y, then the third axis. NaN and infinite values are missing.
 ///
-/// A sample (i, j, k) lies at `(i, j, start + step k)`, which is where results say points are: x and y in cells, the
-/// third coordinate in the unit of `start` and `step` (samples of direction for a light transport gradient). A
-/// periodic axis of n samples goes on with sample 0 after the last; there positions run from those of sample 0 to
-/// those of sample n.
+/// A sample (i, j, k) lies at `(i, j, start + step k)`, and results use the same coordinates: x and y in cells, the
+/// third coordinate in the unit of `start` and `step` (samples of direction for a light transport gradient). On a
+/// periodic axis of n samples, sample 0 follows the last one, and positions run from that of sample 0 to that of sample
+/// n.
 #[derive(Clone, Copy, Debug)]
 pub struct Volume<'a> {
     values: &'a [f64],
@@ -19,14 +19,14 @@ pub struct Volume<'a> {
 }
 
 impl<'a> Volume<'a> {
-    /// Most samples a volume may have.
+    /// Largest number of samples of a volume.
     pub const MAX_SAMPLES: usize = crate::extraction_error::MAX_SAMPLES;
 
     /// A volume of `size` samples along x, y and the third axis.
     ///
     /// # Errors
     /// [`ExtractionError::VolumeSize`] for an empty or too large volume, [`ExtractionError::ValueCount`] unless there
-    /// is one value a sample.
+    /// is one value per sample.
     pub fn new(values: &'a [f64], size: [usize; 3], periodic: [bool; 3]) -> Result<Self, ExtractionError> {
         let samples = size.iter().try_fold(1_usize, |n, &s| n.checked_mul(s));
         match samples {
@@ -40,12 +40,12 @@ impl<'a> Volume<'a> {
         }
     }
 
-    /// A light transport gradient: axes x, y and direction, the third coordinate in samples of direction. The
-    /// direction is periodic where the slices go all the way round.
+    /// A light transport gradient: axes x, y and direction, the third coordinate in samples of direction. The direction
+    /// is periodic if the slices cover the full circle.
     ///
     /// # Errors
-    /// [`ExtractionError::UnevenSlices`] where the slices are not equally far from each other,
-    /// [`ExtractionError::VolumeSize`] where there are none or too many.
+    /// [`ExtractionError::UnevenSlices`] if the slices are not equally spaced, [`ExtractionError::VolumeSize`] if there
+    /// are none or too many.
     pub fn of_ltg(ltg: &'a LtgVolume) -> Result<Self, ExtractionError> {
         let (grid, slices) = (ltg.grid(), ltg.slices());
         let step = slices.windows(2).map(|w| w[1] - w[0]).next().unwrap_or(1);
@@ -83,7 +83,7 @@ impl<'a> Volume<'a> {
     pub(crate) const fn steps(&self) -> [f64; 3] {
         [1.0, 1.0, self.step]
     }
-    /// Where a point in samples lies.
+    /// The coordinates of a point in samples.
     pub(crate) const fn position(&self, p: [f64; 3]) -> [f64; 3] {
         [p[0], p[1], self.start + self.step * p[2]]
     }
@@ -95,7 +95,7 @@ mod tests {
     use tigereye_core::{Directions, Grid};
 
     #[test]
-    fn slices_all_the_way_round_are_periodic() {
+    fn slices_of_the_full_circle_are_periodic() {
         let grid = Grid::new(2, 1).expect("a size");
         let directions = Directions::new(8).expect("a count");
         let of = |slices: Vec<usize>| {

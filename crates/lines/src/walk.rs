@@ -1,40 +1,40 @@
-//! Steps along an axis.
+//! Integration of lines along an axis, step by step.
 
-use crate::line_options::distance;
 use crate::{Family, Interpolated, LineEnd, LineOptions, Method};
+use tigereye_core::{Point, Vector, length};
 
-/// Cosine of the largest turn from one stage of a step to the next, 30 degrees, which fourth order follows well.
-const LARGEST_TURN: f64 = 0.866;
-/// Least part of the contrast that is left after a step. It grows in proportion to the distance from a degenerate
-/// point, so that a step of a cell or less which leaves half of it does not lead across.
+/// The direction may change by at most 30 degrees from one stage of a step to the next, which fourth order follows
+/// well: its cosine must not fall below this.
+const LEAST_COSINE: f64 = 0.866;
+/// Least fraction of the contrast that remains after a step. Contrast grows linearly with the distance from a
+/// degenerate point, so a step of up to a cell that keeps half of it does not jump across the point.
 const LEAST_LEFT: f64 = 0.5;
-/// A step that would leave the field, is not exact enough or too near to a degenerate point, is halved down to this
-/// part of the longest one.
+/// A step that would leave the field, is not accurate enough or comes too close to a degenerate point is halved, down
+/// to this fraction of the longest one.
 const SHORTEST: f64 = 1.0 / 65536.0;
 /// Most trial steps per full step of a fixed length, and this many more in all.
 const TRIES: [f64; 2] = [8.0, 1000.0];
 
-/// How lines of one family go on.
+/// Integrates the lines of one family.
 pub(crate) struct Walk<'a> {
     pub(crate) field: &'a Interpolated<'a>,
     pub(crate) family: Family,
     pub(crate) options: &'a LineOptions,
 }
 
-/// A point of a line: where it is (in cells), where it goes (a physical direction), and what tells the axes apart there
-/// ([`crate::Frame::contrast`]).
+/// A point of a line, its direction there, and the [`crate::Frame::contrast`] of the axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pose {
-    pub(crate) at: [f64; 2],
-    pub(crate) towards: [f64; 2],
+    pub(crate) at: Point,
+    pub(crate) towards: Vector,
     pub(crate) contrast: f64,
 }
 
-/// What is to come of a line.
+/// The state of a line under integration.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Progress {
     pose: Pose,
-    /// Length so far, in the unit of [`tigereye_core::CellShape`].
+    /// Length so far, in units of the smaller side of a cell.
     gone: f64,
     /// Length of the next step, and whether the last one had to be shortened.
     step: f64,
@@ -48,19 +48,20 @@ impl Progress {
     }
 }
 
-/// Where a step leads.
+/// The result of a step.
 struct Step {
     pose: Pose,
-    /// Least contrast on the way.
+    /// Least contrast of its stages.
     least: f64,
-    /// By how much two orders differ, in parts of what they may.
+    /// Difference of the two orders, relative to the tolerance.
     error: f64,
 }
 
-/// An axis, and what tells it from the other one.
-type Slope = ([f64; 2], f64);
+/// A direction, and the contrast of the axes there.
+type Slope = (Vector, f64);
 
-/// Coefficients of Dormand and Prince: of the slopes before each stage, and the difference of both orders.
+/// Coefficients of Dormand and Prince: the weights of the previous slopes in each stage, then those of the error
+/// estimate, the difference of both orders.
 const STAGES: [&[f64]; 6] = [
     &[1.0 / 5.0],
     &[3.0 / 40.0, 9.0 / 40.0],
@@ -73,17 +74,17 @@ const ERROR: [f64; 7] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
 
 impl Walk<'_> {
-    /// The beginning of a line along the axis at a point, with the sign that is nearer to `towards`.
-    pub(crate) fn begin(&self, at: [f64; 2], towards: [f64; 2]) -> Result<Progress, LineEnd> {
+    /// Begins a line along the axis at a point, with the sign closer to `towards`.
+    pub(crate) fn begin(&self, at: Point, towards: Vector) -> Result<Progress, LineEnd> {
         let (towards, contrast) = self.slope(at, towards)?;
         let pose = Pose { at, towards, contrast };
         Ok(Progress { pose, gone: 0.0, step: self.options.step, shortened: false, tries: 0.0 })
     }
 
-    /// The next point of a line.
+    /// Advances a line by one step.
     pub(crate) fn advance(&self, line: &mut Progress) -> Result<(), LineEnd> {
         let left = self.options.length - line.gone;
-        // Rounding of the sum is no step of its own. Not a number is no length either.
+        // A remainder from rounding of the sum is not worth a step; nor is a NaN.
         if left.is_nan() || left <= 1e-9 * self.options.step {
             return Err(LineEnd::Length);
         }
@@ -95,7 +96,7 @@ impl Walk<'_> {
             }
             let is_shortest = 0.5 * length < self.shortest();
             match self.step(line.pose, length) {
-                // What the tolerance asks beyond the shortest step is rounding, or a kink between cells.
+                // If even the shortest step misses the tolerance, the cause is rounding or a kink between cells.
                 Ok(made) if made.error <= 1.0 || is_shortest => {
                     line.pose = made.pose;
                     line.gone += length;
@@ -109,7 +110,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Steps near to a degenerate point are short without end.
+    /// A bound for lines whose steps near a degenerate point become ever shorter.
     fn most_tries(&self) -> f64 {
         let LineOptions { method, length, step, .. } = *self.options;
         match method {
@@ -122,8 +123,9 @@ impl Walk<'_> {
         self.options.step * SHORTEST
     }
 
-    /// The step to try next: by the error of the last one, relative to the tolerance. One of a fixed length becomes
-    /// longer again, but not right after it had to be shortened: before an end every second one would be.
+    /// The length of the next step. With an error estimate, it follows from the error of the last step relative to the
+    /// tolerance. A fixed step that was shortened grows again, but not immediately: near the end of a line every second
+    /// step would be rejected otherwise.
     fn next(&self, length: f64, error: f64, shortened: bool) -> f64 {
         match self.options.method {
             Method::RungeKutta4 if shortened => length,
@@ -135,38 +137,38 @@ impl Walk<'_> {
         }
     }
 
-    /// The direction at a point, coming from `towards`.
-    fn slope(&self, at: [f64; 2], towards: [f64; 2]) -> Result<Slope, LineEnd> {
+    /// The direction of a line at a point, for the incoming direction `towards`.
+    fn slope(&self, at: Point, towards: Vector) -> Result<Slope, LineEnd> {
         let least = if self.options.inertia.is_some() { 0.0 } else { self.options.least_anisotropy };
         let Some(frame) = self.field.frame(at, least) else {
             return match (self.field.at(at), self.options.inertia) {
-                // A tensor without axes lets a line with inertia pass, unless it is zero.
+                // A line with inertia passes a degenerate tensor, unless it is zero.
                 (Some(t), Some(_)) if !t.is_zero() => Ok((towards, 0.0)),
                 (Some(_), _) => Err(LineEnd::Degenerate),
                 (None, _) => Err(LineEnd::Border),
             };
         };
-        let downwards = |[x, y]: [f64; 2]| [x, -y];
-        let along = downwards(frame.axes[self.family as usize]);
-        let cosine = along[0] * towards[0] + along[1] * towards[1];
+        // Of the two signs of the axis, take the one closer to the incoming direction.
+        let along = frame.axes[self.family as usize];
+        let cosine = along.dot(towards);
         let sign = if cosine < 0.0 { -1.0 } else { 1.0 };
-        let along = along.map(|v| sign * v);
+        let along = along * sign;
         let Some(inertia) = self.options.inertia else {
-            let turns = cosine.abs() < LARGEST_TURN;
-            return if turns { Err(LineEnd::Degenerate) } else { Ok((along, frame.contrast)) };
+            let is_sharp = cosine.abs() < LEAST_COSINE;
+            return if is_sharp { Err(LineEnd::Degenerate) } else { Ok((along, frame.contrast)) };
         };
-        let across = downwards(frame.axes[1 - self.family as usize]);
+        // Inertia: mix the axis with the incoming direction, the more so the more isotropic the tensor is.
+        let across = frame.axes[1 - self.family as usize];
         let [longer, shorter] = {
             let [a, b] = frame.values.map(f64::abs);
             [a.max(b), a.min(b)]
         };
         let ratio = if longer > 0.0 { shorter / longer } else { 1.0 };
-        let other = across[0] * towards[0] + across[1] * towards[1];
-        // The component along the line's own axis stays, the other one shrinks.
-        let turned = unit([0, 1].map(|i| cosine.abs() * along[i] + ratio * other * across[i]));
+        let other = across.dot(towards);
+        // The deflection D i: the component along the line's own axis stays, the other one shrinks by the ratio.
+        let turned = unit(along * cosine.abs() + across * (ratio * other));
         let w = inertia.puncture;
-        let mixed =
-            [0, 1].map(|i| (1.0 - ratio) * along[i] + ratio * ((1.0 - w) * towards[i] + w * turned[i]));
+        let mixed = along * (1.0 - ratio) + (towards * (1.0 - w) + turned * w) * ratio;
         Ok((unit(mixed), 0.0))
     }
 
@@ -175,41 +177,49 @@ impl Walk<'_> {
             Method::RungeKutta4 => self.runge_kutta(from, h),
             Method::DormandPrince { tolerance } => self.dormand_prince(from, h, tolerance),
         }?;
-        // Lines with inertia cross what others end at; their contrast counts as none.
+        // Lines with inertia may cross degenerate points: their contrast is always 0.
         let is_left = step.least >= LEAST_LEFT * from.contrast;
         if is_left { Ok(step) } else { Err(LineEnd::Degenerate) }
     }
 
     fn runge_kutta(&self, from: Pose, h: f64) -> Result<Step, LineEnd> {
-        let ahead = |k: [f64; 2], h: f64| self.field.ahead(from.at, k, h);
-        // The step before ended with the slope that this one begins with.
+        let ahead = |k: Vector, h: f64| self.field.cell().ahead(from.at, k, h);
+        // The first slope is the last one of the previous step.
         let a = from.towards;
+        // Each stage takes the sign of its axis from the stage before.
         let (b, first) = self.slope(ahead(a, 0.5 * h), a)?;
         let (c, second) = self.slope(ahead(b, 0.5 * h), b)?;
         let (d, _) = self.slope(ahead(c, h), c)?;
-        let mean = [0, 1].map(|i| (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]) / 6.0);
+        let mean = (a + b * 2.0 + c * 2.0 + d) / 6.0;
         let at = ahead(mean, h);
         let (towards, contrast) = self.slope(at, d)?;
         Ok(Step { pose: Pose { at, towards, contrast }, least: first.min(second).min(contrast), error: 0.0 })
     }
 
     fn dormand_prince(&self, from: Pose, h: f64, tolerance: f64) -> Result<Step, LineEnd> {
-        let mut slopes = [[0.0; 2]; 7];
+        // The point of the last stage is the result of the step, so its slope begins the next one.
+        let mut slopes = [Vector::zero(); 7];
         slopes[0] = from.towards;
         let (mut at, mut contrast, mut least) = (from.at, 0.0, f64::INFINITY);
         for (i, weights) in STAGES.iter().enumerate() {
-            let mean = |k: usize| weights.iter().zip(&slopes).map(|(w, s)| w * s[k]).sum::<f64>();
-            at = self.field.ahead(from.at, [0, 1].map(mean), h);
+            at = self.field.cell().ahead(from.at, weighted(weights, &slopes), h);
             (slopes[i + 1], contrast) = self.slope(at, slopes[i])?;
             least = least.min(contrast);
         }
-        let off = [0, 1].map(|k| h * ERROR.iter().zip(&slopes).map(|(w, s)| w * s[k]).sum::<f64>());
+        let off = weighted(&ERROR, &slopes) * h;
         let pose = Pose { at, towards: slopes[6], contrast };
-        Ok(Step { pose, least, error: distance(off, [0.0; 2]) / tolerance })
+        Ok(Step { pose, least, error: length(off) / tolerance })
     }
 }
 
-fn unit(v: [f64; 2]) -> [f64; 2] {
-    let size = distance(v, [0.0; 2]);
-    if size > 0.0 { v.map(|c| c / size) } else { v }
+fn weighted(weights: &[f64], slopes: &[Vector]) -> Vector {
+    let of = |component: fn(&Vector) -> f64| {
+        weights.iter().zip(slopes).map(|(w, s)| w * component(s)).sum::<f64>()
+    };
+    Vector::new(of(|s| s.x), of(|s| s.y))
+}
+
+fn unit(v: Vector) -> Vector {
+    let size = length(v);
+    if size > 0.0 { v / size } else { v }
 }

@@ -1,9 +1,9 @@
-//! What can be wrong with a sweep's arguments.
+//! Errors of a sweep.
 
 use thiserror::Error;
 use tigereye_transport::TransportError;
 
-/// An argument a sweep cannot work with, parts that do not belong together, or an interruption.
+/// An invalid argument, parts that do not belong together, or an interruption.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum LtgError {
     /// The half-width of the angular difference is not in 1..=S/2.
@@ -35,15 +35,40 @@ pub enum LtgError {
         /// Bytes allowed.
         bound: u64,
     },
-    /// A stored value that no gradient has.
+    /// A stored value that no gradient can have.
     #[error("value {index} is {value}: expected a finite number from 0")]
     Value {
         /// Index into the values.
         index: usize,
+        /// The value.
+        value: f64,
+    },
+    /// Too few sketches to say anything, or more than are worth their time.
+    #[error("{sketches} sketches: expected 16 to 1048576 (the exact gradient takes no longer than more)")]
+    Sketches {
+        /// How many were asked for, or would be needed.
+        sketches: u64,
+    },
+    /// An estimate from nothing.
+    #[error("no sketch is finished: expected at least one batch")]
+    NoSketches,
+    /// A stored sum that is not a whole number.
+    #[error("sum {index} is {value}: expected a whole number below 2^53")]
+    Sum {
+        /// Index into the sums.
+        index: usize,
         /// What is there.
         value: f64,
     },
-    /// A stopping rule out of range.
+    /// Sketches in both of two parts.
+    #[error("sketches {first} to {last} are in both parts")]
+    SketchedTwice {
+        /// First of a batch.
+        first: usize,
+        /// Last of it.
+        last: usize,
+    },
+    /// A stopping rule out of range, or a field without a stationary state.
     #[error(transparent)]
     Stopping(#[from] TransportError),
     /// A shard that does not exist.
@@ -57,20 +82,20 @@ pub enum LtgError {
     /// Partial volumes of different sweeps.
     #[error("the partial volumes differ in their {what}")]
     Unlike {
-        /// In what.
+        /// The property that differs.
         what: &'static str,
     },
     /// A partial volume whose lists do not have the lengths that its shape needs.
     #[error("a partial volume has {found} {what}: expected {expected}")]
     Length {
-        /// What is listed.
+        /// The contents of the list.
         what: &'static str,
-        /// How many there are.
+        /// Actual length.
         found: usize,
-        /// How many there should be.
+        /// Expected length.
         expected: u128,
     },
-    /// Something finished in both of two partial volumes.
+    /// Work that is finished in both of two partial volumes.
     #[error("cell ({x}, {y}) is finished twice in the set of direction {direction} ({count} times in all)")]
     DoneTwice {
         /// Column of the first such cell.
@@ -98,7 +123,7 @@ pub enum LtgError {
         /// Number of cells and sets in all.
         total: usize,
     },
-    /// The observer asked to end.
+    /// The observer ended the sweep.
     #[error("interrupted after {done} of {total} sources")]
     Interrupted {
         /// Sources solved.

@@ -6,13 +6,15 @@
 //! divide by the source spacing to compare resolutions.
 //!
 //! Every pulse is compared with all its partners while it is in memory. What is finished is a [`PartialVolume`]: a
-//! sweep can stop anywhere and go on from there, and shards of it can be computed apart and merged. This crate neither
+//! sweep can stop anywhere and resume there, and its shards can be computed separately and merged. This crate neither
 //! draws nor parses nor reads clocks.
 
-/// Counts the changes that moved a bit of a gradient: what one count left half-finished, another must not go on with.
+/// Version of the bits of a gradient: increased with every change that moves them. A sweep must not resume work of
+/// another version.
 pub const NUMERICS: u32 = 2;
 
 mod error;
+mod linear;
 mod observer;
 mod partial;
 mod pass;
@@ -25,6 +27,10 @@ mod shard;
 mod sweep;
 
 pub use error::LtgError;
+pub use linear::{
+    Estimate, FEWEST_SKETCHES, MOST_SKETCHES, SketchObserver, SketchSettings, SketchSums, SketchedGradient,
+    check_linear_fit, linear_sweep_part,
+};
 pub use observer::{Phase, SweepObserver};
 pub use partial::{Finished, LtgOutcome, PartialVolume};
 pub use settings::{LtgSettings, Precision, omega_step_of_slices, omega_step_of_volumes};

@@ -1,33 +1,33 @@
-//! Who watches a sweep.
+//! Observers of a sweep.
 
 use crate::PartialVolume;
 use std::ops::ControlFlow;
 
-/// What a thread of the sweep is busy with.
+/// The activity of a thread of the sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// It solves pulses.
+    /// Solving pulses.
     Propagation,
-    /// It compares distributions.
+    /// Comparing distributions.
     Difference,
 }
 
-/// Somebody who watches a sweep.
+/// Receives the progress of a sweep and may end it.
 pub trait SweepObserver: Sync {
-    /// The calling thread turns to another phase, or to nothing. Called from all threads of the sweep; the last call of
-    /// every piece of work is `None`.
+    /// The calling thread enters another phase, or `None`. Called from all threads of the sweep; the last call of each
+    /// task is `None`.
     fn busy(&self, _with: Option<Phase>) {}
-    /// `done` of `total` sources are solved, those of an earlier run and those solved again for the rim of a tile among
-    /// them. Called from all threads of the sweep. `Break` ends the sweep at the next source.
+    /// `done` of `total` sources are solved, including those of an earlier run and those solved again at the border of
+    /// a tile. Called from all threads of the sweep. `Break` ends the sweep at the next source.
     fn progress(&self, _done: u64, _total: u64) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
-    /// More is finished, or the sweep is being interrupted. Called after a row, from the thread that called the sweep,
-    /// while nothing else runs. `Break` ends the sweep.
+    /// More work is finished, or the sweep is being interrupted. Called after a row, on the thread that started the
+    /// sweep, while no other thread runs. `Break` ends the sweep.
     fn finished(&self, _volume: &PartialVolume) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 }
 
-/// Watches nothing.
+/// An observer that does nothing.
 impl SweepObserver for () {}

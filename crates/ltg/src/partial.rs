@@ -1,9 +1,9 @@
-//! What is finished of a gradient.
+//! Partially finished gradients.
 //!
 //! The x and y differences of a slice and its angular difference may belong to different sets of directions, which are
 //! swept one after the other. A value is therefore kept as the sum of the squared differences that are finished: 0,
-//! then `g_x^2 + g_y^2` or `g_w^2`, then both. Addition of two numbers does not know their order, so neither do the
-//! bits.
+//! then `g_x^2 + g_y^2` or `g_w^2`, then both. Addition of two numbers is commutative, so the bits do not depend on the
+//! order.
 
 use crate::pass::Pass;
 use crate::row::RowResults;
@@ -12,14 +12,14 @@ use crate::settings::check_slices;
 use crate::{LtgError, Shard};
 use tigereye_core::{Cell, Directions, Grid, LtgVolume, SweepWork};
 
-/// What a whole sweep leaves.
+/// The result of a complete sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LtgOutcome {
     /// The gradient.
     pub volume: LtgVolume,
-    /// What it cost.
+    /// Its work.
     pub work: SweepWork,
-    /// How many propagations met the step limit instead of the stopping rule.
+    /// Number of propagations that ended at the step limit instead of the stopping rule.
     pub limited: u64,
 }
 
@@ -30,9 +30,9 @@ pub struct Finished {
     pub squares: Vec<f64>,
     /// For each set of directions and each inner cell, row by row, whether its differences are finished.
     pub done: Vec<bool>,
-    /// Work of the pulses that belong to what is finished: each counts once in the whole sweep, however it is cut.
+    /// Work of the pulses that belong to finished cells: each counts once in the whole sweep, however it is divided.
     pub work: SweepWork,
-    /// How many of these propagations met the step limit.
+    /// Number of these propagations that ended at the step limit.
     pub limited: u64,
 }
 
@@ -48,7 +48,7 @@ pub struct PartialVolume {
 }
 
 impl PartialVolume {
-    /// Nothing finished of the slices (any order) of a gradient with angular step K.
+    /// An empty volume of the slices (any order) of a gradient with angular step K.
     ///
     /// # Errors
     /// [`LtgError::OmegaStep`], [`LtgError::NoSlices`], [`LtgError::Slice`].
@@ -64,7 +64,7 @@ impl PartialVolume {
         Ok(empty)
     }
 
-    /// What an earlier run finished. Nothing is allocated for sizes that do not fit.
+    /// The finished part of an earlier run. Nothing is allocated for sizes that do not fit.
     ///
     /// # Errors
     /// As [`Self::empty`], and [`LtgError::Length`] for lists of other lengths than this gradient's,
@@ -123,12 +123,12 @@ impl PartialVolume {
     pub const fn finished(&self) -> &Finished {
         &self.finished
     }
-    /// How many of the cells and sets that belong to `shard` are not finished.
+    /// Number of unfinished cells and sets that belong to `shard`.
     #[must_use]
     pub fn missing(&self, shard: Shard) -> usize {
         self.finished.done[shard.range(self.finished.done.len())].iter().filter(|done| !**done).count()
     }
-    /// The shards of `count` that hold something that is not finished, ascending.
+    /// The shards, out of `count`, with unfinished work, ascending.
     #[must_use]
     pub fn missing_shards(&self, count: usize) -> Vec<usize> {
         let done = &self.finished.done;
@@ -182,7 +182,7 @@ impl PartialVolume {
         (self.sets[set].directions[0], Cell::new(1 + cell % columns, 1 + cell / columns))
     }
 
-    /// Whether `other` is of the same gradient.
+    /// Whether `other` belongs to the same gradient.
     pub(crate) fn check_like(&self, other: &Self) -> Result<(), LtgError> {
         let differs = [
             (self.grid != other.grid, "grids"),
@@ -213,7 +213,48 @@ impl PartialVolume {
         grid.iter().map(is_target).collect()
     }
 
-    /// Takes the targets of row `y` of a pass over from its results.
+    /// For each cell of the grid whether `shard` has to compute it in any set.
+    pub(crate) fn all_targets(&self, shard: Shard) -> Vec<bool> {
+        let mut all = vec![false; self.grid.cells()];
+        for set in 0..self.sets.len() {
+            all.iter_mut().zip(self.targets(set, shard)).for_each(|(all, of_set)| *all |= of_set);
+        }
+        all
+    }
+
+    /// Takes the differences (along x, along y, in direction) of each slice at a cell over where `shard` lacks them.
+    pub(crate) fn finish_cell(
+        &mut self,
+        shard: Shard,
+        cell: Cell,
+        work: SweepWork,
+        differences: &dyn Fn(usize) -> [f64; 3],
+    ) {
+        let (grid, finished) = (self.grid, &mut self.finished);
+        let at = |slice: usize| slice * grid.cells() + grid.index(cell);
+        let range = shard.range(finished.done.len());
+        for (index, set) in self.sets.iter().enumerate() {
+            let mark = mark_of(grid, index, cell);
+            if !range.contains(&mark) || finished.done[mark] {
+                continue;
+            }
+            for slice in set.slice.iter().flatten() {
+                let [g_x, g_y, _] = differences(*slice);
+                finished.squares[at(*slice)] += g_x * g_x + g_y * g_y;
+            }
+            for turn in &set.turns {
+                let [_, _, g_w] = differences(turn.slice);
+                finished.squares[at(turn.slice)] += g_w * g_w;
+            }
+            finished.done[mark] = true;
+            // Counted with the first set: shards that cut between the sets of a cell solve it twice.
+            if index == 0 {
+                finished.work.add(work);
+            }
+        }
+    }
+
+    /// Stores the results of a pass for the targets of row `y`.
     pub(crate) fn finish_row(&mut self, pass: &Pass<'_>, y: usize, results: &RowResults) {
         let (grid, finished) = (self.grid, &mut self.finished);
         for x in pass.target_columns(y) {
@@ -236,12 +277,12 @@ impl PartialVolume {
     }
 }
 
-/// Cells that are not in the border.
+/// Number of cells that are not on the border.
 fn inner_cells(grid: Grid) -> usize {
     grid.width().saturating_sub(2) * grid.height().saturating_sub(2)
 }
 
-/// Where an inner cell's mark is.
+/// The index of an inner cell's mark.
 fn mark_of(grid: Grid, set: usize, cell: Cell) -> usize {
     set * inner_cells(grid) + (cell.y - 1) * (grid.width() - 2) + cell.x - 1
 }

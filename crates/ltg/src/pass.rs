@@ -1,4 +1,4 @@
-//! One pass over the grid: a set of directions in a strip of columns, and the cells of it that are still missing.
+//! One pass over the grid: a set of directions in a strip of columns, and its unfinished cells.
 
 use crate::sets::DirectionSet;
 use std::ops::Range;
@@ -12,7 +12,7 @@ pub(crate) struct Pass<'a> {
     pub(crate) set: &'a DirectionSet,
     /// Columns whose pulses may be solved: those of the strip and one on each side.
     pub(crate) columns: Range<usize>,
-    /// For each cell whether its differences are wanted.
+    /// For each cell whether its differences are requested.
     targets: Vec<bool>,
     /// For each row whether there is any such cell.
     rows: Vec<bool>,
@@ -21,9 +21,9 @@ pub(crate) struct Pass<'a> {
 /// Pulses of a cell that a pass solves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Wanted {
-    /// Those of the slices.
+    /// Pulses of the slices.
     pub(crate) slices: bool,
-    /// Those that take part in angular differences.
+    /// Pulses of angular differences.
     pub(crate) partners: bool,
     /// Whether their work is counted here: every pulse belongs to one inner cell, its own or the nearest one.
     pub(crate) counted: bool,
@@ -46,17 +46,17 @@ impl<'a> Pass<'a> {
         Self { grid, index, set, columns: strip.start - 1..strip.end + 1, targets, rows }
     }
 
-    /// Whether the differences of a cell are wanted.
+    /// Whether the differences of a cell are requested.
     pub(crate) fn is_target(&self, x: usize, y: usize) -> bool {
         self.targets[y * self.grid.width() + x]
     }
 
-    /// The columns of a row whose differences are wanted.
+    /// The columns of a row whose differences are requested.
     pub(crate) fn target_columns(&self, y: usize) -> impl Iterator<Item = usize> + '_ {
         self.columns.clone().filter(move |&x| self.is_target(x, y))
     }
 
-    /// Whether a row has cells whose differences are wanted.
+    /// Whether a row has cells whose differences are requested.
     pub(crate) fn has_targets(&self, y: usize) -> bool {
         self.rows[y]
     }
@@ -68,14 +68,14 @@ impl<'a> Pass<'a> {
         (0..self.rows.len()).filter(is_wanted)
     }
 
-    /// Pulses of a cell that some wanted difference needs, or that are counted here.
+    /// Pulses of a cell that a requested difference needs, or that are counted here.
     pub(crate) fn wanted(&self, cell: Cell) -> Wanted {
         let neighbours = [0, 2, 4, 6].map(|k| self.grid.neighbour(cell, k));
         let any = |test: &dyn Fn(Cell) -> bool| neighbours.iter().flatten().any(|&n| test(n));
         let own = self.is_target(cell.x, cell.y);
         Wanted {
-            // A slice's pulse takes part in differences of the cells beside it only. Where none of them is wanted here,
-            // it is still this cell's to count.
+            // A slice's pulse is used only by the differences of neighbouring cells. Even if none of them is requested
+            // here, it counts as work of this cell.
             slices: any(&|n| self.is_target(n.x, n.y)) || own && any(&|n| !self.grid.is_border(n)),
             partners: own,
             counted: self
@@ -83,12 +83,12 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// Whether the pulse in the direction at `place` is among those wanted.
+    /// Whether the pulse in the direction at `place` is among those requested.
     pub(crate) fn is_wanted(&self, wanted: Wanted, place: usize) -> bool {
         wanted.slices && self.set.slice[place].is_some() || wanted.partners && self.set.is_partner[place]
     }
 
-    /// How many pulses there are to solve.
+    /// Number of pulses to solve.
     pub(crate) fn sources(&self) -> u64 {
         let places = 0..self.set.directions.len();
         let of_cell = |wanted| places.clone().filter(|&p| self.is_wanted(wanted, p)).count() as u64;

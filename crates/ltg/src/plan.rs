@@ -1,6 +1,6 @@
-//! How a sweep is cut so that it fits into memory.
+//! Division of a sweep into strips that fit into memory.
 //!
-//! Two rows of the pulses of one set of directions are in memory. Where they are too large, the columns are cut into
+//! Two rows of the pulses of one set of directions are in memory. If they are too large, the columns are cut into
 //! strips; the columns beside a strip are then solved again for the next one.
 
 use crate::LtgError;
@@ -9,16 +9,16 @@ use std::ops::Range;
 use tigereye_core::{Directions, Grid};
 use tigereye_transport::{PulseDistribution, PulseSolver, Real, Stopping};
 
-/// Rows of pulses in memory. A pulse takes the place of the one two rows above as soon as it is compared with it.
+/// Rows of pulses in memory. A pulse replaces the one two rows above as soon as it is compared with it.
 pub(crate) const ROWS: usize = 2;
 
-/// What a sweep may use.
+/// The resources of a sweep.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     pub(crate) memory_bytes: u64,
     pub(crate) threads: usize,
     pub(crate) stopping: Stopping,
-    /// Cells that send light back.
+    /// Number of reflecting cells.
     pub(crate) walls: usize,
 }
 
@@ -32,7 +32,7 @@ const WALL_BYTES: u128 = 1200;
 /// Bytes of a cell in the layout of a scene.
 const LAYOUT_BYTES: u128 = 64;
 
-/// Bytes that a sweep takes whatever its strips.
+/// Bytes that a sweep needs independently of its strips.
 fn fixed_bytes<T: Real>(grid: Grid, directions: Directions, slices: usize, bounds: Bounds) -> u128 {
     let (cells, samples) = (grid.cells() as u128, directions.count() as u128);
     // Transmission profiles and matrices in two forms.
@@ -67,7 +67,7 @@ pub(crate) fn strips<T: Real>(
     let of_set = |set: &DirectionSet| {
         let fits = |&columns: &usize| needed(columns + 2, set) <= u128::from(bound);
         let widest = (1..=interior).rev().find(fits).unwrap_or(1);
-        // Strips of equal width rather than a thin remainder.
+        // Strips of equal width, rather than a thin remainder.
         let width = interior.div_ceil(interior.div_ceil(widest));
         (0..interior).step_by(width).map(|start| 1 + start..1 + (start + width).min(interior)).collect()
     };

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 use tigereye_transport::{PulseDistribution, Real};
 
-/// A place for every column and direction of a set in an even and an odd row.
+/// A slot for every column and direction of a set, in an even and an odd row.
 pub(crate) struct Ring<T> {
     places: Vec<RwLock<PulseDistribution<T>>>,
     columns: Range<usize>,
@@ -14,7 +14,7 @@ pub(crate) struct Ring<T> {
 }
 
 impl<T: Real> Ring<T> {
-    /// A ring for a pass, made of `spare` distributions as far as they go.
+    /// A ring for a pass, which reuses the `spare` distributions.
     pub(crate) fn new(pass: &Pass<'_>, spare: &mut Vec<PulseDistribution<T>>) -> Self {
         let mut dark = || spare.pop().unwrap_or_else(|| PulseDistribution::dark(pass.grid.cells()));
         let directions = pass.set.directions.len();
@@ -22,7 +22,7 @@ impl<T: Real> Ring<T> {
         Self { places, columns: pass.columns.clone(), directions }
     }
 
-    /// What it was made of.
+    /// Its distributions, for reuse.
     pub(crate) fn into_spare(self) -> impl Iterator<Item = PulseDistribution<T>> {
         self.places.into_iter().map(|p| p.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
@@ -32,7 +32,7 @@ impl<T: Real> Ring<T> {
         &self.places[column * self.directions + direction]
     }
 
-    /// The pulse of a cell in the direction at a place of the set.
+    /// The pulse of a cell in the direction at a position of the set.
     pub(crate) fn read(
         &self,
         x: usize,
@@ -42,7 +42,7 @@ impl<T: Real> Ring<T> {
         self.place(x, y, direction).read().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The same, to replace it.
+    /// The same, mutable.
     pub(crate) fn write(
         &self,
         x: usize,

@@ -1,4 +1,4 @@
-//! Differences and counters of one row while it is computed. Every number is written once, by whichever thread has it.
+//! Differences and counters of one row while it is computed. Every number is written once, by any thread.
 
 use crate::pass::Pass;
 use std::ops::Range;
@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use tigereye_core::{StopReason, SweepWork};
 use tigereye_transport::LaneOutcome;
 
-/// What is known of a row.
+/// The results of a row.
 pub(crate) struct RowResults {
-    /// `g_x` and `g_y` by place of the direction in the set.
+    /// `g_x` and `g_y` by position of the direction in the set.
     pub(crate) along_x: Differences,
     pub(crate) along_y: Differences,
     /// `g_w` by index of the angular difference in the set.
@@ -42,7 +42,7 @@ impl Differences {
     fn at(&self, list: usize, x: usize) -> &AtomicU64 {
         &self.values[list * self.columns.len() + x - self.columns.start]
     }
-    /// The end of a parallel loop makes it visible to the thread that waits for it.
+    /// The end of a parallel loop makes writes visible to the waiting thread, so relaxed ordering suffices.
     pub(crate) fn set(&self, list: usize, x: usize, value: f64) {
         self.at(list, x).store(value.to_bits(), Ordering::Relaxed);
     }
@@ -72,7 +72,7 @@ impl WorkCounter {
         self.limited.fetch_add(sum(&|o| u64::from(o.stop == StopReason::StepLimit)), Ordering::Relaxed);
     }
 
-    /// The work, and how many propagations met the step limit.
+    /// The work, and the number of propagations that ended at the step limit.
     pub(crate) fn total(&self) -> (SweepWork, u64) {
         let work = SweepWork {
             sources: self.sources.load(Ordering::Relaxed),

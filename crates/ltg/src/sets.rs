@@ -2,13 +2,13 @@
 //!
 //! The angular difference at t compares t-K with t+K, so directions that differ by 2K belong together; the differences
 //! in x and y stay within one direction. A slice's own direction and its two partners may therefore lie in different
-//! sets. The sets depend on S, the slices and K only: what one run finished, another can go on with, on any machine.
+//! sets. The sets depend only on S, the slices and K, so that another run can resume on any machine.
 
 use std::collections::BTreeMap;
 use tigereye_core::Directions;
 
-/// Sets are merged until they have so many directions: enough to sort them into batches that stop at about the same
-/// step.
+/// Sets are merged until they have at least this many directions: enough to sort them into batches that stop at about
+/// the same step.
 const LEAST: usize = 32;
 
 /// A set of directions closed under the angular comparison.
@@ -29,7 +29,7 @@ pub(crate) struct DirectionSet {
 pub(crate) struct Turn {
     /// Index of t among the slices.
     pub(crate) slice: usize,
-    /// Places of t-K and t+K in the set.
+    /// Positions of t-K and t+K in the set.
     pub(crate) places: [usize; 2],
 }
 

@@ -1,16 +1,16 @@
-//! What determines a sweep.
+//! Settings of a sweep.
 
 use crate::LtgError;
 use tigereye_core::{Choice, Directions, choice};
 use tigereye_transport::{Level, Stopping};
 
-/// The numbers that pulses are computed in.
+/// The precision of pulses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Precision {
     /// Double precision: agrees with the published volumes to rounding.
     #[default]
     F64,
-    /// Single precision: twice as many pulses side by side, half of the memory.
+    /// Single precision: twice as many pulses per vector, half the memory.
     F32,
 }
 
@@ -30,7 +30,7 @@ impl Precision {
 /// Settings of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LtgSettings {
-    /// When each propagation ends.
+    /// The stopping rule of each propagation.
     pub stopping: Stopping,
     /// Half-width K of the angular central difference, in samples.
     pub omega_step: usize,
@@ -40,7 +40,7 @@ pub struct LtgSettings {
     pub memory_bytes: u64,
     /// Instruction set of the hot loops; results do not depend on it.
     pub level: Level,
-    /// Numbers of the computation.
+    /// Precision of the computation.
     pub precision: Precision,
 }
 
@@ -58,7 +58,7 @@ impl LtgSettings {
         }
     }
 
-    /// The slices in ascending order, each once, after everything was checked that does not depend on the grid.
+    /// The unique slices in ascending order, after all checks that do not depend on the grid.
     ///
     /// # Errors
     /// [`LtgError::Stopping`], [`LtgError::OmegaStep`], [`LtgError::NoSlices`], [`LtgError::Slice`].
@@ -72,7 +72,7 @@ impl LtgSettings {
     }
 }
 
-/// Whether there are such slices (ascending) and such an angular step.
+/// Whether these slices (ascending) and this angular step exist.
 pub(crate) fn check_slices(
     directions: Directions,
     slices: &[usize],

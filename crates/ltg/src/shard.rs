@@ -1,4 +1,4 @@
-//! A sweep cut into pieces for several machines.
+//! Division of a sweep among several machines.
 
 use crate::LtgError;
 use std::fmt;
@@ -12,7 +12,7 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// All of it.
+    /// The whole sweep.
     pub const WHOLE: Self = Self { index: 0, count: 1 };
 
     /// Piece `index`, from 0, of `count`.
@@ -22,25 +22,25 @@ impl Shard {
     pub const fn new(index: usize, count: usize) -> Result<Self, LtgError> {
         if index < count { Ok(Self { index, count }) } else { Err(LtgError::Shard { index, count }) }
     }
-    /// Which piece, from 0.
+    /// Index of the piece, from 0.
     #[must_use]
     pub const fn index(self) -> usize {
         self.index
     }
-    /// How many pieces there are.
+    /// Number of pieces.
     #[must_use]
     pub const fn count(self) -> usize {
         self.count
     }
-    /// Its part of `0..total`; the parts of all shards follow each other and cover everything.
+    /// Its part of `0..total`; the parts of all shards are consecutive and cover everything.
     #[must_use]
     pub fn range(self, total: usize) -> Range<usize> {
-        // At most `total`, whatever the factors.
+        // The quotient is at most `total`; only the product needs more bits.
         let cut = |i: usize| (total as u128 * i as u128 / self.count as u128) as usize;
         cut(self.index)..cut(self.index + 1)
     }
 
-    /// Which of `count` shards of `0..total` has `i`.
+    /// The index of the shard, out of `count` shards of `0..total`, that contains `i`.
     pub(crate) const fn holding(i: usize, total: usize, count: usize) -> usize {
         (((i as u128 + 1) * count as u128 - 1) / total as u128) as usize
     }

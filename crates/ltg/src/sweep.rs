@@ -1,12 +1,12 @@
 //! The sweep itself.
 //!
-//! For each set of directions and each strip of columns it goes down the grid. A pulse of row y is compared with that
-//! of row y-2, whose place it then takes; of the two pulses of a difference in x or in direction, whichever is ready
-//! last is compared with the other. So every pulse is compared while it is still at hand, and each difference has one
-//! place: neither the number of threads nor the tiles show in the result.
+//! For each set of directions and each strip of columns it runs down the grid. A pulse of row y is compared with that
+//! of row y-2, which it then replaces; a difference in x or in direction is taken when the second of its two pulses is
+//! ready. Every pulse is thus compared while it is in memory, and each difference has its own slot, so the result does
+//! not depend on the number of threads or on the tiles.
 //!
-//! Pulses that are propagated side by side keep each other waiting until the last one stops. So a cell's directions are
-//! ordered by the steps they took one row above, and cut into batches in that order.
+//! Pulses in the lanes of one batch wait for the last one to stop. A cell's directions are therefore ordered by the
+//! number of steps they took one row above, and divided into batches in that order.
 
 use crate::observer::{Phase, SweepObserver};
 use crate::partial::{LtgOutcome, PartialVolume};
@@ -35,12 +35,12 @@ pub fn sweep(
     sweep_part(field, settings, Shard::WHOLE, None, observer)?.into_outcome()
 }
 
-/// Computes what `shard` has of the gradient and `start`, left by an earlier run, lacks. The values and counters are
-/// those of a sweep in one piece, however often it was interrupted and however it was cut.
+/// Computes the part of the gradient that belongs to `shard` and is missing in `start`, the result of an earlier run.
+/// The values and counters are those of an undivided sweep, regardless of interruptions and of the division.
 ///
 /// # Errors
-/// [`LtgError`], before any work except for [`LtgError::Interrupted`]; the observer has seen what was finished until
-/// then.
+/// [`LtgError`], before any work except for [`LtgError::Interrupted`]; the observer has then received all finished
+/// work.
 pub fn sweep_part(
     field: &Scattering<'_>,
     settings: &LtgSettings,
@@ -65,11 +65,11 @@ pub fn sweep_part(
     }
 }
 
-/// Whether a sweep with these settings can run on rayon's current thread pool, asked before anything large is made.
-/// `walls` is how many cells send light back.
+/// Whether a sweep with these settings can run on rayon's current thread pool, before anything large is allocated.
+/// `walls` is the number of reflecting cells.
 ///
 /// # Errors
-/// What [`sweep`] would refuse.
+/// As [`sweep`].
 pub fn check_fit(
     grid: Grid,
     directions: Directions,
@@ -146,35 +146,36 @@ struct Sweep<'a, T> {
     workers: Mutex<Vec<Worker<'a, T>>>,
     done: AtomicU64,
     total: u64,
-    /// The observer wants no more.
+    /// The observer ended the sweep.
     interrupted: AtomicBool,
-    /// Something was not solved therefore.
+    /// Some pulses were not solved because of that.
     skipped: AtomicBool,
 }
 
-/// What a thread needs to solve a batch.
+/// The buffers of a thread for solving a batch.
 struct Worker<'a, T> {
     solver: PulseSolver<'a, T>,
     scratch: Vec<PulseDistribution<T>>,
 }
 
-/// A row in the making.
+/// A row under computation.
 struct Row<'r, T> {
     pass: &'r Pass<'r>,
     ring: &'r Ring<T>,
     y: usize,
     here: &'r RowResults,
     above: &'r RowResults,
-    /// Where the work is counted: border rows belong to the rows inside of them.
+    /// The row whose work it counts as: border rows count for the rows inside.
     owner: &'r RowResults,
-    /// How many of the two pulses of each difference are ready, by column and place of the direction or turn.
+    /// Number of ready pulses, out of two, of each difference, by column and position of the direction or the angular
+    /// difference.
     ready_beside: Vec<AtomicUsize>,
     ready_turned: Vec<AtomicUsize>,
-    /// Steps of each pulse, by column and place.
+    /// Steps of each pulse, by column and position.
     steps: Vec<AtomicUsize>,
 }
 
-/// Pulses that are propagated side by side: a column and places of directions.
+/// Pulses that are propagated together: a column and positions of directions.
 type Batch = (usize, Vec<usize>);
 
 impl<'a, T: Real> Sweep<'a, T> {
@@ -185,7 +186,7 @@ impl<'a, T: Real> Sweep<'a, T> {
         for y in pass.solved_rows() {
             self.run_row(pass, ring, y, &results, &mut orders);
             if self.skipped.load(Ordering::Relaxed) {
-                // Nothing can be done about an observer that fails now.
+                // The sweep ends anyway, whatever the observer answers now.
                 let _ = self.observer.finished(volume);
                 let done = self.done.load(Ordering::Relaxed);
                 return Err(LtgError::Interrupted { done, total: self.total });
@@ -201,7 +202,7 @@ impl<'a, T: Real> Sweep<'a, T> {
     }
 
     /// Solves row `y` and takes all differences that become possible. `orders` holds each column's directions by the
-    /// steps they took, above before and here afterwards.
+    /// number of steps they took: in the row above before the call, in this row afterwards.
     fn run_row(
         &self,
         pass: &Pass<'_>,
@@ -234,8 +235,8 @@ impl<'a, T: Real> Sweep<'a, T> {
         }
     }
 
-    /// Solves one batch at one cell, puts the pulses in the place of those two rows above, and takes every difference
-    /// whose other pulse is ready.
+    /// Solves one batch at one cell, replaces the pulses two rows above, and takes every difference whose other pulse
+    /// is ready.
     fn run_batch(&self, row: &Row<'_, T>, x: usize, places: &[usize]) {
         if self.interrupted.load(Ordering::Relaxed) {
             self.skipped.store(true, Ordering::Relaxed);
@@ -272,7 +273,7 @@ impl<'a, T: Real> Sweep<'a, T> {
         }
     }
 
-    /// `g_x` at the cells on both sides of a pulse that is ready, where the pulse beyond is ready too.
+    /// `g_x` at the cells on both sides of a ready pulse, if the pulse beyond is also ready.
     fn compare_beside(&self, row: &Row<'_, T>, x: usize, place: usize) {
         if row.pass.set.slice[place].is_none() {
             return;
@@ -289,7 +290,7 @@ impl<'a, T: Real> Sweep<'a, T> {
         }
     }
 
-    /// `g_w` for the turns of a pulse that is ready, where the other pulse is ready too.
+    /// `g_w` for the angular differences of a ready pulse, if the other pulse is also ready.
     fn compare_turned(&self, row: &Row<'_, T>, x: usize, place: usize) {
         if !row.pass.is_target(x, row.y) {
             return;
@@ -297,7 +298,7 @@ impl<'a, T: Real> Sweep<'a, T> {
         let turns = &row.pass.set.turns;
         for (i, turn) in turns.iter().enumerate().filter(|(_, turn)| turn.places.contains(&place)) {
             let ready = &row.ready_turned[(x - row.pass.columns.start) * turns.len() + i];
-            // Half a turn is the same pulse twice where K is S/2.
+            // For K = S/2 both directions are the same pulse.
             let pulses = if turn.places[0] == turn.places[1] { 1 } else { 2 };
             if ready.fetch_add(1, Ordering::AcqRel) + 1 == pulses {
                 let [before, after] = turn.places.map(|place| row.ring.read(x, row.y, place));
@@ -327,12 +328,12 @@ impl<'a, T: Real> Sweep<'a, T> {
 }
 
 impl<T> Row<'_, T> {
-    /// Index by column and place.
+    /// Index by column and position.
     const fn at(&self, x: usize, place: usize) -> usize {
         (x - self.pass.columns.start) * self.pass.set.directions.len() + place
     }
 
-    /// The pulses of column `x` that are wanted, in the given order of places, by batches.
+    /// The requested pulses of column `x` in batches, in the given order of positions.
     fn batches(&self, x: usize, order: &[usize]) -> Vec<Batch>
     where
         T: Real,

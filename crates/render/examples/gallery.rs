@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use tigereye_core::{
-    Cell, Directions, Field, Grid, LightDistribution, Normalization, PolarProfile, Tensor2,
+    Cell, Directions, Field, Grid, LightDistribution, Normalization, Point, PolarProfile, Tensor2,
     TransmissionField, math,
 };
 use tigereye_render::{
@@ -62,14 +62,14 @@ fn rings(grid: Grid) -> Field<Tensor2> {
 }
 
 /// Three circles, interrupted lines of one overlay.
-fn circles(centre: [f64; 2]) -> Vec<[f64; 2]> {
+fn circles(centre: Point) -> Vec<Point> {
     let mut points = Vec::new();
     for radius in [12.0, 25.0, 40.0] {
         points.extend((0..=90).map(|i| {
             let angle = math::TAU * f64::from(i) / 90.0;
-            [centre[0] + radius * math::cos(angle), centre[1] + radius * math::sin(angle)]
+            Point::new(centre.x + radius * math::cos(angle), centre.y + radius * math::sin(angle))
         }));
-        points.push([f64::NAN; 2]);
+        points.push(Point::splat(f64::NAN));
     }
     points
 }
@@ -77,7 +77,8 @@ fn circles(centre: [f64; 2]) -> Vec<[f64; 2]> {
 fn maps(folder: &Path) -> Outcome {
     let grid = Grid::new(51, 51)?;
     let light = radial(grid, |r| if r > 22.0 { 0.0 } else { math::exp(-0.5 * r) });
-    let ridge = (0..=24).map(|i| [f64::from(i) + 12.0, 25.0 + 8.0 * math::sin(f64::from(i) / 4.0)]).collect();
+    let along = |x: f64| Point::new(x + 12.0, 25.0 + 8.0 * math::sin(x / 4.0));
+    let ridge = (0..=24).map(|i| along(f64::from(i))).collect();
     let options = HeatOptions {
         title: "Energy of the light around one source, continuous emission".to_owned(),
         quantity: "energy (W)".to_owned(),
@@ -92,7 +93,7 @@ fn maps(folder: &Path) -> Outcome {
             },
             Overlay {
                 label: "extrema".to_owned(),
-                points: vec![[8.0, 8.0], [40.0, 12.0]],
+                points: vec![Point::new(8.0, 8.0), Point::new(40.0, 12.0)],
                 marker: Some(Marker::Ring),
                 ..Overlay::default()
             },
@@ -137,7 +138,7 @@ fn tensors(folder: &Path) -> Outcome {
         title: "“rings” test field with tensor lines".to_owned(),
         overlays: vec![Overlay {
             label: "tensor lines".to_owned(),
-            points: circles([50.0; 2]),
+            points: circles(Point::new(50.0, 50.0)),
             ..Overlay::default()
         }],
         scale: GlyphScale::Glyph,
@@ -197,7 +198,7 @@ fn fine(folder: &Path) -> Outcome {
         label: label.to_owned(),
         points: (0..=60)
             .map(|i| f64::from(i) / 60.0 * math::TAU)
-            .map(|w| [10.0 + radius * math::cos(w), 7.0 - radius * math::sin(w)])
+            .map(|w| Point::new(10.0 + radius * math::cos(w), 7.0 - radius * math::sin(w)))
             .collect(),
         half_widths: (0..=60).map(|i| width * (1.2 + math::sin(f64::from(i) * 0.3))).collect(),
         colour,
@@ -218,7 +219,7 @@ fn fine(folder: &Path) -> Outcome {
     let options = TextureOptions { tint: Some(tint), ribbons: Vec::new(), ..plain };
     save(folder, "texture_tinted", &texture_map(&texture, &options)?)?;
     let options = HeatOptions {
-        title: "Six samples a cell".to_owned(),
+        title: "Six samples per cell".to_owned(),
         quantity: "distance (cells)".to_owned(),
         samples_a_cell: N,
         sources: vec![Cell::new(10, 7)],

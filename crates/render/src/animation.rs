@@ -29,7 +29,7 @@ pub const MAX_ANIMATED_PIXELS: u64 = 1 << 30;
 /// than two are there at a time; the last one once more for its size.
 ///
 /// # Errors
-/// As [`Scene::to_png`]; [`RenderError::Frames`] for none, or more pixels than [`MAX_ANIMATED_PIXELS`].
+/// As [`Scene::to_png`]; [`RenderError::Frames`] for no frames, or more pixels than [`MAX_ANIMATED_PIXELS`].
 pub fn animation(count: usize, frame: impl Fn(usize) -> Scene, pace: Pace) -> Result<Vec<u8>, RenderError> {
     let too_many = |pixels| RenderError::Frames { frames: count, pixels, most: MAX_ANIMATED_PIXELS };
     let Some(end) = count.checked_sub(1) else { return Err(too_many(0.0)) };
@@ -80,14 +80,14 @@ struct Part {
 }
 
 impl Part {
-    /// Its bytes, of a picture of `stride` pixels a row.
+    /// Its bytes, out of a picture with `stride` pixels per row.
     fn of(self, rgb: &[u8], stride: usize) -> Vec<u8> {
         let row = |y: usize| &rgb[3 * (y * stride + self.x)..][..3 * self.width];
         (self.y..self.y + self.height).flat_map(row).copied().collect()
     }
 }
 
-/// The smallest rectangle that holds all changes; one pixel where there are none.
+/// The bounding rectangle of all changes; one pixel if nothing changes.
 fn changed(before: &[u8], now: &[u8], stride: usize) -> Part {
     let (mut left, mut right, mut top, mut bottom) = (usize::MAX, 0, usize::MAX, 0);
     let differ = before.chunks(3).zip(now.chunks(3)).enumerate().filter(|(_, (a, b))| a != b);

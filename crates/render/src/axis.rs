@@ -43,7 +43,7 @@ impl Axis {
         Self { low, high, logarithmic: false }
     }
 
-    /// A logarithmic range; ends that are not positive or not in its order are replaced.
+    /// A logarithmic range; ends that are not positive or not in order are replaced.
     pub(crate) fn logarithmic(low: f64, high: f64) -> Self {
         let high = high.clamp(1e-290, HUGE);
         let low = low.clamp(1e-300, high);
@@ -51,7 +51,7 @@ impl Axis {
         Self { low, high, logarithmic: true }
     }
 
-    /// Where `value` lies: 0 at the lower, 1 at the upper end, outside beyond them.
+    /// The position of `value`: 0 at the lower end, 1 at the upper end, and outside [0, 1] beyond them.
     pub(crate) fn position(&self, value: f64) -> f64 {
         if self.logarithmic {
             let (low, high) = (math::log10(self.low), math::log10(self.high));
@@ -73,7 +73,7 @@ impl Axis {
         if self.logarithmic { self.log_ticks(count) } else { self.linear_ticks(count) }
     }
 
-    /// At least two where a finer step finds them: one mark alone gives no scale.
+    /// At least two if a finer step gives them: a single mark shows no scale.
     fn linear_ticks(&self, count: usize) -> Vec<Tick> {
         let span = self.high - self.low;
         let within = |step: f64| {
@@ -116,7 +116,7 @@ impl Axis {
         ticks
     }
 
-    /// Unlabelled marks between decades of a logarithmic range, while they can be told apart.
+    /// Unlabelled marks between decades of a logarithmic range, if they are far enough apart.
     pub(crate) fn minor_ticks(&self) -> Vec<f64> {
         let (first, last) = (number::decade(self.low), number::decade(self.high));
         if !self.logarithmic || last - first > 8 {
@@ -142,7 +142,7 @@ pub(crate) fn nice_step(span: f64, count: usize) -> f64 {
     factor * decade
 }
 
-/// Whole numbers from 0 to `count - 1` to label, at least `apart_px` from each other where cells have `cell_px`.
+/// The integers from 0 to `count - 1` to label, at least `apart_px` apart for cells of `cell_px`.
 pub(crate) fn cell_ticks(count: usize, cell_px: f64, apart_px: f64) -> Vec<usize> {
     let least = (apart_px / cell_px).max(1.0);
     let decade = number::power_of_ten(number::decade(least));

@@ -7,7 +7,7 @@ use crate::error::RenderError;
 use crate::font;
 use crate::legend::{self, Entry, Mark, SMALL_PX};
 use crate::map_frame::{MARGIN_PX, TITLE_PX};
-use crate::scene::{Anchor, Scene};
+use crate::scene::{Anchor, PagePoint, Scene};
 use crate::shapes::Marker;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint};
@@ -24,7 +24,7 @@ pub struct ChartAxis {
     pub label: String,
     /// Powers of ten instead of equal steps. Points at 0 or below are left out, and the legend says so.
     pub logarithmic: bool,
-    /// Fixed ends; by default those of the points.
+    /// Fixed range; by default that of the points.
     pub range: Option<(f64, f64)>,
 }
 
@@ -62,7 +62,7 @@ impl Default for Series {
 /// A horizontal line to compare with.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reference {
-    /// Where it lies on the y axis.
+    /// Its position on the y axis.
     pub value: f64,
     /// Meaning, for the legend.
     pub label: String,
@@ -71,7 +71,7 @@ pub struct Reference {
 /// Data and appearance of a line chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
     /// Horizontal axis.
     pub x: ChartAxis,
@@ -108,7 +108,7 @@ const REFERENCE: Rgba = Rgba::hex(0x777777);
 /// The chart with axes, grid lines and a legend below. Without any point that can be drawn it says "no data".
 ///
 /// # Errors
-/// [`RenderError::Chart`] where the charting library fails; no data is known to make it do so.
+/// [`RenderError::Chart`] if the charting library fails, which no known data cause.
 pub fn line_chart(chart: &Chart) -> Result<Scene, RenderError> {
     let width = clamped(chart.width_px, 200.0, 640.0);
     let height = clamped(chart.height_px, 160.0, 400.0);
@@ -196,7 +196,7 @@ impl Plan {
         let area = plot.plotting_area();
         let place = |u: f64, v: f64| {
             let (x, y) = area.map_coordinate(&(u, v));
-            [f64::from(x) / f64::from(UNITS), f64::from(y) / f64::from(UNITS)]
+            PagePoint::new(f64::from(x) / f64::from(UNITS), f64::from(y) / f64::from(UNITS))
         };
         self.draw_markers(chart, &mut canvas.borrow_mut().scene, place);
         Ok(())
@@ -227,7 +227,7 @@ impl Plan {
         Ok(())
     }
 
-    fn draw_markers(&self, chart: &Chart, scene: &mut Scene, place: impl Fn(f64, f64) -> [f64; 2]) {
+    fn draw_markers(&self, chart: &Chart, scene: &mut Scene, place: impl Fn(f64, f64) -> PagePoint) {
         for (i, series) in chart.series.iter().enumerate() {
             let points: Vec<(f64, f64)> =
                 series.points.iter().copied().filter(|p| fits(*p, chart)).map(|p| self.position(p)).collect();

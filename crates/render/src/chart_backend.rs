@@ -4,7 +4,7 @@
 
 use crate::colour::Rgba;
 use crate::font;
-use crate::scene::{Anchor, PathBuilder, Scene};
+use crate::scene::{Anchor, PagePoint, PathBuilder, Scene};
 use crate::shapes;
 use core::convert::Infallible;
 use plotters_backend::text_anchor::{HPos, VPos};
@@ -18,7 +18,7 @@ use std::rc::Rc;
 /// Units of plotters per pixel.
 pub(crate) const UNITS: i32 = 8;
 
-/// What the backend draws into, shared with the caller: plotters owns its backend, and knows no dashes.
+/// The target of the backend, shared with the caller because plotters owns its backend and does not support dashes.
 pub(crate) struct Canvas {
     pub(crate) scene: Scene,
     /// Dashes of the next lines.
@@ -29,8 +29,8 @@ pub(crate) struct SceneBackend(pub(crate) Rc<RefCell<Canvas>>);
 
 type Drawn = Result<(), DrawingErrorKind<Infallible>>;
 
-fn px((x, y): BackendCoord) -> [f64; 2] {
-    [f64::from(x) / f64::from(UNITS), f64::from(y) / f64::from(UNITS)]
+fn px((x, y): BackendCoord) -> PagePoint {
+    PagePoint::new(f64::from(x) / f64::from(UNITS), f64::from(y) / f64::from(UNITS))
 }
 
 fn rgba(colour: BackendColor) -> Rgba {
@@ -39,7 +39,7 @@ fn rgba(colour: BackendColor) -> Rgba {
 }
 
 impl SceneBackend {
-    fn stroke<S: BackendStyle>(&self, points: &[[f64; 2]], closed: bool, style: &S) {
+    fn stroke<S: BackendStyle>(&self, points: &[PagePoint], closed: bool, style: &S) {
         let mut path = PathBuilder::default();
         path.polyline(&shapes::simplified(points, 0.03), closed);
         let canvas = &mut *self.0.borrow_mut();
@@ -71,7 +71,7 @@ impl DrawingBackend for SceneBackend {
     }
 
     fn draw_pixel(&mut self, point: BackendCoord, colour: BackendColor) -> Drawn {
-        let [x, y] = px(point);
+        let PagePoint { x, y, .. } = px(point);
         let mut path = PathBuilder::default();
         path.rect(x, y, 1.0 / f64::from(UNITS), 1.0 / f64::from(UNITS));
         self.fill(path, colour);
@@ -90,13 +90,14 @@ impl DrawingBackend for SceneBackend {
         style: &S,
         fill: bool,
     ) -> Drawn {
-        let ([left, top], [right, bottom]) = (px(upper_left), px(bottom_right));
+        let (low, high) = (px(upper_left), px(bottom_right));
         if fill {
             let mut path = PathBuilder::default();
-            path.rect(left, top, right - left, bottom - top);
+            path.rect(low.x, low.y, high.x - low.x, high.y - low.y);
             self.fill(path, style.color());
         } else {
-            self.stroke(&[[left, top], [right, top], [right, bottom], [left, bottom]], true, style);
+            let corners = [low, PagePoint::new(high.x, low.y), high, PagePoint::new(low.x, high.y)];
+            self.stroke(&corners, true, style);
         }
         Ok(())
     }
@@ -106,7 +107,7 @@ impl DrawingBackend for SceneBackend {
         path: I,
         style: &S,
     ) -> Drawn {
-        let points: Vec<[f64; 2]> = path.into_iter().map(px).collect();
+        let points: Vec<PagePoint> = path.into_iter().map(px).collect();
         if points.len() > 1 {
             self.stroke(&points, false, style);
         }
@@ -136,7 +137,7 @@ impl DrawingBackend for SceneBackend {
         vertices: I,
         style: &S,
     ) -> Drawn {
-        let points: Vec<[f64; 2]> = vertices.into_iter().map(px).collect();
+        let points: Vec<PagePoint> = vertices.into_iter().map(px).collect();
         let mut path = PathBuilder::default();
         path.polyline(&points, true);
         self.fill(path, style.color());
@@ -157,14 +158,14 @@ impl DrawingBackend for SceneBackend {
                 VPos::Center => 0.5,
                 VPos::Bottom => 0.0,
             };
-        let [x, y] = px(position);
+        let PagePoint { x, y, .. } = px(position);
         let (at, turned) = match style.transform() {
             FontTransform::None => ([x, y + drop], 0.0),
             FontTransform::Rotate90 => ([x - drop, y], -90.0),
             FontTransform::Rotate180 => ([x, y - drop], 180.0),
             FontTransform::Rotate270 => ([x + drop, y], 90.0),
         };
-        self.0.borrow_mut().scene.turned_text(at, text, size, rgba(style.color()), anchor, turned);
+        self.0.borrow_mut().scene.rotated_text(at, text, size, rgba(style.color()), anchor, turned);
         Ok(())
     }
 

@@ -68,11 +68,11 @@ impl ColourBar<'_> {
     fn draw_name(&self, scene: &mut Scene, x: f64, top: f64, height: f64) {
         let natural = font::text_width(self.label, SMALL_PX);
         let size = SMALL_PX * (height / natural).min(1.0);
-        scene.turned_text([x, top + 0.5 * height], self.label, size, Rgba::INK, Anchor::Middle, 90.0);
+        scene.rotated_text([x, top + 0.5 * height], self.label, size, Rgba::INK, Anchor::Middle, 90.0);
     }
 
     fn draw_colours(&self, scene: &mut Scene, x: f64, top: f64, height: f64) {
-        // A stack of squares one pixel high, twice as fine where the bar is short.
+        // A stack of squares about one pixel high.
         let rows = height.round().max(1.0) as usize;
         let side = height / rows as f64;
         let columns = (BAR_PX / side).round().max(1.0) as usize;

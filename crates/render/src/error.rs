@@ -1,11 +1,11 @@
-//! What can go wrong when a picture is made.
+//! Errors of drawing and encoding pictures.
 
 use thiserror::Error;
 
 /// Why a scene could not become a picture.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RenderError {
-    /// The picture would have more pixels than [`crate::Scene::MAX_SIDE_PX`] a side allow, or none.
+    /// A side of the picture would have more than [`crate::Scene::MAX_SIDE_PX`] pixels, or none.
     #[error(
         "a picture of {width_px} x {height_px} pixels (each side must be 1 to {limit_px}); choose a smaller scale"
     )]
@@ -26,7 +26,7 @@ pub enum RenderError {
     /// The PNG encoder failed.
     #[error("encoding the PNG failed: {reason}")]
     Encoding {
-        /// What the encoder says.
+        /// The message of the encoder.
         reason: String,
     },
     /// An animation without frames, or with too many.
@@ -56,7 +56,7 @@ pub enum RenderError {
     /// The charting library reported an error.
     #[error("drawing the chart failed: {reason}")]
     Chart {
-        /// What it says.
+        /// Its message.
         reason: String,
     },
 }

@@ -2,7 +2,7 @@
 //!
 //! All pictures use one face, a subset of DejaVu Sans (see `assets/README.md`). Nothing is asked of the system.
 
-use crate::scene::{Anchor, PathBuilder, Segment, Text};
+use crate::scene::{Anchor, PagePoint, PathBuilder, Segment, Text};
 use ab_glyph::{Font, FontRef, OutlineCurve, Point};
 use std::sync::OnceLock;
 
@@ -60,7 +60,7 @@ pub(crate) fn outline(text: &str) -> Vec<Segment> {
 }
 
 fn add_glyph(path: &mut PathBuilder, curves: &[OutlineCurve], dx: f64) {
-    let at = |p: Point| [f64::from(p.x) + dx, f64::from(p.y)];
+    let at = |p: Point| PagePoint::new(f64::from(p.x) + dx, f64::from(p.y));
     let mut pen: Option<Point> = None;
     for curve in curves {
         let (OutlineCurve::Line(from, to)

@@ -32,7 +32,7 @@ pub enum HeatScale {
 /// Options of [`heat_map`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatOptions {
-    /// Title above the map; empty for none.
+    /// Title above the map; may be empty.
     pub title: String,
     /// Quantity with its unit, beside the colour bar.
     pub quantity: String,
@@ -41,13 +41,13 @@ pub struct HeatOptions {
     /// Linear, logarithmic or diverging.
     pub scale: HeatScale,
     /// Fixed lower and upper end, to compare pictures; by default that of the values. A diverging scale uses the larger
-    /// magnitude. A logarithmic one uses both ends where they are positive and ignores its decades then.
+    /// magnitude. A logarithmic scale uses both ends if they are positive, and then ignores its decades.
     pub range: Option<(f64, f64)>,
-    /// Samples along the side of a cell, usually 1: a value per cell. With n, a map of W x H cells needs a field of n
+    /// Samples per side of a cell, usually 1: one value per cell. With n, a map of W x H cells needs a field of n
     /// (W - 1) + 1 by n (H - 1) + 1 values, of which (i, j) lies at (i/n, j/n) cells; axes, sources and overlays stay
     /// in cells. 0 counts as 1, more than there are as all of them.
     pub samples_a_cell: usize,
-    /// Walls of a scene over the map. What they hide counts for neither colours nor legend. With several samples a cell
+    /// Walls of a scene over the map. Values they hide affect neither colours nor legend. With several samples per cell
     /// they are not drawn.
     pub walls: Option<Field<Option<Surface>>>,
     /// Light sources, marked with stars.
@@ -56,13 +56,13 @@ pub struct HeatOptions {
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the map and its bands.
     pub overlays: Vec<Overlay>,
-    /// Pixels of a cell's smaller side; by default whole, such that the longer side has about 480.
+    /// Pixels of a cell's smaller side; by default a whole number such that the longer side of the map has about 480.
     pub cell_px: Option<usize>,
     /// The shape of a cell.
     pub cell: CellShape,
     /// A remark for the legend.
     pub note: Option<String>,
-    /// What the legend calls cells whose value is not a number; by default `not a finite number`.
+    /// Label in the legend for cells whose value is NaN; by default `not a finite number`.
     pub missing: Option<String>,
 }
 
@@ -138,13 +138,13 @@ fn seen_values(field: &Field<f64>, walls: Option<&Field<Option<Surface>>>) -> Ve
     field.iter().filter(|(cell, _)| !hidden(*cell)).map(|(_, v)| *v).collect()
 }
 
-/// What is to be compared by [`difference_map`].
+/// The comparison of [`difference_map`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Difference {
     /// `a - b`.
     #[default]
     Absolute,
-    /// `a / b - 1`; not a number where both are 0.
+    /// `a / b - 1`; NaN where both are 0.
     Relative,
 }
 
@@ -174,12 +174,12 @@ pub fn difference_map(
     Ok(heat_map(&field, &HeatOptions { scale: HeatScale::Diverging, ..options.clone() }))
 }
 
-/// What the values of a field are like.
+/// Statistics of the values of a field.
 pub(crate) struct Summary {
     pub(crate) finite: usize,
     pub(crate) low: f64,
     pub(crate) high: f64,
-    /// Smallest positive value, infinite where there is none.
+    /// Smallest positive value, infinite if there is none.
     low_positive: f64,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::colour::Rgba;
 use crate::font;
-use crate::scene::{Anchor, Item, PathBuilder, Scene};
+use crate::scene::{Anchor, Item, PagePoint, PathBuilder, Scene};
 use crate::shapes::{self, Marker};
 
 /// Font size of legends and axis numbers in pixels.
@@ -12,7 +12,7 @@ const MARK_PX: f64 = 22.0;
 const GAP_PX: f64 = 6.0;
 const BETWEEN_PX: f64 = 20.0;
 
-/// What stands before a legend's text.
+/// The mark before a text of the legend.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Mark {
     /// A filled rectangle.
@@ -64,7 +64,7 @@ pub(crate) fn flow(entries: &[Entry], max_width_px: f64) -> Scene {
             }
             let middle = scene.height_px - 0.5 * ROW_PX;
             if i == 0 {
-                draw_mark(&mut scene, &entry.mark, [x, middle]);
+                draw_mark(&mut scene, &entry.mark, PagePoint::new(x, middle));
             }
             let baseline = middle + 0.5 * font::CAP_HEIGHT_EM * SMALL_PX;
             scene.text([x + entry.mark_width(), baseline], line, SMALL_PX, Rgba::MUTED, Anchor::Start);
@@ -75,11 +75,11 @@ pub(crate) fn flow(entries: &[Entry], max_width_px: f64) -> Scene {
     scene
 }
 
-fn draw_mark(scene: &mut Scene, mark: &Mark, [x, y]: [f64; 2]) {
+fn draw_mark(scene: &mut Scene, mark: &Mark, PagePoint { x, y, .. }: PagePoint) {
     const HEIGHT: f64 = 11.0;
     let mut outline = PathBuilder::default();
     outline.rect(x, y - 0.5 * HEIGHT, MARK_PX, HEIGHT);
-    let centre = [x + 0.5 * MARK_PX, y];
+    let centre = PagePoint::new(x + 0.5 * MARK_PX, y);
     match mark {
         Mark::Swatch(colour) => scene.paint(outline.finish(), *colour, Rgba::MUTED, 0.5),
         Mark::Outlined(fill, line) => scene.paint(outline.finish(), *fill, *line, 1.2),
@@ -107,8 +107,12 @@ fn draw_mark(scene: &mut Scene, mark: &Mark, [x, y]: [f64; 2]) {
             scene.stroke(outline.finish(), *colour, 1.0);
         }
         Mark::Drawing(items) => {
-            let [dx_px, dy_px] = centre;
-            scene.items.push(Item::Group { dx_px, dy_px, scale: 1.0, items: items.clone() });
+            scene.items.push(Item::Group {
+                dx_px: centre.x,
+                dy_px: centre.y,
+                scale: 1.0,
+                items: items.clone(),
+            });
         }
         Mark::None => {}
     }

@@ -48,6 +48,8 @@ pub use plain_map::{PlainOptions, plain_map};
 pub use polar_overlay::{IntensityScale, PolarOptions, TransmissionScale, polar_overlay};
 pub use polar_plot::{PolarPlotOptions, PolarSeries, polar_plot};
 pub use ribbon::Ribbon;
-pub use scene::{Anchor, Item, Path, PathBuilder, Raster, Scene, Segment, Stroke, Text};
+pub use scene::{
+    Anchor, Item, Page, PagePoint, PageVector, Path, PathBuilder, Raster, Scene, Segment, Stroke, Text,
+};
 pub use shapes::Marker;
 pub use texture::{TextureOptions, Tint, texture_map};

@@ -4,8 +4,8 @@ use crate::axis;
 use crate::colour::Rgba;
 use crate::font;
 use crate::legend::{self, Entry, SMALL_PX};
-use crate::scene::{Anchor, PathBuilder, Scene};
-use tigereye_core::{Cell, CellShape, Grid};
+use crate::scene::{Anchor, PagePoint, PathBuilder, Scene};
+use tigereye_core::{Cell, CellShape, Grid, Point};
 
 /// Margin around pictures in pixels.
 pub(crate) const MARGIN_PX: f64 = 16.0;
@@ -63,13 +63,14 @@ impl MapFrame {
     }
 
     /// Centre of a cell in pixels.
-    pub(crate) fn centre(&self, cell: Cell) -> [f64; 2] {
-        self.point(cell.x as f64, cell.y as f64)
+    pub(crate) fn centre(&self, cell: Cell) -> PagePoint {
+        self.point(cell.centre())
     }
 
-    /// Pixels of a point given in cells: (0, 0) is the centre of the upper left cell, y downwards.
-    pub(crate) fn point(&self, x: f64, y: f64) -> [f64; 2] {
-        [self.left + (x + 0.5) * self.cell[0], self.top + (y + 0.5) * self.cell[1]]
+    /// The position of a point of the grid on the page.
+    pub(crate) fn point(&self, p: Point) -> PagePoint {
+        let [width, height] = self.cell;
+        PagePoint::new(self.left + (p.x + 0.5) * width, self.top + (p.y + 0.5) * height)
     }
 
     /// The outlines of `cells`.
@@ -82,21 +83,21 @@ impl MapFrame {
         path
     }
 
-    /// Diagonal strokes through `cells`, where cells are large enough to show them.
+    /// Hatches `cells` if they are large enough to show it.
     pub(crate) fn hatch(&mut self, cells: &[Cell]) {
         if self.smaller_side() < 4.0 || cells.is_empty() {
             return;
         }
         let mut path = PathBuilder::default();
         for c in cells {
-            let [x, y] = self.centre(*c);
+            let PagePoint { x, y, .. } = self.centre(*c);
             let [r, s] = self.cell.map(|side| 0.5 * side);
             path.line([x - r, y + s], [x + r, y - s]);
         }
         self.scene.stroke(path.finish(), Rgba::WHITE, 1.0);
     }
 
-    /// Lines between cells; none where only every n-th cell is drawn.
+    /// Lines between cells, unless only every n-th cell is drawn.
     pub(crate) fn grid_lines(&mut self, every: usize, colour: Rgba) {
         let (left, top, right, bottom) =
             (self.left, self.top, self.left + self.width(), self.top + self.height());
@@ -140,12 +141,12 @@ impl MapFrame {
         frame.rect(left, top, width, height);
         let mut numbers = Vec::new();
         for x in axis::cell_ticks(self.grid.width(), self.cell[0], 40.0) {
-            let at = self.point(x as f64, 0.0)[0];
+            let at = self.point(Point::new(x as f64, 0.0)).x;
             frame.line([at, top + height], [at, top + height + 4.0]);
             numbers.push(([at, top + height + 16.0], x.to_string(), Anchor::Middle));
         }
         for y in axis::cell_ticks(self.grid.height(), self.cell[1], 40.0) {
-            let at = self.point(0.0, y as f64)[1];
+            let at = self.point(Point::new(0.0, y as f64)).y;
             frame.line([left - 4.0, at], [left, at]);
             let baseline = at + 0.5 * font::CAP_HEIGHT_EM * SMALL_PX;
             numbers.push(([left - 7.0, baseline], y.to_string(), Anchor::End));
@@ -162,12 +163,12 @@ impl MapFrame {
         let below = [left + 0.5 * width, top + height + 32.0];
         self.scene.text(below, x_name, SMALL_PX, Rgba::MUTED, Anchor::Middle);
         let beside = [MARGIN_PX + 9.0, top + 0.5 * height];
-        self.scene.turned_text(beside, y_name, SMALL_PX, Rgba::MUTED, Anchor::Middle, 90.0);
+        self.scene.rotated_text(beside, y_name, SMALL_PX, Rgba::MUTED, Anchor::Middle, 90.0);
     }
 }
 
-/// Width and height of a cell in pixels. Its smaller side has those asked for, or such that the longer side of the map
-/// stays within `target_px`: a whole number up to `most`, or one over a whole number where cells are smaller than
+/// Width and height of a cell in pixels. Its smaller side has `fixed` pixels, or by default as many as keep the longer
+/// side of the map within `target_px`: an integer up to `most`, or one over an integer if cells are smaller than
 /// pixels.
 pub(crate) fn cell_px(
     grid: Grid,

@@ -45,7 +45,7 @@ pub fn significant(value: f64, digits: i32) -> String {
     label(value, power_of_ten(decade(value.abs()) - digits + 1))
 }
 
-/// `10` with a raised exponent, such as 10⁻³.
+/// `10` with a superscript exponent, such as 10⁻³.
 #[must_use]
 pub fn power_label(exponent: i32) -> String {
     let digits = exponent.to_string();

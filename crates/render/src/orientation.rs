@@ -6,15 +6,15 @@ use crate::legend::{Entry, Mark, SMALL_PX};
 use crate::map_frame::{self, MapFrame};
 use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
-use crate::scene::{Anchor, Item, PathBuilder, Raster, Scene};
+use crate::scene::{Anchor, Item, PagePoint, PathBuilder, Raster, Scene};
 use tigereye_core::{Anisotropy, Cell, CellShape, Field, Svd, Tensor2, math};
 
 /// Options of [`orientation_map`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OrientationOptions {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
-    /// Pixels of a cell's smaller side; by default whole, such that the longer side has about 480.
+    /// Pixels of a cell's smaller side; by default a whole number such that the longer side of the map has about 480.
     pub cell_px: Option<usize>,
     /// The shape of a cell.
     pub cell: CellShape,
@@ -24,7 +24,7 @@ pub struct OrientationOptions {
     pub overlays: Vec<Overlay>,
 }
 
-/// What isotropic tensors look like: they have no direction.
+/// The colour of isotropic tensors, which have no direction.
 const ISOTROPIC: Rgba = Rgba::hex(0xe2e2e2);
 const RING_PX: f64 = 56.0;
 const GAP_PX: f64 = 48.0;
@@ -99,10 +99,12 @@ fn direction_colour(phi_rad: f64, anisotropy: f64) -> Rgba {
 fn draw_half_ring(page: &mut MapFrame) {
     const SECTORS: usize = 60;
     const RINGS: usize = 10;
-    let [x, y] = [page.left + page.width() + GAP_PX + RING_PX, page.top + RING_PX + 44.0];
-    let point = |radius: f64, angle: f64| [x + radius * math::cos(angle), y - radius * math::sin(angle)];
+    let centre = PagePoint::new(page.left + page.width() + GAP_PX + RING_PX, page.top + RING_PX + 44.0);
+    let point = |radius: f64, angle: f64| {
+        PagePoint::new(centre.x + radius * math::cos(angle), centre.y - radius * math::sin(angle))
+    };
     let scene = &mut page.scene;
-    scene.text([x, page.top + 10.0], "major axis", SMALL_PX, Rgba::INK, Anchor::Middle);
+    scene.text([centre.x, page.top + 10.0], "major axis", SMALL_PX, Rgba::INK, Anchor::Middle);
     for ring in (0..RINGS).rev() {
         let radius = RING_PX * (ring + 1) as f64 / RINGS as f64;
         for sector in 0..SECTORS {
@@ -110,7 +112,7 @@ fn draw_half_ring(page: &mut MapFrame) {
             // Sectors reach under the next one, or the ground would shine through the seams.
             let (from, to) = (middle - math::PI / 120.0, (middle + math::PI / 60.0).min(math::PI));
             let mut path = PathBuilder::default();
-            path.polyline(&[[x, y], point(radius, from), point(radius, to)], true);
+            path.polyline(&[centre, point(radius, from), point(radius, to)], true);
             scene.fill(path.finish(), direction_colour(middle, (ring as f64 + 0.5) / RINGS as f64));
         }
     }
@@ -122,10 +124,10 @@ fn draw_half_ring(page: &mut MapFrame) {
         (180.0, Anchor::End),
     ] {
         let angle = math::radians(degrees);
-        let [lx, ly] = point(RING_PX + 6.0, angle);
+        let at = point(RING_PX + 6.0, angle);
         let drop = if degrees == 90.0 { 0.0 } else { 0.5 * font::CAP_HEIGHT_EM * SMALL_PX };
-        scene.text([lx, ly + drop], &format!("{degrees}°"), SMALL_PX, Rgba::MUTED, anchor);
+        scene.text([at.x, at.y + drop], &format!("{degrees}°"), SMALL_PX, Rgba::MUTED, anchor);
     }
-    let below = [x, y + 20.0];
+    let below = [centre.x, centre.y + 20.0];
     scene.text(below, "grey: isotropic", SMALL_PX, Rgba::MUTED, Anchor::Middle);
 }

@@ -3,19 +3,18 @@
 use crate::colour::Rgba;
 use crate::legend::{Entry, Mark};
 use crate::map_frame::MapFrame;
-use crate::scene::PathBuilder;
+use crate::scene::{PagePoint, PathBuilder};
 use crate::shapes::Marker;
-use tigereye_core::Cell;
+use tigereye_core::{Cell, Point};
 
-/// Something drawn over a map. Points are in cells: (0, 0) is the centre of the upper left cell, y downwards.
+/// Something drawn over a map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Overlay {
-    /// Meaning, for the legend; without one the overlay does not appear there.
+    /// Label in the legend; if empty, the overlay does not appear there.
     pub label: String,
-    /// Points (x, y) in cells. One that is not finite or not on the map interrupts the line, so that one overlay holds
-    /// many lines.
-    pub points: Vec<[f64; 2]>,
-    /// Marker of every point; a line through the points where there is none.
+    /// The points. One that is not finite or not on the map interrupts the line, so that one overlay holds many lines.
+    pub points: Vec<Point>,
+    /// Marker of every point; `None` draws a line through the points.
     pub marker: Option<Marker>,
     /// Colour.
     pub colour: Rgba,
@@ -50,24 +49,24 @@ pub(crate) fn draw(page: &mut MapFrame, overlays: &[Overlay], legend: &mut Vec<E
     }
 }
 
-fn on_map(page: &MapFrame, p: &[f64; 2]) -> bool {
+fn on_map(page: &MapFrame, p: &Point) -> bool {
     let (width, height) = (page.grid.width() as f64, page.grid.height() as f64);
-    (-0.5..=width - 0.5).contains(&p[0]) && (-0.5..=height - 0.5).contains(&p[1])
+    (-0.5..=width - 0.5).contains(&p.x) && (-0.5..=height - 0.5).contains(&p.y)
 }
 
 fn draw_points(page: &mut MapFrame, overlay: &Overlay, marker: Marker) {
     let radius = (0.3 * page.smaller_side()).clamp(2.5, 5.0);
     for p in overlay.points.iter().filter(|p| on_map(page, p)).collect::<Vec<_>>() {
-        let at = page.point(p[0], p[1]);
+        let at = page.point(*p);
         marker.draw(&mut page.scene, at, radius, overlay.colour);
     }
 }
 
-/// Lines with a white rim, visible on every colour of a map.
+/// Lines with a white outline, visible on every colour of a map.
 fn draw_lines(page: &mut MapFrame, overlay: &Overlay) {
     let mut path = PathBuilder::default();
     for run in overlay.points.split(|p| !on_map(page, p)) {
-        let points: Vec<[f64; 2]> = run.iter().map(|p| page.point(p[0], p[1])).collect();
+        let points: Vec<PagePoint> = run.iter().map(|p| page.point(*p)).collect();
         path.polyline(&points, false);
     }
     if path.is_empty() {

@@ -4,18 +4,18 @@ use crate::legend::Entry;
 use crate::map_frame::{self, MapFrame};
 use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
-use crate::scene::{PathBuilder, Scene};
+use crate::scene::{PagePoint, PathBuilder, Scene};
 use crate::{Rgba, legend::Mark};
 use tigereye_core::{Cell, CellShape, Grid};
 
 /// Options of [`plain_map`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PlainOptions {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
-    /// What it shows, the beginning of a sentence for people who cannot see it.
+    /// What the map shows: the beginning of a sentence for readers who cannot see it.
     pub description: String,
-    /// Pixels of a cell's smaller side; by default whole, such that the longer side has about 480.
+    /// Pixels of a cell's smaller side; by default a whole number such that the longer side of the map has about 480.
     pub cell_px: Option<usize>,
     /// The shape of a cell.
     pub cell: CellShape,
@@ -25,11 +25,11 @@ pub struct PlainOptions {
     pub overlays: Vec<Overlay>,
     /// Cells that have nothing to show, hatched.
     pub missing: Vec<Cell>,
-    /// What the legend calls them.
+    /// Their name in the legend.
     pub missing_label: String,
     /// Cells with a light ground.
     pub shaded: Vec<Cell>,
-    /// What the legend calls them.
+    /// Their name in the legend.
     pub shaded_label: String,
 }
 
@@ -45,7 +45,7 @@ pub fn plain_map(grid: Grid, options: &PlainOptions) -> Scene {
     for (cells, colour) in [(&options.shaded, SHADE), (&options.missing, Rgba::NOT_FINITE)] {
         let mut squares = PathBuilder::default();
         for c in cells {
-            let ([x, y], [width, height]) = (page.centre(*c), cell);
+            let (PagePoint { x, y, .. }, [width, height]) = (page.centre(*c), cell);
             squares.rect(x - 0.5 * width, y - 0.5 * height, width, height);
         }
         if !squares.is_empty() {
@@ -70,10 +70,11 @@ pub fn plain_map(grid: Grid, options: &PlainOptions) -> Scene {
 mod tests {
     use super::*;
     use crate::scene::Item;
+    use tigereye_core::Point;
 
     #[test]
     fn lines_and_points_are_there_with_their_names() {
-        let overlay = |label: &str, points: &[[f64; 2]]| Overlay {
+        let overlay = |label: &str, points: &[Point]| Overlay {
             label: label.to_owned(),
             points: points.to_vec(),
             ..Overlay::default()
@@ -81,7 +82,7 @@ mod tests {
         let options = PlainOptions {
             title: "a field".to_owned(),
             description: "Lines".to_owned(),
-            overlays: vec![overlay("a line", &[[0.0, 0.0], [3.0, 2.0]])],
+            overlays: vec![overlay("a line", &[Point::new(0.0, 0.0), Point::new(3.0, 2.0)])],
             missing: vec![Cell::new(1, 1)],
             missing_label: "no tensor".to_owned(),
             shaded: vec![Cell::new(2, 1)],

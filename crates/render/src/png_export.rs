@@ -3,7 +3,7 @@
 use crate::colour::Rgba;
 use crate::error::RenderError;
 use crate::font;
-use crate::scene::{Item, Path, Raster, Scene, Segment, Stroke, Text};
+use crate::scene::{Item, PagePoint, Path, Raster, Scene, Segment, Stroke, Text};
 use tigereye_core::math;
 use tiny_skia::{
     Color, FillRule, FilterQuality, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PixmapPaint, StrokeDash,
@@ -15,7 +15,7 @@ impl Scene {
     /// same bytes.
     ///
     /// # Errors
-    /// [`RenderError::Scale`]; [`RenderError::PictureSize`] where a side is not within 1 to [`Self::MAX_SIDE_PX`];
+    /// [`RenderError::Scale`]; [`RenderError::PictureSize`] for a side outside 1 to [`Self::MAX_SIDE_PX`];
     /// [`RenderError::Encoding`].
     pub fn to_png(&self, scale: f64) -> Result<Vec<u8>, RenderError> {
         if !(scale.is_finite() && scale > 0.0) {
@@ -45,7 +45,7 @@ pub(crate) fn pixels(scene: &Scene, width_px: f64, height_px: f64) -> Result<Pix
     let mut pixmap = checked_pixmap(width_px.ceil(), height_px.ceil())?;
     pixmap.fill(Color::WHITE);
     draw_items(&mut pixmap, &scene.items, Transform::identity())?;
-    // On white nothing is transparent.
+    // The background is white and opaque, so alpha can be dropped.
     let rgb = pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
     Ok(Pixels { size: [pixmap.width(), pixmap.height()], rgb })
 }
@@ -115,14 +115,14 @@ fn draw_text(pixmap: &mut Pixmap, text: &Text, transform: Transform) {
     let scale = (text.size_px / font::UNITS_PER_EM) as f32;
     let placed = transform
         .pre_translate(text.x_px as f32, text.y_px as f32)
-        .pre_concat(turned(text.rotation_deg))
+        .pre_concat(rotation(text.rotation_deg))
         .pre_translate(font::anchor_shift(text) as f32, 0.0)
         .pre_scale(scale, -scale);
     pixmap.fill_path(&shape, &paint(text.colour), FillRule::Winding, placed, None);
 }
 
-/// A counter-clockwise turn; tiny-skia's own uses the platform's sine.
-fn turned(degrees: f64) -> Transform {
+/// A counter-clockwise rotation; that of tiny-skia uses the platform's sine.
+fn rotation(degrees: f64) -> Transform {
     let angle = math::radians(degrees);
     let (sin, cos) = (math::sin(angle) as f32, math::cos(angle) as f32);
     Transform::from_row(cos, -sin, sin, cos, 0.0, 0.0)
@@ -150,7 +150,7 @@ fn skia_stroke(stroke: &Stroke) -> tiny_skia::Stroke {
 
 fn skia_path(segments: &[Segment]) -> Option<tiny_skia::Path> {
     let mut path = PathBuilder::new();
-    let point = |p: [f64; 2]| (p[0] as f32, p[1] as f32);
+    let point = |p: PagePoint| (p.x as f32, p.y as f32);
     for segment in segments {
         match *segment {
             Segment::Move(p) => {

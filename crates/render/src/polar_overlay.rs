@@ -4,7 +4,7 @@ use crate::colour::Rgba;
 use crate::legend::{Entry, Mark};
 use crate::map_frame::{self, MapFrame};
 use crate::overlay::{self, Overlay};
-use crate::scene::{PathBuilder, Scene};
+use crate::scene::{PagePoint, PathBuilder, Scene};
 use crate::shapes;
 use crate::walls;
 use tigereye_core::{
@@ -20,10 +20,10 @@ pub enum IntensityScale {
         /// cell.
         exclude_sources: bool,
     },
-    /// Every cell's own maximum fills it: shapes only.
+    /// Every cell is filled by its own maximum: only shapes are comparable.
     PerCell,
     /// The longest radius of a cell falls linearly with the logarithm of its mean intensity, from the brightest cell
-    /// down to nothing at `decades` below; the shape is kept. Light falls with distance, and this keeps it visible.
+    /// down to 0 at `decades` below; the shape is kept. This keeps light visible that decays with distance.
     Logarithmic {
         /// Decades shown, positive.
         decades: f64,
@@ -33,7 +33,7 @@ pub enum IntensityScale {
 /// How transmission profiles are scaled against each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum TransmissionScale {
-    /// Every cell's own maximum fills it: shapes only.
+    /// Every cell is filled by its own maximum: only shapes are comparable.
     #[default]
     PerCell,
     /// The longest radius is proportional to the cell's mean transmission, relative to the largest mean of the field:
@@ -44,7 +44,7 @@ pub enum TransmissionScale {
 /// Options of [`polar_overlay`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolarOptions {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
     /// Scaling of light.
     pub intensity: IntensityScale,
@@ -88,8 +88,8 @@ const SOURCE_FILL: Rgba = Rgba::hex(0xffefb8);
 const SOURCE_LINE: Rgba = Rgba::hex(0xe69f00);
 const ABSORBING: Rgba = Rgba::hex(0xdedede);
 
-/// In every cell the transmission profile in red and the intensity profile in blue, 90 degrees pointing up. With
-/// neither, or with two different grids (the light's counts), what is there is drawn.
+/// In every cell the transmission profile in red and the intensity profile in blue, 90 degrees pointing up. Without
+/// either, only the other is drawn; if their grids differ, only the light.
 #[must_use]
 pub fn polar_overlay(
     transmission: Option<&TransmissionField>,
@@ -156,7 +156,7 @@ fn draw_grounds(
     legend: &mut Vec<Entry>,
 ) {
     if let Some(t) = transmission {
-        // A scene's walls are drawn for what they are.
+        // The walls of a scene are drawn separately.
         let hidden = |cell| {
             let walls = options.walls.as_ref().filter(|walls| walls.grid() == t.grid());
             walls.is_some_and(|w| w.at(cell).as_ref().is_some_and(Surface::is_wall))
@@ -262,7 +262,7 @@ fn outlined(colour: Rgba, opacity: f64, text: String) -> Entry {
 /// Adds a closed polar curve whose largest sample is `longest` pixels long.
 fn add_curve(
     path: &mut PathBuilder,
-    [x, y]: [f64; 2],
+    PagePoint { x, y, .. }: PagePoint,
     samples: &[f64],
     directions: Directions,
     longest: f64,
@@ -271,11 +271,11 @@ fn add_curve(
     if largest <= 0.0 || longest < INVISIBLE_PX {
         return;
     }
-    let mut points: Vec<[f64; 2]> = (0..samples.len())
+    let mut points: Vec<PagePoint> = (0..samples.len())
         .map(|t| {
             let share = if samples[t].is_finite() { (samples[t] / largest).clamp(0.0, 1.0) } else { 0.0 };
             let [ux, uy] = directions.unit(t);
-            [x + longest * share * ux, y - longest * share * uy]
+            PagePoint::new(x + longest * share * ux, y - longest * share * uy)
         })
         .collect();
     points.push(points[0]);

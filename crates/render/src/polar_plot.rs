@@ -6,7 +6,7 @@ use crate::font;
 use crate::legend::{self, Entry, Mark, SMALL_PX};
 use crate::map_frame::{MARGIN_PX, TITLE_PX};
 use crate::number;
-use crate::scene::{Anchor, PathBuilder, Scene};
+use crate::scene::{Anchor, PagePoint, PathBuilder, Scene};
 use crate::shapes;
 use tigereye_core::{PolarProfile, math};
 
@@ -28,7 +28,7 @@ pub struct PolarSeries {
 /// Options of [`polar_plot`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolarPlotOptions {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
     /// Quantity of the radius with its unit.
     pub quantity: String,
@@ -65,8 +65,8 @@ pub fn polar_plot(series: &[PolarSeries], options: &PolarPlotOptions) -> Scene {
         scene.text([0.5 * width, top + 13.0], &line, TITLE_PX, Rgba::INK, Anchor::Middle);
         top += 20.0;
     }
-    let disc =
-        Disc { centre: [0.5 * width, top + radius + 26.0], radius, axis: radial_axis(series, options) };
+    let centre = PagePoint::new(0.5 * width, top + radius + 26.0);
+    let disc = Disc { centre, radius, axis: radial_axis(series, options) };
     disc.draw_grid(&mut scene, options.spoke_deg);
     for s in series {
         disc.draw_series(&mut scene, s);
@@ -74,7 +74,7 @@ pub fn polar_plot(series: &[PolarSeries], options: &PolarPlotOptions) -> Scene {
     disc.draw_ring_labels(&mut scene);
     let entries = legend_entries(series, options);
     let row = legend::flow(&entries, width - 2.0 * MARGIN_PX);
-    let below = disc.centre[1] + radius + 34.0;
+    let below = disc.centre.y + radius + 34.0;
     let (row_width, row_height) = (row.width_px, row.height_px);
     scene.place(row, 0.5 * (width - row_width), below, 1.0);
     scene.height_px = below + row_height + 0.5 * MARGIN_PX;
@@ -116,15 +116,15 @@ fn legend_entries(series: &[PolarSeries], options: &PolarPlotOptions) -> Vec<Ent
 }
 
 struct Disc {
-    centre: [f64; 2],
+    centre: PagePoint,
     radius: f64,
     axis: Axis,
 }
 
 impl Disc {
-    fn point(&self, share: f64, angle_rad: f64) -> [f64; 2] {
+    fn point(&self, share: f64, angle_rad: f64) -> PagePoint {
         let r = share * self.radius;
-        [self.centre[0] + r * math::cos(angle_rad), self.centre[1] - r * math::sin(angle_rad)]
+        PagePoint::new(self.centre.x + r * math::cos(angle_rad), self.centre.y - r * math::sin(angle_rad))
     }
 
     fn draw_grid(&self, scene: &mut Scene, spoke_deg: f64) {
@@ -154,7 +154,7 @@ impl Disc {
         } else {
             Anchor::Middle
         };
-        let [x, y] = self.point(1.0 + 7.0 / self.radius, angle);
+        let PagePoint { x, y, .. } = self.point(1.0 + 7.0 / self.radius, angle);
         // The text's middle moves from its foot (label above) to its head (label below).
         let baseline = y + 0.5 * font::CAP_HEIGHT_EM * SMALL_PX * (1.0 - sin);
         scene.text(
@@ -173,11 +173,11 @@ impl Disc {
             self.draw_ring_label(scene, &tick.label, self.point(self.axis.position(tick.value), angle));
         }
         let outer = number::significant(self.axis.high, 3);
-        let [x, y] = self.point(1.0 + 9.0 / self.radius, angle);
+        let PagePoint { x, y, .. } = self.point(1.0 + 9.0 / self.radius, angle);
         scene.text([x, y + 3.6], &outer, 10.0, Rgba::MUTED, Anchor::Middle);
     }
 
-    fn draw_ring_label(&self, scene: &mut Scene, label: &str, [x, y]: [f64; 2]) {
+    fn draw_ring_label(&self, scene: &mut Scene, label: &str, PagePoint { x, y, .. }: PagePoint) {
         let size = 10.0;
         let (width, height) = (font::text_width(label, size), font::CAP_HEIGHT_EM * size);
         let mut patch = PathBuilder::default();
@@ -188,7 +188,7 @@ impl Disc {
 
     fn draw_series(&self, scene: &mut Scene, series: &PolarSeries) {
         let directions = series.profile.directions();
-        let points: Vec<[f64; 2]> = series
+        let points: Vec<PagePoint> = series
             .profile
             .samples()
             .iter()

@@ -1,21 +1,21 @@
 //! Fields sampled finer than the cells of the map they are drawn on.
 //!
-//! With n samples a cell a map of W x H cells has n (W - 1) + 1 by n (H - 1) + 1 samples, and sample (i, j) lies at
+//! With n samples per cell, a map of W x H cells has n (W - 1) + 1 by n (H - 1) + 1 samples, and sample (i, j) lies at
 //! (i/n, j/n) cells: sample 0 at the centre of cell 0, the last one at the centre of the last cell. Each is drawn as a
-//! small square about its place, so that half a cell along the frame stays empty.
+//! small square about its position, so that half a cell along the frame stays empty.
 
 use crate::colour::Rgba;
 use crate::map_frame::{self, MapFrame};
 use crate::scene::{Item, Raster};
 use tigereye_core::{Cell, CellShape, Field, Grid};
 
-/// Longest side of a map in pixels beyond which samples are put together.
+/// Longest side of a map in pixels, beyond which samples are combined.
 const LONGEST_PX: usize = 960;
 
-/// How samples lie on cells.
+/// The arrangement of samples on cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sampling {
-    /// Samples a cell along x and y, at least 1.
+    /// Samples per cell along x and y, at least 1.
     pub(crate) per_cell: [usize; 2],
     /// Cells of the map.
     pub(crate) cells: Grid,
@@ -23,18 +23,18 @@ pub(crate) struct Sampling {
 }
 
 impl Sampling {
-    /// The cells that `samples` reach; 0 a cell counts as 1, and more than there are as all of them. Where their number
-    /// does not fit, the last cell is reached in part.
+    /// The cells that `samples` cover. A `per_cell` of 0 counts as 1, and is limited to the number of samples; if it
+    /// does not divide the samples evenly, the last cell is covered in part.
     pub(crate) fn of(samples: Grid, per_cell: [usize; 2]) -> Self {
         let steps = [samples.width() - 1, samples.height() - 1];
         let per_cell = per_cell.map(|n| n.clamp(1, steps[0].max(steps[1]).max(1)));
         let [width, height] = [0, 1].map(|axis| steps[axis].div_ceil(per_cell[axis]) + 1);
-        // Never more cells than samples, so there is such a grid.
+        // There are never more cells than samples, so this size is valid.
         Self { per_cell, cells: Grid::new(width, height).unwrap_or(samples), samples }
     }
 
-    /// Width and height of a cell in pixels: those asked for its smaller side, or such that samples along it have whole
-    /// pixels as long as they are not smaller.
+    /// Width and height of a cell in pixels. Its smaller side has `fixed` pixels, or by default as many as give samples
+    /// along it a whole number of pixels, unless samples are smaller than pixels.
     pub(crate) fn cell_px(&self, shape: CellShape, fixed: Option<usize>) -> [f64; 2] {
         if fixed.is_some() || self.per_cell == [1; 2] {
             return map_frame::cell_px(self.cells, shape, fixed, 480, 40);
@@ -55,12 +55,12 @@ impl Sampling {
         [0, 1].map(|axis| page.cell[axis] / self.per_cell[axis] as f64)
     }
 
-    /// Samples along x and y of what becomes one cell of a raster: more than 1 where they are smaller than a pixel.
+    /// Samples along x and y that are combined into one cell of a raster: more than 1 if they are smaller than a pixel.
     pub(crate) fn block(&self, page: &MapFrame) -> [usize; 2] {
         self.sample_px(page).map(|side| (1.0 / side).round().max(1.0) as usize)
     }
 
-    /// What one cell of a raster is the mean of, where it is one.
+    /// A remark on the mean that one cell of a raster shows, if it combines several samples.
     pub(crate) fn mean_in_words(&self, [x, y]: [usize; 2]) -> Option<String> {
         (x.max(y) > 1).then(|| format!("one pixel = mean of {x} × {y} {}", self.places()))
     }
@@ -93,23 +93,23 @@ impl Sampling {
         self.cells.iter().filter(all_broken).collect()
     }
 
-    /// What a legend calls the places of values.
+    /// The word of a legend for the positions of values.
     pub(crate) fn places(&self) -> &'static str {
         if self.per_cell == [1; 2] { "cells" } else { "samples" }
     }
 
-    /// The map in words, `W x H cells`, and how fine it is where that is finer.
+    /// The map in words: `W x H cells`, and the number of samples per cell unless it is 1.
     pub(crate) fn in_words(&self) -> String {
         let cells = format!("{} x {} cells", self.cells.width(), self.cells.height());
         match self.per_cell {
             [1, 1] => cells,
-            [m, n] if m == n => format!("{cells} with {n} samples a cell side"),
-            [m, n] => format!("{cells} with {m} x {n} samples a cell"),
+            [m, n] if m == n => format!("{cells} with {n} samples per side of a cell"),
+            [m, n] => format!("{cells} with {m} x {n} samples per cell"),
         }
     }
 }
 
-/// Mean of the finite values of a block of samples from `first` on; the value itself where the block is 1.
+/// Mean of the finite values of a block of samples from `first` on; the value itself for a block of 1.
 pub(crate) fn block_mean(field: &Field<f64>, first: Cell, block: [usize; 2]) -> f64 {
     let grid = field.grid();
     if block == [1; 2] {
@@ -152,7 +152,7 @@ mod tests {
             ];
             let ends = [page.centre(Cell::new(0, 0)), page.centre(Cell::new(cells.0 - 1, cells.1 - 1))];
             // Rounding of some hundred pixels.
-            for (a, b) in [first, last].into_iter().flatten().zip(ends.into_iter().flatten()) {
+            for (a, b) in [first, last].into_iter().flatten().zip(ends.iter().flat_map(|p| p.to_array())) {
                 assert!((a - b).abs() < 1e-9, "{cells:?} {n}: {first:?} {last:?} {ends:?}");
             }
         }
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn fine_maps_have_whole_pixels_or_put_samples_together() {
+    fn fine_maps_have_whole_pixels_or_combine_samples() {
         let side = |samples: usize, n: usize| {
             let sampling = Sampling::of(grid(samples, samples), [n; 2]);
             let page = MapFrame::begin(sampling.cells, "", sampling.cell_px(CellShape::SQUARE, None), 0.0);
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cell_is_broken_where_all_samples_about_it_are() {
+    fn a_cell_is_broken_if_all_its_samples_are() {
         let sampling = Sampling::of(grid(7, 1), [3; 2]);
         // Cells at samples 0, 3 and 6; each has the neighbours of its sample.
         assert_eq!(sampling.cells_where(|c| c.x >= 5), [Cell::new(2, 0)]);

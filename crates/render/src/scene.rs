@@ -1,9 +1,19 @@
-//! What a picture consists of: raster layers, paths and text, nested at will.
+//! Pictures as values: nested raster layers, paths and text.
 //!
-//! A scene is measured in pixels, x to the right and y **downwards** from its upper left corner. It is a value: drawing
-//! functions return one, exporters read it.
+//! A scene is measured in pixels ([`Page`]). Drawing functions return one, exporters read it.
 
 use crate::colour::Rgba;
+use euclid::{Point2D, Vector2D};
+
+/// Frame of a picture: pixels from its upper left corner, x to the right, y **downwards**.
+#[derive(Debug, Clone, Copy)]
+pub enum Page {}
+
+/// A position in a picture. Two numbers make one (`[x, y].into()`), a point in cells does not.
+pub type PagePoint = Point2D<f64, Page>;
+
+/// A displacement in a picture.
+pub type PageVector = Vector2D<f64, Page>;
 
 /// A picture before it is exported.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +24,7 @@ pub struct Scene {
     pub height_px: f64,
     /// Short name, the accessible title of an SVG.
     pub title: String,
-    /// What the picture shows, in words, for people who cannot see it.
+    /// A description of the picture in words, for readers who cannot see it.
     pub description: String,
     /// Parts, painted in this order on white.
     pub items: Vec<Item>,
@@ -65,17 +75,17 @@ impl Raster {
     }
 }
 
-/// One step of a path; points are (x, y) in pixels.
+/// One step of a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Segment {
     /// Begins a sub-path.
-    Move([f64; 2]),
+    Move(PagePoint),
     /// Straight to a point.
-    Line([f64; 2]),
+    Line(PagePoint),
     /// Quadratic curve: control point, end.
-    Quad([f64; 2], [f64; 2]),
+    Quad(PagePoint, PagePoint),
     /// Cubic curve: two control points, end.
-    Cubic([f64; 2], [f64; 2], [f64; 2]),
+    Cubic(PagePoint, PagePoint, PagePoint),
     /// Back to the beginning of the sub-path.
     Close,
 }
@@ -128,7 +138,7 @@ pub struct Text {
     pub colour: Rgba,
     /// Meaning of the anchor point.
     pub anchor: Anchor,
-    /// Turned counter-clockwise about the anchor point, degrees.
+    /// Counter-clockwise rotation about the anchor point, degrees.
     pub rotation_deg: f64,
 }
 
@@ -142,7 +152,7 @@ impl Scene {
         Self { width_px, height_px, title: String::new(), description: String::new(), items: Vec::new() }
     }
 
-    /// Places another scene's items, enlarged by `scale`, with its upper left corner at (x, y) pixels.
+    /// Inserts the items of another scene, scaled by `scale`, with its upper left corner at (x, y) pixels.
     pub fn place(&mut self, scene: Self, x_px: f64, y_px: f64, scale: f64) {
         self.items.push(Item::Group { dx_px: x_px, dy_px: y_px, scale, items: scene.items });
     }
@@ -161,19 +171,27 @@ impl Scene {
         self.items.push(Item::Path(Path { segments, fill: Some(fill), stroke }));
     }
 
-    pub(crate) fn text(&mut self, at: [f64; 2], text: &str, size_px: f64, colour: Rgba, anchor: Anchor) {
-        self.turned_text(at, text, size_px, colour, anchor, 0.0);
+    pub(crate) fn text(
+        &mut self,
+        at: impl Into<PagePoint>,
+        text: &str,
+        size_px: f64,
+        colour: Rgba,
+        anchor: Anchor,
+    ) {
+        self.rotated_text(at, text, size_px, colour, anchor, 0.0);
     }
 
-    pub(crate) fn turned_text(
+    pub(crate) fn rotated_text(
         &mut self,
-        [x_px, y_px]: [f64; 2],
+        at: impl Into<PagePoint>,
         text: &str,
         size_px: f64,
         colour: Rgba,
         anchor: Anchor,
         rotation_deg: f64,
     ) {
+        let PagePoint { x: x_px, y: y_px, .. } = at.into();
         if !text.is_empty() {
             let text = text.to_owned();
             self.items.push(Item::Text(Text { x_px, y_px, text, size_px, colour, anchor, rotation_deg }));
@@ -187,26 +205,26 @@ pub struct PathBuilder(Vec<Segment>);
 
 impl PathBuilder {
     /// Begins a sub-path at `p`.
-    pub fn move_to(&mut self, p: [f64; 2]) {
-        self.0.push(Segment::Move(p));
+    pub fn move_to(&mut self, p: impl Into<PagePoint>) {
+        self.0.push(Segment::Move(p.into()));
     }
     /// A straight line to `p`.
-    pub fn line_to(&mut self, p: [f64; 2]) {
-        self.0.push(Segment::Line(p));
+    pub fn line_to(&mut self, p: impl Into<PagePoint>) {
+        self.0.push(Segment::Line(p.into()));
     }
     /// A quadratic curve with control point `c` to `p`.
-    pub fn quad_to(&mut self, c: [f64; 2], p: [f64; 2]) {
+    pub fn quad_to(&mut self, c: PagePoint, p: PagePoint) {
         self.0.push(Segment::Quad(c, p));
     }
     /// A cubic curve with control points `c` and `d` to `p`.
-    pub fn cubic_to(&mut self, c: [f64; 2], d: [f64; 2], p: [f64; 2]) {
+    pub fn cubic_to(&mut self, c: PagePoint, d: PagePoint, p: PagePoint) {
         self.0.push(Segment::Cubic(c, d, p));
     }
     /// Closes the sub-path.
     pub fn close(&mut self) {
         self.0.push(Segment::Close);
     }
-    /// Whether there is no step yet.
+    /// Whether the path has no steps.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -223,13 +241,13 @@ impl PathBuilder {
     }
 
     /// A line from `a` to `b`.
-    pub fn line(&mut self, a: [f64; 2], b: [f64; 2]) {
+    pub fn line(&mut self, a: impl Into<PagePoint>, b: impl Into<PagePoint>) {
         self.move_to(a);
         self.line_to(b);
     }
 
     /// Straight lines through `points`.
-    pub fn polyline(&mut self, points: &[[f64; 2]], closed: bool) {
+    pub fn polyline(&mut self, points: &[impl Into<PagePoint> + Copy], closed: bool) {
         for (i, p) in points.iter().enumerate() {
             if i == 0 { self.move_to(*p) } else { self.line_to(*p) }
         }
@@ -238,11 +256,11 @@ impl PathBuilder {
         }
     }
 
-    /// An ellipse about `centre` with conjugate semi-axes `a` and `b` (vectors in pixels).
-    pub fn ellipse(&mut self, centre: [f64; 2], a: [f64; 2], b: [f64; 2]) {
+    /// An ellipse about `centre` with conjugate semi-axes `a` and `b`.
+    pub fn ellipse(&mut self, centre: PagePoint, a: PageVector, b: PageVector) {
         // Four cubics are within 0.03 % of a circle with this distance of the control points.
         const K: f64 = 0.552_284_749_830_793_4;
-        let at = |u: f64, v: f64| [centre[0] + u * a[0] + v * b[0], centre[1] + u * a[1] + v * b[1]];
+        let at = |u: f64, v: f64| centre + a * u + b * v;
         self.move_to(at(1.0, 0.0));
         self.cubic_to(at(1.0, K), at(K, 1.0), at(0.0, 1.0));
         self.cubic_to(at(-K, 1.0), at(-1.0, K), at(-1.0, 0.0));
@@ -252,7 +270,7 @@ impl PathBuilder {
     }
 
     /// A circle.
-    pub fn circle(&mut self, centre: [f64; 2], radius: f64) {
-        self.ellipse(centre, [radius, 0.0], [0.0, radius]);
+    pub fn circle(&mut self, centre: impl Into<PagePoint>, radius: f64) {
+        self.ellipse(centre.into(), PageVector::new(radius, 0.0), PageVector::new(0.0, radius));
     }
 }

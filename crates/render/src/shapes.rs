@@ -1,10 +1,10 @@
 //! Markers, dashed lines and hatching.
 
 use crate::colour::Rgba;
-use crate::scene::{Item, Path, PathBuilder, Scene, Segment, Stroke};
+use crate::scene::{Item, PagePoint, Path, PathBuilder, Scene, Segment, Stroke};
 use tigereye_core::math;
 
-/// Shapes that mark points, told apart without colour.
+/// Markers of points, distinguishable without colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Marker {
     /// Filled circle.
@@ -28,24 +28,25 @@ impl Marker {
     pub const SERIES: [Self; 6] =
         [Self::Circle, Self::Square, Self::Triangle, Self::Diamond, Self::Cross, Self::Ring];
 
-    pub(crate) fn draw(self, scene: &mut Scene, centre: [f64; 2], radius: f64, colour: Rgba) {
+    pub(crate) fn draw(self, scene: &mut Scene, centre: impl Into<PagePoint>, radius: f64, colour: Rgba) {
         let mut path = PathBuilder::default();
-        self.add_to(&mut path, centre, radius);
+        self.add_to(&mut path, centre.into(), radius);
         match self {
             Self::Cross => scene.stroke(path.finish(), colour, 1.5),
             Self::Ring => scene.paint(path.finish(), Rgba::WHITE, colour, 1.3),
-            // A thin white rim separates a marker from what lies under it.
+            // A thin white outline separates a marker from what lies under it.
             _ => scene.paint(path.finish(), colour, Rgba::WHITE, 0.6),
         }
     }
 
-    fn add_to(self, path: &mut PathBuilder, [x, y]: [f64; 2], r: f64) {
+    fn add_to(self, path: &mut PathBuilder, centre: PagePoint, r: f64) {
+        let PagePoint { x, y, .. } = centre;
         match self {
-            Self::Circle | Self::Ring => path.circle([x, y], r),
+            Self::Circle | Self::Ring => path.circle(centre, r),
             Self::Square => path.rect(x - 0.88 * r, y - 0.88 * r, 1.76 * r, 1.76 * r),
-            Self::Triangle => path.polyline(&regular([x, y], 1.2 * r, 3, 1.0), true),
-            Self::Diamond => path.polyline(&regular([x, y], 1.2 * r, 4, 1.0), true),
-            Self::Star => path.polyline(&regular([x, y], 1.35 * r, 10, 0.45), true),
+            Self::Triangle => path.polyline(&regular(centre, 1.2 * r, 3, 1.0), true),
+            Self::Diamond => path.polyline(&regular(centre, 1.2 * r, 4, 1.0), true),
+            Self::Star => path.polyline(&regular(centre, 1.35 * r, 10, 0.45), true),
             Self::Cross => {
                 path.line([x - r, y - r], [x + r, y + r]);
                 path.line([x - r, y + r], [x + r, y - r]);
@@ -55,12 +56,12 @@ impl Marker {
 }
 
 /// Corners of a regular polygon with a corner on top; every second one at `inner` times the radius.
-fn regular([x, y]: [f64; 2], radius: f64, corners: usize, inner: f64) -> Vec<[f64; 2]> {
+fn regular(centre: PagePoint, radius: f64, corners: usize, inner: f64) -> Vec<PagePoint> {
     (0..corners)
         .map(|i| {
             let angle = math::FRAC_PI_2 + math::TAU * i as f64 / corners as f64;
             let r = if i % 2 == 1 { radius * inner } else { radius };
-            [x + r * math::cos(angle), y - r * math::sin(angle)]
+            PagePoint::new(centre.x + r * math::cos(angle), centre.y - r * math::sin(angle))
         })
         .collect()
 }
@@ -77,8 +78,8 @@ pub(crate) fn dashed(
     scene.items.push(Item::Path(Path { segments, fill: None, stroke }));
 }
 
-/// The points of a line with those left out that lie within `tolerance` of the rest (Douglas and Peucker 1973).
-pub(crate) fn simplified(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
+/// A line simplified by dropping points that lie within `tolerance` of the rest (Douglas and Peucker 1973).
+pub(crate) fn simplified(points: &[PagePoint], tolerance: f64) -> Vec<PagePoint> {
     if points.len() < 3 {
         return points.to_vec();
     }
@@ -104,10 +105,9 @@ pub(crate) fn simplified(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
 }
 
 /// Squared distance of `p` from the line segment `a` to `b`.
-fn squared_distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    let (bx, by, px, py) = (b[0] - a[0], b[1] - a[1], p[0] - a[0], p[1] - a[1]);
-    let length = bx * bx + by * by;
-    let t = if length > 0.0 { ((px * bx + py * by) / length).clamp(0.0, 1.0) } else { 0.0 };
-    let (dx, dy) = (px - t * bx, py - t * by);
-    dx * dx + dy * dy
+fn squared_distance(p: PagePoint, a: PagePoint, b: PagePoint) -> f64 {
+    let (along, to) = (b - a, p - a);
+    let length = along.square_length();
+    let t = if length > 0.0 { (to.dot(along) / length).clamp(0.0, 1.0) } else { 0.0 };
+    (to - along * t).square_length()
 }

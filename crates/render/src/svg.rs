@@ -4,7 +4,7 @@ use crate::colour::Rgba;
 use crate::error::RenderError;
 use crate::font;
 use crate::png_export::raster_png;
-use crate::scene::{Item, Path, Raster, Scene, Segment, Text};
+use crate::scene::{Item, PagePoint, Path, Raster, Scene, Segment, Text};
 use base64::Engine;
 use std::fmt::Write;
 
@@ -12,7 +12,7 @@ impl Scene {
     /// The scene as a self-contained SVG document.
     ///
     /// # Errors
-    /// [`RenderError::PictureSize`] or [`RenderError::Encoding`] for a raster layer that is no picture.
+    /// [`RenderError::PictureSize`] or [`RenderError::Encoding`] for an invalid raster layer.
     pub fn to_svg(&self) -> Result<String, RenderError> {
         let mut out = String::new();
         let (w, h) = (number(self.width_px), number(self.height_px));
@@ -117,7 +117,8 @@ fn path_data(segments: &[Segment], unit: f64) -> String {
     let mut out = String::new();
     let mut pen = [0_i64; 2];
     let mut start = pen;
-    let rounded = |p: [f64; 2]| p.map(|v| if v.is_finite() { (v * unit).round() as i64 } else { 0 });
+    let rounded =
+        |p: PagePoint| p.to_array().map(|v| if v.is_finite() { (v * unit).round() as i64 } else { 0 });
     for segment in segments {
         match *segment {
             Segment::Move(p) => {
@@ -162,7 +163,7 @@ fn write_points(out: &mut String, letter: char, points: &[[i64; 2]], origin: [i6
     }
 }
 
-/// At most two decimals, without trailing zeros or a negative zero; 0 for what is not finite.
+/// At most two decimals, without trailing zeros or a negative zero; 0 for non-finite values.
 fn number(value: f64) -> String {
     let value = if value.is_finite() { value } else { 0.0 };
     let text = format!("{value:.2}");
@@ -178,7 +179,7 @@ fn escaped(text: &str) -> String {
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
-            // XML 1.0 has no place for control characters, not even escaped.
+            // XML 1.0 does not allow control characters, not even escaped.
             c if c.is_control() => out.push(' '),
             c => out.push(c),
         }

@@ -29,13 +29,13 @@ pub struct Tint {
 /// Options of [`texture_map`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureOptions {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
-    /// Samples a cell along x and y, as for [`crate::HeatOptions`].
+    /// Samples per cell along x and y, as for [`crate::HeatOptions`].
     pub samples_a_cell: [usize; 2],
     /// Colour by another quantity.
     pub tint: Option<Tint>,
-    /// Pixels of a cell's smaller side; by default such that samples have whole pixels and the longer side has about
+    /// Pixels of a cell's smaller side; by default such that a sample covers whole pixels and the longer side has about
     /// 480.
     pub cell_px: Option<usize>,
     /// The shape of a cell.
@@ -46,7 +46,7 @@ pub struct TextureOptions {
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the map and its bands.
     pub overlays: Vec<Overlay>,
-    /// What the legend calls samples whose value is not a number; by default `no texture`.
+    /// Label in the legend for samples whose value is NaN; by default `no texture`.
     pub missing: Option<String>,
 }
 
@@ -66,16 +66,16 @@ impl Default for TextureOptions {
     }
 }
 
-/// How far black and white replace the colour of a tint at the ends of the texture.
+/// Share of black and white in the colour of a tint at the ends of the texture's range.
 const TINT_CONTRAST: f64 = 0.75;
 /// Samples whose tint is not a number keep their grey; this one stands for them in the legend.
 const MIDDLE_GREY: Rgba = Rgba::hex(0x808080);
 
-/// A texture with values from 0 (dark) to 1 (light), those beyond drawn as the ends, with axes in cells. A tint shows
+/// A texture with values from 0 (dark) to 1 (light), clamped to this range, with axes in cells. A tint shows
 /// its own colour at 0.5. Samples that are not finite are white and named in the legend.
 ///
 /// # Errors
-/// [`RenderError::GridMismatch`] where a tint does not have the samples of the texture.
+/// [`RenderError::GridMismatch`] if a tint has other samples than the texture.
 pub fn texture_map(texture: &Field<f64>, options: &TextureOptions) -> Result<Scene, RenderError> {
     let sampling = Sampling::of(texture.grid(), options.samples_a_cell);
     let tint = options.tint.as_ref().map(|tint| Tinting::of(tint, texture)).transpose()?;

@@ -1,9 +1,9 @@
-//! The cells of a scene that are no empty space, over a map.
+//! Walls, filters and crystals of a scene, over a map.
 
 use crate::colour::Rgba;
 use crate::legend::{Entry, Mark};
 use crate::map_frame::MapFrame;
-use crate::scene::{PathBuilder, Scene};
+use crate::scene::{PagePoint, PathBuilder, Scene};
 use tigereye_core::{Cell, Field, Surface, math};
 
 const ABSORBING: Rgba = Rgba::hex(0x3b3b3b);
@@ -47,7 +47,7 @@ impl Kind {
         }
     }
 
-    /// What covers the cell; filters and crystals cover nothing.
+    /// The colour that covers the cell; filters and crystals leave it visible.
     const fn fill(self) -> Option<Rgba> {
         match self {
             Self::Absorbing => Some(ABSORBING),
@@ -92,12 +92,12 @@ pub(crate) fn draw(page: &mut MapFrame, walls: &Field<Option<Surface>>, legend: 
     }
 }
 
-/// Draws the rim of a region: the sides of its cells that no other one of it shares.
+/// Draws the boundary of a region: the sides that its cells do not share with each other.
 fn outline(page: &mut MapFrame, cells: &[Cell], belongs: &dyn Fn(Cell) -> bool) {
-    let mut rim = PathBuilder::default();
+    let mut boundary = PathBuilder::default();
     let [r, s] = page.cell.map(|side| 0.5 * side);
     for cell in cells {
-        let [x, y] = page.centre(*cell);
+        let PagePoint { x, y, .. } = page.centre(*cell);
         let beside = |dx: isize, dy: isize| {
             let next = cell.x.checked_add_signed(dx).zip(cell.y.checked_add_signed(dy));
             next.is_some_and(|(x, y)| belongs(Cell::new(x, y)))
@@ -105,14 +105,14 @@ fn outline(page: &mut MapFrame, cells: &[Cell], belongs: &dyn Fn(Cell) -> bool) 
         for (dx, dy) in [(1, 0), (0, 1), (-1, 0), (0, -1)] {
             if !beside(dx, dy) {
                 let (ux, uy) = (dx as f64, dy as f64);
-                rim.line([x + r * (ux - uy), y + s * (uy + ux)], [x + r * (ux + uy), y + s * (uy - ux)]);
+                boundary.line([x + r * (ux - uy), y + s * (uy + ux)], [x + r * (ux + uy), y + s * (uy - ux)]);
             }
         }
     }
-    let rim = rim.finish();
-    // Dark on white, seen over every colour.
-    page.scene.stroke(rim.clone(), Rgba::WHITE, 2.4);
-    page.scene.stroke(rim, Rgba::INK, 1.0);
+    let boundary = boundary.finish();
+    // Dark on white, visible on every colour.
+    page.scene.stroke(boundary.clone(), Rgba::WHITE, 2.4);
+    page.scene.stroke(boundary, Rgba::INK, 1.0);
 }
 
 /// Strokes and dots of many cells.
@@ -124,17 +124,18 @@ struct Marks {
 }
 
 impl Marks {
-    fn add(&mut self, surface: &Surface, [x, y]: [f64; 2], r: f64) {
+    fn add(&mut self, surface: &Surface, centre: PagePoint, r: f64) {
+        let PagePoint { x, y, .. } = centre;
         match surface {
             Surface::Absorbing | Surface::Crystal => {}
             // It faces all sides.
-            Surface::Mirror { angle_deg: None } => self.mirrors.circle([x, y], 0.5 * r),
+            Surface::Mirror { angle_deg: None } => self.mirrors.circle(centre, 0.5 * r),
             Surface::Mirror { angle_deg: Some(angle_deg) } => {
                 let angle = math::radians(*angle_deg);
                 let (dx, dy) = (0.8 * r * math::cos(angle), -0.8 * r * math::sin(angle));
                 self.mirrors.line([x - dx, y - dy], [x + dx, y + dy]);
             }
-            Surface::Diffuse { .. } => self.dots.circle([x, y], 0.22 * r),
+            Surface::Diffuse { .. } => self.dots.circle(centre, 0.22 * r),
             Surface::Filter { .. } => {
                 self.filters.line([x - r, y - r], [x + r, y + r]);
                 self.filters.line([x, y - r], [x + r, y]);
@@ -162,7 +163,7 @@ fn swatch(kind: Kind) -> Mark {
     let mut outline = PathBuilder::default();
     outline.rect(-11.0, -5.5, 22.0, 11.0);
     if kind == Kind::Crystal {
-        // Neither colour nor marks: only its rim is drawn.
+        // Only the boundary is drawn, without colour or marks.
         scene.stroke(outline.finish(), Rgba::INK, 1.0);
         return Mark::Drawing(scene.items);
     }
@@ -176,7 +177,7 @@ fn swatch(kind: Kind) -> Mark {
             Kind::Filter => Surface::Filter { transmittance: 0.5 },
             Kind::Crystal => Surface::Crystal,
         };
-        marks.add(&surface, [x, 0.0], 5.5);
+        marks.add(&surface, PagePoint::new(x, 0.0), 5.5);
     }
     marks.draw(&mut scene);
     Mark::Drawing(scene.items)

@@ -81,6 +81,17 @@ pub enum TransportError {
         /// Number of samples.
         samples: usize,
     },
+    /// Light gets where it cannot leave: there is no stationary state.
+    #[error(
+        "light is trapped around ({x}, {y}): expected a field whose light can leave or is absorbed, for otherwise no \
+         stationary state exists"
+    )]
+    Trapped {
+        /// Column of the first cell of a block that holds the trap.
+        x: usize,
+        /// Its row.
+        y: usize,
+    },
     /// A transmission field with another sampling than the scheme's.
     #[error("the transmission has {samples} directions where the scheme has {expected}")]
     TransmissionDirections {

@@ -9,6 +9,7 @@ mod error;
 mod kernel;
 mod light;
 mod limits;
+mod linear;
 mod number;
 mod oracle;
 mod pulses;
@@ -25,13 +26,16 @@ pub use engine::{Engine, Observer, Outcome, Problem, StepView};
 pub use error::TransportError;
 pub use light::{Emission, Light, check_lights, emitter};
 pub use limits::{Traffic, arithmetic};
+pub use linear::{
+    Combination, Course, Dissection, Lanes, LinearScattering, Parallel, Serial, Workspace, l1_norms,
+};
 pub use oracle::SampleSpace;
 pub use pulses::{LaneOutcome, PulseDistribution, PulseSolver, l1_difference};
 pub use real::Real;
 pub use reduced::EightLobe;
 pub use scattering::Scattering;
 pub use scheme::{Scheme, SharedWeights, half_angle_beta_rad, half_core_alpha_rad, sector_lobes};
-pub use simd::Level;
+pub use simd::{ArrayLoop, Level};
 pub use stopping::{StopMeasure, Stopping, StoppingRule};
 
 /// Every engine, the oracle first. Laws of propagations are tested for each of them, and experiment files choose them

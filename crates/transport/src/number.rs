@@ -24,6 +24,9 @@ pub(crate) trait Number:
     const SETTLED: f64;
     /// A pulse whose light stays longer than so many steps has no stationary state within reach of these numbers.
     const RESIDENCE: f64;
+    /// Light of which less than this part escapes per passage between two halves of a block is trapped: rounding hides
+    /// the rest.
+    const SMALLEST_PIVOT: f64;
 
     fn narrowed(value: f64) -> Self;
     fn widened(self) -> f64;
@@ -33,11 +36,12 @@ pub(crate) trait Number:
 }
 
 macro_rules! number {
-    ($type:ident, $tiny:literal, $settled:literal, $residence:literal) => {
+    ($type:ident, $tiny:literal, $settled:literal, $residence:literal, $pivot:literal) => {
         impl Number for $type {
             const TINY: Self = $tiny;
             const SETTLED: f64 = $settled;
             const RESIDENCE: f64 = $residence;
+            const SMALLEST_PIVOT: f64 = $pivot;
 
             #[inline(always)]
             fn narrowed(value: f64) -> Self {
@@ -59,5 +63,5 @@ macro_rules! number {
     };
 }
 
-number!(f64, 1e-280, 1e-14, 1e7);
-number!(f32, 1e-30, 1e-6, 1e4);
+number!(f64, 1e-280, 1e-14, 1e7, 1e-12);
+number!(f32, 1e-30, 1e-6, 1e4, 1e-5);

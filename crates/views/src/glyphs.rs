@@ -27,9 +27,9 @@ pub fn check(grid: Grid, every: Option<usize>) -> Result<(), TooManyGlyphs> {
 }
 
 /// The outlines of glyphs ([`glyph_outlines`]): areas as polygons, the rest as lines. Cell arrays: `part` (0 area, 1
-/// area left white, 2 line, 3 head of an arrow, 4 sector of a turn, 5 line kept by a reflection), `sign` (1 tension or
-/// counter-clockwise, -1 compression or clockwise, 0 neither or both), `column` and `row` of the tensor (row 0 on top),
-/// and its linear `anisotropy`.
+/// area left white, 2 line, 3 head of an arrow, 4 sector of a rotation, 5 invariant line of a reflection), `sign` (1
+/// tension or counter-clockwise, -1 compression or clockwise, 0 neither or both), `column` and `row` of the tensor (row
+/// 0 on top), and its linear `anisotropy`.
 #[must_use]
 pub fn poly_data(
     field: &Field<Tensor2>,

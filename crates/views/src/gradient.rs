@@ -40,17 +40,17 @@ pub struct Request {
     pub title: String,
     /// Which scalar it is.
     pub scalar: Scalar,
-    /// What the cells are, in a scene.
+    /// The surfaces of a scene.
     pub walls: Option<Field<Option<Surface>>>,
-    /// What is drawn above.
+    /// Lines and points drawn on top.
     pub overlays: Vec<Overlay>,
-    /// Pixels per cell; chosen by the picture where nobody says.
+    /// Pixels per cell; `None` for the default of the picture.
     pub cell_px: Option<usize>,
     /// The shape of a cell.
     pub cell: CellShape,
 }
 
-/// A scalar at all cells, W/rad. What is no result is drawn as missing, so that it does not stretch the scale.
+/// A scalar at all cells, W/rad. Cells without a result are drawn as missing, so that they do not affect the scale.
 #[must_use]
 pub fn picture(scalar: &Field<f64>, request: Request) -> Scene {
     let inner = where_result(scalar, request.walls.as_ref());
@@ -68,7 +68,7 @@ pub fn picture(scalar: &Field<f64>, request: Request) -> Scene {
     heat_map(&inner, &options)
 }
 
-/// What the legend of a gradient calls the cells that [`where_result`] leaves out.
+/// Label in the legend for the cells that [`where_result`] leaves out.
 #[must_use]
 pub fn missing_label(surfaces: Option<&Field<Option<Surface>>>) -> &'static str {
     match surfaces.is_some_and(|s| s.values().iter().flatten().any(Surface::is_wall)) {
@@ -77,8 +77,8 @@ pub fn missing_label(surfaces: Option<&Field<Option<Surface>>>) -> &'static str 
     }
 }
 
-/// A gradient's scalar where it is a result, not a number elsewhere: at the border, where it is 0 by definition, and in
-/// and beside the walls of a scene, where others are compared with a pulse that shines on nothing.
+/// A gradient's scalar where it is meaningful, NaN elsewhere: at the border, where it is 0 by definition, and in and
+/// beside the walls of a scene, where pulses are compared with one that is inside a wall and emits nothing.
 #[must_use]
 pub fn where_result(field: &Field<f64>, surfaces: Option<&Field<Option<Surface>>>) -> Field<f64> {
     let grid = field.grid();

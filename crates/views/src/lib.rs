@@ -16,13 +16,13 @@ pub use overlays::{line_overlay, point_overlays};
 pub use reel::Reel;
 
 use std::ops::Range;
-use tigereye_core::{CellShape, Field, Grid, Tensor2};
+use tigereye_core::{CellShape, Field, Grid, Point, Tensor2};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{DataArray, FieldEntry, FieldValues, ImageData, PROVENANCE, PolyData, Rows};
 use tigereye_lines::{Axes, Following, is_complex};
 use tigereye_render::{Overlay, PlainOptions};
 
-/// Where the cells of a field lie, counted with y downwards as fields count them.
+/// The position of the cells of a field in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     geometry: PlaneGeometry,
@@ -36,10 +36,10 @@ impl Placement {
         Self { geometry, height: grid.height() }
     }
 
-    /// The place of a point in cells, y downwards.
+    /// The position of a point of the grid in the world.
     #[must_use]
-    pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 3] {
-        self.geometry.place([x, (self.height - 1) as f64 - y])
+    pub fn place(&self, p: Point) -> [f64; 3] {
+        self.geometry.place([p.x, (self.height - 1) as f64 - p.y])
     }
 
     /// The shape of a cell.
@@ -48,14 +48,14 @@ impl Placement {
         CellShape::of(self.geometry.spacing())
     }
 
-    /// Where the cells lie.
+    /// The geometry of the plane of cells.
     #[must_use]
     pub const fn geometry(&self) -> &PlaneGeometry {
         &self.geometry
     }
 }
 
-/// Scalars as image data that lie on the field, with so many samples a cell along x and y: rows upwards, as the
+/// Scalars as image data in the frame of the field, with `samples` per cell along x and y: rows upwards, as the
 /// parameters of its provenance say ([`tigereye_io::Rows::KEY`]).
 #[must_use]
 pub fn image(
@@ -82,33 +82,33 @@ pub fn image(
     image
 }
 
-/// Adds lines to poly data; the points of each follow those of the one before.
+/// Appends a line and its points to poly data.
 fn push_line(data: &mut PolyData, points: impl Iterator<Item = [f64; 3]>) {
     let line = push_points(data, points);
     data.lines.push(line);
 }
 
-/// Adds points; which they are.
+/// Appends points and returns their indices.
 fn push_points(data: &mut PolyData, points: impl Iterator<Item = [f64; 3]>) -> Range<usize> {
     let first = data.points.len();
     data.points.extend(points);
     first..data.points.len()
 }
 
-/// Whole numbers as an array.
+/// An array of integers.
 fn counts(name: &str, values: impl IntoIterator<Item = i32>) -> DataArray {
     let values = values.into_iter().map(f64::from).collect();
     DataArray { scalar: tigereye_io::ScalarType::Int32, ..DataArray::new(name, 1, values) }
 }
 
-/// Where the data come from, as every written file says.
+/// Adds the provenance that every written file carries.
 fn push_story(data: &mut PolyData, story: &str) {
     let values = FieldValues::Text(vec![story.to_owned()]);
     data.field_data.push(FieldEntry { name: PROVENANCE.to_owned(), values });
 }
 
-/// Lines and points over a field of which zero tensors and those that are not finite are hatched, and, where lines
-/// follow eigenvectors, those with complex eigenvalues shaded.
+/// Options of a map of lines and points: zero and non-finite tensors are hatched and, if lines follow eigenvectors,
+/// tensors with complex eigenvalues are shaded.
 fn plain_options(
     field: &Field<Tensor2>,
     following: Following,

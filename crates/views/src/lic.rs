@@ -1,7 +1,7 @@
 //! Line integral convolution: textures smeared along axes.
 
 use serde_json::{Value, json};
-use tigereye_core::{Anisotropy, Cell, Field, Tensor2};
+use tigereye_core::{Anisotropy, Cell, Field, Point, Tensor2};
 use tigereye_lines::{
     ConvolutionOptions, Family, Followed, Following, Interpolated, SamplingError, convolved, hyper_convolved,
 };
@@ -21,7 +21,7 @@ pub struct TextureRequest {
 }
 
 impl TextureRequest {
-    /// Samples a cell along x and y.
+    /// Samples per cell along x and y.
     #[must_use]
     pub fn samples_a_cell(&self) -> [usize; 2] {
         self.options.samples_a_cell(self.following.cell)
@@ -42,7 +42,7 @@ pub fn texture(field: &Field<Tensor2>, request: &TextureRequest) -> Result<Field
     }
 }
 
-/// A texture in grey, or in the colours of the anisotropy; pixels a cell by default as [`texture_map`] has them.
+/// A texture in grey, or in the colours of the anisotropy; with the default cell size of [`texture_map`].
 ///
 /// # Errors
 /// [`RenderError`] for a texture of another field.
@@ -57,7 +57,7 @@ pub fn picture(
     let samples = request.samples_a_cell();
     let tint = tinted.then(|| {
         let between = Interpolated::new(field);
-        let at = |c: Cell| [c.x as f64 / samples[0] as f64, c.y as f64 / samples[1] as f64];
+        let at = |c: Cell| Point::new(c.x as f64 / samples[0] as f64, c.y as f64 / samples[1] as f64);
         let anisotropy = |c: Cell| between.at(at(c)).map_or(f64::NAN, |t| Anisotropy::of(&t).linear);
         Tint {
             values: Field::from_fn(texture.grid(), anisotropy),

@@ -3,7 +3,7 @@
 use tigereye_core::{Cell, CellShape, Field, Surface};
 use tigereye_render::{HeatOptions, HeatScale, Overlay, Scene, heat_map};
 
-/// Decades below the brightest cell that pictures show where nobody says another range.
+/// Default range of pictures, decades below the brightest cell.
 pub const DECADES: f64 = 4.0;
 
 /// Which picture of the energy.
@@ -11,22 +11,22 @@ pub const DECADES: f64 = 4.0;
 pub struct Request {
     /// Heading.
     pub title: String,
-    /// Decades below the brightest cell; linear where there are none.
+    /// Decades below the brightest cell; `None` for a linear scale.
     pub decades: Option<f64>,
     /// Cells of the lights, which are marked.
     pub sources: Vec<Cell>,
-    /// What the cells are, in a scene.
+    /// The surfaces of a scene.
     pub walls: Option<Field<Option<Surface>>>,
-    /// What is drawn above.
+    /// Lines and points drawn on top.
     pub overlays: Vec<Overlay>,
-    /// Pixels per cell; chosen by the picture where nobody says.
+    /// Pixels per cell; `None` for the default of the picture.
     pub cell_px: Option<usize>,
     /// The shape of a cell.
     pub cell: CellShape,
 }
 
 impl Request {
-    /// What a map of energies of cells (W) needs.
+    /// The options of a map of the energies of cells (W).
     #[must_use]
     pub fn into_options(self) -> HeatOptions {
         HeatOptions {

@@ -2,7 +2,7 @@
 
 use super::{Placement, counts, line_overlay, plain_options, push_line, push_story};
 use thiserror::Error;
-use tigereye_core::{Field, Tensor2};
+use tigereye_core::{Field, Point, Tensor2};
 use tigereye_io::{DataArray, PolyData};
 use tigereye_lines::{
     Family, LineEnd, LineOptions, MAX_POINTS, TensorLine, evenly_spaced, half_widths, tensor_line,
@@ -13,13 +13,13 @@ use tigereye_render::{Overlay, PlainOptions, Rgba, Ribbon, Scene, plain_map};
 /// Colours of major and minor bands.
 const RIBBONS: [Rgba; 2] = [Rgba::hex(0x0072b2), Rgba::hex(0xd55e00)];
 
-/// Where lines begin.
+/// The seeds of lines.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Seeds {
-    /// All over the field, that far apart, in the unit of the smaller side of a cell.
+    /// Evenly spaced over the field, with this separation, in units of the smaller side of a cell.
     Even(f64),
-    /// At these points, in cells, y downwards.
-    At(Vec<[f64; 2]>),
+    /// At these points.
+    At(Vec<Point>),
 }
 
 /// Which lines of a field.
@@ -29,16 +29,16 @@ pub struct LinesRequest {
     pub following: Following,
     /// One family or both.
     pub families: Vec<Family>,
-    /// Where they begin.
+    /// Their seeds.
     pub seeds: Seeds,
-    /// How they are followed.
+    /// How they are integrated.
     pub options: LineOptions,
-    /// Half of a hyperstreamline's width, in the unit of the smaller side of a cell, for the largest semi-axis, or
-    /// eigenvalue, of the field; none for plain lines.
+    /// Half of a hyperstreamline's width, in units of the smaller side of a cell, for the largest semi-axis, or
+    /// eigenvalue, of the field; `None` for plain lines.
     pub ribbon: Option<f64>,
 }
 
-/// Lines with what is known along them.
+/// Lines with their data.
 #[derive(Clone, Debug)]
 pub struct FieldLines {
     /// The lines, one family after the other.
@@ -53,7 +53,7 @@ pub struct FieldLine {
     pub family: Family,
     /// Its points and ends.
     pub line: TensorLine,
-    /// Half of its width at every point, in the unit of the smaller side of a cell; empty for plain lines.
+    /// Half of its width at every point, in units of the smaller side of a cell; empty for plain lines.
     pub half_widths: Vec<f64>,
 }
 
@@ -64,7 +64,7 @@ pub struct FieldLine {
 )]
 pub struct TooManyPoints;
 
-/// Follows the lines that are asked for. Seeds where there is no axis give none.
+/// Follows the requested lines. Seeds at degenerate tensors give no line.
 ///
 /// # Errors
 /// [`TooManyPoints`] for more than [`MAX_POINTS`].
@@ -102,8 +102,8 @@ pub fn lines(field: &Field<Tensor2>, request: &LinesRequest) -> Result<FieldLine
 }
 
 impl FieldLines {
-    /// The lines on white, below `more`; cells without a tensor are hatched. Pixels a cell by default as [`plain_map`]
-    /// has them.
+    /// The lines on white, below `more`; cells without a tensor are hatched. The cell size defaults to that
+    /// of [`plain_map`].
     #[must_use]
     pub fn picture(
         &self,
@@ -129,7 +129,7 @@ impl FieldLines {
             let ribbon = &mut ribbons[line.family as usize];
             ribbon.points.extend(&line.line.points);
             ribbon.half_widths.extend(&line.half_widths);
-            ribbon.points.push([f64::NAN; 2]);
+            ribbon.points.push(Point::splat(f64::NAN));
             ribbon.half_widths.push(f64::NAN);
         }
         ribbons.into_iter().filter(|r| !r.points.is_empty()).collect()
@@ -139,7 +139,7 @@ impl FieldLines {
         self.followed.following()
     }
 
-    /// Length of all lines together, in the unit of the smaller side of a cell.
+    /// Length of all lines together, in units of the smaller side of a cell.
     #[must_use]
     pub fn length(&self) -> f64 {
         let cell = self.following().cell;
@@ -194,7 +194,9 @@ pub fn parameters(request: &LinesRequest) -> serde_json::Value {
     use tigereye_lines::Method;
     let seeds = match &request.seeds {
         Seeds::Even(separation) => serde_json::json!({ "separation": separation }),
-        Seeds::At(points) => serde_json::json!(points),
+        Seeds::At(points) => {
+            serde_json::json!(points.iter().map(|p| p.to_array()).collect::<Vec<_>>())
+        }
     };
     let o = &request.options;
     let (method, tolerance) = match o.method {

@@ -1,5 +1,6 @@
 //! Lines and degenerate points as overlays of maps.
 
+use tigereye_core::Point;
 use tigereye_lines::{DegeneratePoint, Family, TensorLine};
 use tigereye_render::{Marker, Overlay, Rgba};
 
@@ -8,7 +9,7 @@ const MAJOR: Rgba = Rgba::hex(0x262626);
 const MINOR: Rgba = Rgba::hex(0x8a5a00);
 const POINTS: Rgba = Rgba::hex(0xd55e00);
 
-/// Lines of one family; no label where only one is drawn.
+/// Lines of one family; the label is empty if only one family is drawn.
 #[must_use]
 pub fn line_overlay<'a>(
     lines: impl IntoIterator<Item = &'a TensorLine>,
@@ -18,7 +19,7 @@ pub fn line_overlay<'a>(
     let mut points = Vec::new();
     for line in lines {
         points.extend_from_slice(&line.points);
-        points.push([f64::NAN; 2]);
+        points.push(Point::splat(f64::NAN));
     }
     let colour = if family == Family::Major { MAJOR } else { MINOR };
     Overlay { label: label.to_owned(), points, colour, width_px: 1.0, ..Overlay::default() }
@@ -35,8 +36,8 @@ pub fn point_overlays(points: &[DegeneratePoint]) -> Vec<Overlay> {
     let mut overlays = Vec::new();
     for (label, marker, turns) in kinds {
         let is_kind = |n: i32| turns.map_or(n.abs() != 1, |t| n == t);
-        let places = points.iter().filter(|p| is_kind(p.half_turns())).map(|p| p.position);
-        let points: Vec<[f64; 2]> = places.collect();
+        let positions = points.iter().filter(|p| is_kind(p.half_turns())).map(|p| p.position);
+        let points: Vec<Point> = positions.collect();
         if !points.is_empty() {
             let (label, marker) = (label.to_owned(), Some(marker));
             overlays.push(Overlay { label, points, marker, colour: POINTS, ..Overlay::default() });

@@ -5,45 +5,45 @@ use tigereye_render::{
     HeatOptions, HeatScale, MAX_ANIMATED_PIXELS, Pace, RenderError, Scene, animation, heat_map,
 };
 
-/// Most frames.
+/// Largest number of frames.
 const MAX_FRAMES: usize = 600;
-/// Most bytes of what is kept for them.
+/// Largest size of the frames kept, bytes.
 const MAX_BYTES: usize = 512 << 20;
-/// Energies of cells after some of the steps.
+
+/// Energies of the cells after a selection of the steps.
 ///
-/// Where there are more steps than frames, every second frame goes, as often as it takes, so that the rest follow each
-/// other at equal distances.
+/// If there are too many frames, every second one is dropped, repeatedly, so that the rest remain equally spaced.
 #[derive(Clone, Debug)]
 pub struct Reel {
     /// Steps from one frame to the next.
     every: usize,
-    /// Steps that were shown.
+    /// Steps added so far.
     seen: usize,
     most: usize,
     frames: Vec<(usize, Field<f64>)>,
 }
 
 impl Reel {
-    /// An empty one for fields of so many cells, of every `every`-th step.
+    /// An empty reel for fields of `cells` cells, which keeps every `every`-th step.
     #[must_use]
     pub fn new(cells: usize, every: usize) -> Self {
         let most = (MAX_BYTES / (8 * cells.max(1))).clamp(2, MAX_FRAMES);
         Self { every: every.max(1), seen: 0, most, frames: Vec::new() }
     }
 
-    /// Frames it has.
+    /// Number of frames.
     #[must_use]
     pub fn len(&self) -> usize {
         self.frames.len()
     }
-    /// Whether it has none.
+    /// Whether there are no frames.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.frames.is_empty()
     }
 
-    /// The next step, or what is there before the first; `energies` of its cells (W) are asked for where it makes a
-    /// frame.
+    /// Adds the next step, beginning with the state before the first; `energies` of its cells (W) are only computed if
+    /// it becomes a frame.
     pub fn add(&mut self, energies: impl FnOnce() -> Field<f64>) {
         if self.seen.is_multiple_of(self.every) {
             self.frames.push((self.seen, energies()));
@@ -56,16 +56,16 @@ impl Reel {
         self.seen += 1;
     }
 
-    /// The frames whose step is a multiple of `every`, without those that another animation of the same steps wants.
-    /// All of them where one would be left.
+    /// The frames whose step is a multiple of `every`, without those kept for another animation of the same steps; all
+    /// of them if only one would remain.
     fn chosen(&self, every: usize) -> Vec<&(usize, Field<f64>)> {
         let some: Vec<_> = self.frames.iter().filter(|(step, _)| step.is_multiple_of(every.max(1))).collect();
         if some.len() > 1 { some } else { self.frames.iter().collect() }
     }
 
-    /// The frames of every `every`-th step as an animated PNG, and how many they are: pictures of one scale, `options`
-    /// with a range of `decades` below the brightest cell that is no light. Where they have too many pixels, every
-    /// second one goes, as often as it takes.
+    /// The frames of every `every`-th step as an animated PNG, and their number: pictures with a common scale,
+    /// `options` with a range of `decades` below the brightest cell that is not a source. If they have too many pixels
+    /// in all, every second frame is dropped, repeatedly.
     ///
     /// # Errors
     /// As [`animation`].
@@ -94,7 +94,7 @@ fn fitting<T>(mut frames: Vec<T>, pixels: f64) -> Vec<T> {
     frames
 }
 
-/// From `decades` below the brightest cell of all frames that is no light up to it.
+/// The range from `decades` below the brightest cell of all frames, sources excluded, up to it.
 fn range_of(frames: &[&(usize, Field<f64>)], sources: &[Cell], decades: f64) -> Option<(f64, f64)> {
     let brightest = |field: &Field<f64>| {
         let cells = field.iter().filter(|(cell, _)| !sources.contains(cell));

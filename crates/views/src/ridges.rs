@@ -3,7 +3,7 @@
 use super::{push_line, push_story};
 use serde_json::Value;
 use thiserror::Error;
-use tigereye_core::{Cell, CellShape, Field, Grid, math};
+use tigereye_core::{Cell, CellShape, Field, Grid, Point, math};
 use tigereye_io::{DataArray, ImageData, IoError, LTG_ARRAY, PROVENANCE, PolyData, Rows};
 use tigereye_lines::{
     ExtractionError, Polyline, Polylines, RidgeOptions, Surface, Volume, isolines, isosurface, ridge_lines,
@@ -11,18 +11,18 @@ use tigereye_lines::{
 };
 use tigereye_render::{HeatOptions, Overlay, Rgba, Scene, heat_map};
 
-/// Most samples along the side of a cell that the commands make.
+/// Largest number of samples per side of a cell that the commands make.
 const MAX_SAMPLES_A_CELL: usize = 64;
 
-/// What keeps an image from having ridges.
+/// Why ridges or contours of an image cannot be found.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RidgesError {
-    /// No array of single numbers, or none of the name.
+    /// There is no array of scalars, or none of the given name.
     #[error("expected an array of one number a point{}, found {found}", wanted.as_ref().map_or(String::new(), |w| format!(" called {w}")))]
     NoArray {
         /// The name asked for.
         wanted: Option<String>,
-        /// Those that are there.
+        /// The available arrays.
         found: String,
     },
     /// Several arrays of single numbers.
@@ -39,7 +39,7 @@ pub enum RidgesError {
         /// The last one.
         last: usize,
     },
-    /// An image that is no image.
+    /// The image is inconsistent.
     #[error(transparent)]
     Io(#[from] IoError),
     /// Options or sizes that cannot be.
@@ -52,19 +52,19 @@ pub enum RidgesError {
 pub struct ScalarImage {
     /// Name of the array.
     pub array: String,
-    /// Layer by layer with row 0 on top, whichever way the file has it.
+    /// Layer by layer with row 0 on top, whatever the order of the file.
     values: Vec<f64>,
     size: [usize; 3],
-    /// Whether the third axis goes all the way round: the directions of a gradient.
+    /// Whether the third axis is periodic: the full circle of directions of a gradient.
     periodic: bool,
     /// Whether it is a gradient, whose third axis is a direction.
     is_gradient: bool,
-    /// Which way the rows of the file run.
+    /// The direction in which the rows of the file run.
     rows: Rows,
-    /// Samples along the side of a cell, where this program sampled finer.
+    /// Samples per side of a cell; more than 1 in images that this program sampled more finely.
     samples_a_cell: usize,
     origin: [f64; 3],
-    /// From an index of the file to a place, a column for every axis.
+    /// From an index of the file to a position in the world, one column per axis.
     axes: [[f64; 3]; 3],
 }
 
@@ -124,7 +124,7 @@ impl ScalarImage {
         self.size[2]
     }
 
-    /// Whether it is the directions of a gradient that lie along the third axis, all the way round.
+    /// Whether the third axis holds the full circle of directions of a gradient.
     #[must_use]
     pub const fn is_periodic(&self) -> bool {
         self.periodic
@@ -167,7 +167,7 @@ impl ScalarImage {
         Volume::new(&self.values, self.size, [false, false, self.periodic])
     }
 
-    /// The place of a point in samples, y downwards.
+    /// The position in the world of a point in samples, y downwards.
     fn place(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let row = match self.rows {
             Rows::Downwards => y,
@@ -179,7 +179,7 @@ impl ScalarImage {
     }
 }
 
-/// Samples along the side of a cell, as this program says of the images it makes.
+/// Samples per side of a cell, as stated in images that this program wrote.
 fn samples_a_cell(image: &ImageData) -> usize {
     let told = || {
         let story: Value = serde_json::from_str(image.text(PROVENANCE)?).ok()?;
@@ -188,12 +188,12 @@ fn samples_a_cell(image: &ImageData) -> usize {
     told().filter(|n| (1..=MAX_SAMPLES_A_CELL).contains(n)).unwrap_or(1)
 }
 
-/// What is looked for.
+/// The feature to find.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feature {
     /// Height ridges.
     Ridges(RidgeOptions),
-    /// Where the scalar has a value.
+    /// Points at which the scalar has this value.
     Contour(f64),
 }
 
@@ -266,8 +266,8 @@ impl Found {
         }
     }
 
-    /// The lines or triangles where the image lies. Point arrays: `value` and, for ridges, `strength`. Ridge surfaces
-    /// have a cell array `piece`.
+    /// The lines or triangles in the frame of the image. Point arrays: `value` and, for ridges, `strength`. Ridge
+    /// surfaces have a cell array `piece`.
     #[must_use]
     pub fn poly_data(&self, image: &ScalarImage, story: &str) -> PolyData {
         let mut data = PolyData::default();
@@ -277,7 +277,7 @@ impl Found {
                 for line in &lines.lines {
                     let closing = if line.closed { line.points.first() } else { None };
                     let indices = || line.points.iter().chain(closing).map(|&i| i as usize);
-                    let at = |i: usize| [lines.points[i][0], lines.points[i][1], *layer as f64];
+                    let at = |i: usize| [lines.points[i].x, lines.points[i].y, *layer as f64];
                     push_line(&mut data, indices().map(|i| image.place(at(i))));
                     value.extend(indices().map(|i| values[i]));
                     strength.extend(indices().filter_map(|i| strengths.get(i)));
@@ -317,7 +317,7 @@ impl Found {
         let Self::Lines { layer, lines, .. } = self else { return Ok(None) };
         // In cells, as the field's other pictures.
         let mut overlay = line_overlay(lines, label, Rgba::hex(0xd62728));
-        overlay.points.iter_mut().flatten().for_each(|v| *v /= image.samples_a_cell as f64);
+        overlay.points.iter_mut().for_each(|p| *p /= image.samples_a_cell as f64);
         let options = HeatOptions {
             title: title.to_owned(),
             quantity: image.array.clone(),
@@ -336,7 +336,7 @@ impl Found {
 pub fn line_overlay(lines: &Polylines, label: &str, colour: Rgba) -> Overlay {
     let mut points = Vec::new();
     for [a, b] in lines.lines.iter().flat_map(Polyline::segments) {
-        points.extend([lines.points[a as usize], lines.points[b as usize], [f64::NAN; 2]]);
+        points.extend([lines.points[a as usize], lines.points[b as usize], Point::splat(f64::NAN)]);
     }
     Overlay { label: label.to_owned(), points, colour, width_px: 1.4, ..Overlay::default() }
 }

@@ -93,7 +93,7 @@ pub fn summary(topology: &Topology, following: Following) -> Value {
     let points: Vec<Value> = topology
         .points
         .iter()
-        .map(|p| json!({ "x": p.position[0], "y": p.position[1], "index": 0.5 * f64::from(p.half_turns()) }))
+        .map(|p| json!({ "x": p.position.x, "y": p.position.y, "index": 0.5 * f64::from(p.half_turns()) }))
         .collect();
     let separatrices: Vec<Value> = topology
         .separatrices

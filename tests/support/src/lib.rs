@@ -1,18 +1,16 @@
-//! What tests of several crates need: published data where they are, fields by their specification, reproducible
-//! numbers, and programs that run in folders of their own.
+//! What tests of several crates share: published data if it is available, fields by specification, temporary folders
+//! and results of programs.
 //!
 //! Only `dev-dependencies` may name this crate. Whatever fails in it is a failed test, hence it panics.
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
 mod data;
 mod folder;
-mod random;
 mod run;
 mod wait;
 
 pub use data::{data_folder, full_run, reference_file, reference_folder, skipped};
 pub use folder::Folder;
-pub use random::Random;
 pub use run::Run;
 pub use wait::eventually;
 

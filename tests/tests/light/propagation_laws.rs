@@ -574,7 +574,7 @@ fn net_flux_falls_off_as_one_over_r_in_the_isotropic_field() {
     let outcome = propagate(&EightLobe, &problem);
     assert_eq!(outcome.stop, StopReason::Converged);
     let flux = outcome.distribution.net_flux();
-    let outward = |r: usize| flux.at(Cell::new(centre.x + r, centre.y))[0];
+    let outward = |r: usize| flux.at(Cell::new(centre.x + r, centre.y)).x;
     let relative: Vec<f64> = (2..=5).map(|r| outward(r) / outward(1)).collect();
     eprintln!("{:?}", outcome.work);
     eprintln!("net flux relative to r = 1 at r = 2 to 5: {relative:?}");

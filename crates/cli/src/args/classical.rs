@@ -6,7 +6,7 @@ use crate::error::CliError;
 use crate::input::Input;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use tigereye_core::{CellShape, Choice};
+use tigereye_core::{CellShape, Choice, Point};
 use tigereye_lines::{Axes, Family, Following, Major, usual_axes};
 use tigereye_render::{GlyphColour, GlyphKind, GlyphScale};
 
@@ -64,7 +64,7 @@ pub(crate) struct LinesArgs {
     pub(crate) separation: Option<f64>,
     /// A point that a line goes through, in cells from the centre of the upper left one, y downwards; may be repeated.
     #[arg(long = "seed", value_name = "X,Y", value_parser = parse_point, allow_hyphen_values = true)]
-    pub(crate) seeds: Vec<[f64; 2]>,
+    pub(crate) seeds: Vec<Point>,
     /// How lines are integrated.
     #[arg(long, value_enum, default_value_t = MethodName::Rk4)]
     pub(crate) method: MethodName,
@@ -257,9 +257,9 @@ fn parse_share(text: &str) -> Result<f64, String> {
     number_from(text, 0.0, 1.0, "a number")
 }
 
-fn parse_point(text: &str) -> Result<[f64; 2], String> {
+fn parse_point(text: &str) -> Result<Point, String> {
     let number = |t: &str| t.trim().parse::<f64>().ok().filter(|v| v.is_finite());
-    let point = text.split_once(',').and_then(|(x, y)| Some([number(x)?, number(y)?]));
+    let point = text.split_once(',').and_then(|(x, y)| Some(Point::new(number(x)?, number(y)?)));
     point.ok_or_else(|| "expected X,Y, for example 25.5,40".to_owned())
 }
 

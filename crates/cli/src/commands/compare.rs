@@ -3,14 +3,13 @@
 use crate::args::reading::{CompareArgs, ReadingArgs};
 use crate::commands::print_text;
 use crate::error::CliError;
-use crate::files;
 use crate::input::{Input, Source};
-use crate::interrupt;
+use crate::{files, interrupt};
 use std::path::Path;
 use tigereye_core::{Difference, Field, Tensor2};
 use tigereye_input::{Content, Reading, TensorFile};
 use tigereye_io::volume::lattice_from_image;
-use tigereye_io::{IoError, Rows, Wanted, npy, vti};
+use tigereye_io::{ChoiceError, IoError, Rows, Wanted, npy, vti};
 
 /// Names of gradient volumes: ours and the published ones.
 const VOLUME_ARRAYS: [&str; 2] = [tigereye_io::LTG_ARRAY, "Energy"];
@@ -103,7 +102,10 @@ fn result(text: &str, bytes: &[u8]) -> Result<Option<Numbers>, CliError> {
         let what = "a gradient volume".to_owned();
         return Ok(Some(Numbers { what, shape, slices: Some(volume.slices), values: volume.values }));
     }
-    if !matches!(lattice_from_image(&image, None, Wanted::Tensors), Err(IoError::NoArray { .. })) {
+    if !matches!(
+        lattice_from_image(&image, None, Wanted::Tensors),
+        Err(IoError::Choice(ChoiceError::NoArray { .. }))
+    ) {
         return Ok(None);
     }
     let array = image.point_array("intensity").or(image.point_arrays.first());

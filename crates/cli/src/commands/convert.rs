@@ -10,7 +10,7 @@ use tigereye_core::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
 use tigereye_input::formats::{Format, TensorWriter, VolumeWriter, writable_extensions};
 use tigereye_input::provenance::provenance;
 use tigereye_input::{Content, Reading, TensorFile, finite_volume, not_finite_words};
-use tigereye_io::volume::{Frame, Known, PlaneChoice, TensorVolume, image_from_volume};
+use tigereye_io::volume::{Frame, Known, PlaneChoice, TensorVolume, World, image_from_volume};
 use tigereye_io::{DataArray, ImageData, IoError, ScalarType};
 
 /// Whether a volume is written as it is: no plane, part or size was asked for, and the file has axes of its own.
@@ -66,6 +66,8 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
             let frame = if by_voxels { Frame::Voxel } else { Frame::World };
             if let Some(words) = unplaced(writer, &volume, frame) {
                 eprintln!("{name}: {words}");
+            } else if let Some(words) = unnamed_space(writer, &volume.lattice().world) {
+                eprintln!("{name}: {words}");
             }
             if volume.lattice().size[2] > 1 && !volume.order().0.has(2, 2) {
                 eprintln!("{name}: the file has no components along the third axis: written as zero");
@@ -105,7 +107,12 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                     }
                     let volume = TensorVolume::from_field(&input.field, &input.geometry).with_scalar(scalar);
                     let volume = match world {
-                        Some(world) if geometry.upright().is_placed() => volume.with_world(world),
+                        Some(world) if geometry.upright().is_placed() => {
+                            if let Some(words) = unnamed_space(writer, &world) {
+                                eprintln!("{}: {words}", input.name);
+                            }
+                            volume.with_world(world)
+                        }
                         _ => volume,
                     };
                     // The plane's own axes, whatever the tensors were read along.
@@ -128,6 +135,18 @@ fn unplaced(writer: VolumeWriter, volume: &TensorVolume, frame: Frame) -> Option
         "components along the voxel axes, which are x, y and z of what is written: origin and directions are left out (--frame \
          world keeps them)",
     )
+}
+
+/// What is said where the world is a patient's and the format has no name for its axes.
+fn unnamed_space(writer: VolumeWriter, world: &World) -> Option<String> {
+    let World::Scanner(space) = world else { return None };
+    let is_named = world.is_of_patient();
+    (matches!(writer, VolumeWriter::Image(_)) && is_named).then(|| {
+        format!(
+            "positions and components are along the input's axes ({space}); the format has no name for such axes, and programs that \
+             expect others need them turned"
+        )
+    })
 }
 
 /// A volume in one of the formats that hold volumes.

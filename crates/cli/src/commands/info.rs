@@ -4,14 +4,13 @@ use crate::args::reading::InfoArgs;
 use crate::commands::{lattice, print_json, print_text};
 use crate::error::CliError;
 use crate::input::{Input, Source};
-use crate::interrupt;
-use crate::{files, geometry};
+use crate::{files, geometry, interrupt};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
 use tigereye_input::{Content, FieldFacts, Range, Reading, TensorFile, suggested_local_above};
 use tigereye_io::volume::lattice_from_image;
-use tigereye_io::{DataArray, IoError, PROVENANCE, Rows, Wanted, vti};
+use tigereye_io::{ChoiceError, DataArray, IoError, PROVENANCE, Rows, Wanted, vti};
 
 pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
     if let Some(facts) = facts_of_result(args)? {
@@ -66,7 +65,10 @@ fn facts_of_result(args: &InfoArgs) -> Result<Option<Value>, CliError> {
         return Ok(None);
     }
     let image = vti::read(&files::read(path)?).map_err(|e| CliError::input(&args.input, e))?;
-    if !matches!(lattice_from_image(&image, None, Wanted::Tensors), Err(IoError::NoArray { .. })) {
+    if !matches!(
+        lattice_from_image(&image, None, Wanted::Tensors),
+        Err(IoError::Choice(ChoiceError::NoArray { .. }))
+    ) {
         return Ok(None);
     }
     let arrays: Vec<Value> = image.point_arrays.iter().map(array_facts).collect();

@@ -5,7 +5,7 @@ use crate::commands::{counted, drawing, print_json, print_text};
 use crate::error::CliError;
 use crate::input::Input;
 use serde_json::json;
-use tigereye_core::Tensor2;
+use tigereye_core::{Point, Tensor2};
 use tigereye_io::vtp;
 use tigereye_lines::{Inertia, LineOptions, Method};
 use tigereye_views::lines::{LinesRequest, Seeds, lines, parameters};
@@ -64,11 +64,10 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
 /// Refuses seeds outside of the field.
 fn check_seeds(args: &LinesArgs, input: &Input) -> Result<(), CliError> {
     let [right, bottom] = [input.field.grid().width() - 1, input.field.grid().height() - 1];
-    let is_inside =
-        |p: &[f64; 2]| (0.0..=right as f64).contains(&p[0]) && (0.0..=bottom as f64).contains(&p[1]);
+    let is_inside = |p: &Point| (0.0..=right as f64).contains(&p.x) && (0.0..=bottom as f64).contains(&p.y);
     match args.seeds.iter().find(|p| !is_inside(p)) {
         None => Ok(()),
-        Some([x, y]) => {
+        Some(Point { x, y, .. }) => {
             let problem =
                 format!("is not in the field: expected X from 0 to {right} and Y from 0 to {bottom}");
             Err(CliError::input(&format!("--seed {x},{y}"), problem))

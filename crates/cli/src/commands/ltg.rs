@@ -136,7 +136,11 @@ fn fault(error: LtgError) -> CliError {
         | LtgError::Length { .. }
         | LtgError::Value { .. }
         | LtgError::DoneTwice { .. }
-        | LtgError::Missing { .. } => CliError::input("--checkpoint", error),
+        | LtgError::Missing { .. }
+        | LtgError::Sketches { .. }
+        | LtgError::NoSketches
+        | LtgError::Sum { .. }
+        | LtgError::SketchedTwice { .. } => CliError::input("--checkpoint", error),
     }
 }
 

@@ -213,7 +213,7 @@ fn a_place_changes_no_number_and_no_picture() {
     let both = |args: &[&str]| {
         let slice = PLAIN.slice();
         placed.succeeds(&[&[args[0], "v.vti", "--slice", &slice], &args[1..]].concat());
-        plain.succeeds(&[&[args[0], "f.npy"], &args[1..]].concat());
+        plain.says(&[&[args[0], "f.npy"], &args[1..]].concat(), "took row 0 on top");
     };
     both(&["ltg", "--directions", "8", "-o", "g.vti"]);
     both(&["propagate", "--directions", "8", "--light", "3,2", "-o", "l.vti"]);

@@ -1,6 +1,7 @@
 //! The program as people and scripts call it: outputs, exit codes, messages, interruptions.
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
+mod assumptions;
 mod classical;
 mod derived;
 mod experiments;

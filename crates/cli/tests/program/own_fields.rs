@@ -79,18 +79,18 @@ fn field_files_stand_where_generators_do() {
         "in/data.field.ron",
         r#"(format: 1, title: "HEADING", field: File(path: "data.npy", resample: (8, 8)))"#,
     );
-    let facts = |name: &str| place.succeeds(&["info", name, "--json"]).json();
-    let (field, data) = (facts("in/data.field.ron"), facts("in/data.npy"));
+    let facts = |name: &str, said: &str| place.says(&["info", name, "--json"], said).json();
+    let (field, data) = (facts("in/data.field.ron", "took row 0 on top"), facts("in/data.npy", ""));
     assert_eq!((&field["kind"], &field["spacing"]), (&data["kind"], &json!([0.5, 0.5])));
     assert!(field["assumptions"].to_string().contains("[row][column]"), "{field:#}");
     place.refuses(
         &["convert", "in/data.field.ron", "in/data.npy", "--force"],
         &["in/data.npy", "is an input"],
     );
-    place.succeeds(&["field", "show", "in/data.field.ron", "-o", "sheet.svg"]);
+    place.says(&["field", "show", "in/data.field.ron", "-o", "sheet.svg"], "took row 0 on top");
     assert!(String::from_utf8(place.read("sheet.svg")).unwrap().contains("HEADING"));
     place.write("above.field.ron", r#"(format: 1, title: "t", field: File(path: "in/data.npy"))"#);
-    place.succeeds(&["compare", "above.field.ron", "in/data.npy", "--tolerance", "0"]);
+    place.says(&["compare", "above.field.ron", "in/data.npy", "--tolerance", "0"], "took row 0 on top");
     // Fields may lie beside experiments in a folder, and name data beside themselves.
     place.write("own/data.txt", "1 0 2 0\n0 1 0 1\n");
     place.write("own/two.field.ron", r#"(format: 1, title: "two", field: File(path: "data.txt"))"#);

@@ -10,7 +10,7 @@ fn array(shape: &[usize], value: impl Fn(usize) -> f64) -> Vec<u8> {
 }
 
 fn converted(place: &Place, options: &[&str]) -> Field<Tensor2> {
-    place.succeeds(&[&["convert"], options, &["out.npy", "--force"]].concat());
+    place.says(&[&["convert"], options, &["out.npy", "--force"]].concat(), "");
     npy::read_tensors(&place.read("out.npy")).unwrap()
 }
 
@@ -261,7 +261,7 @@ fn masks_leave_the_same_cells_out_in_every_format() {
     let place = Place::new();
     place.write("t.npy", array(&[4, 3, 2, 2], |i| if i % 4 % 3 == 0 { 1.0 } else { 0.0 }));
     place.write("m.npy", array(&[4, 3], |i| if i < 3 { 1.0 } else { 0.0 }));
-    place.succeeds(&["convert", "t.npy", "t.vti"]);
+    place.says(&["convert", "t.npy", "t.vti"], "took row 0 on top");
     place.succeeds(&["convert", "m.npy", "m.vti", "--derive", "hessian"]);
     let of_rows = converted(&place, &["t.npy", "--mask", "m.npy"]);
     assert!(!of_rows.at(Cell::new(1, 0)).is_zero() && of_rows.at(Cell::new(1, 3)).is_zero());

@@ -149,8 +149,10 @@ fn images_normalise_globally_and_text_and_generators_locally() {
         let head = "{'descr': '<f8', 'fortran_order': False, 'shape': (4, 4, 2, 2), }";
         [crate::support::npy_file(head, 0), data].concat()
     });
-    for (input, rule) in [("f.txt", "local"), ("isotropic:size=4", "local"), ("f.npy", "global")] {
-        place.succeeds(&["ltg", input, "--directions", "8", "-o", "a.vti"]);
+    for (input, rule, said) in
+        [("f.txt", "local", ""), ("isotropic:size=4", "local", ""), ("f.npy", "global", "took row 0 on top")]
+    {
+        place.says(&["ltg", input, "--directions", "8", "-o", "a.vti"], said);
         assert_eq!(story(&place, "a.vti")["parameters"]["normalization"], rule, "{input}");
     }
 }

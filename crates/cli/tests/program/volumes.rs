@@ -44,7 +44,10 @@ fn slices_become_fields_with_up_on_top() {
 fn whole_volumes_are_written_as_images() {
     let place = Place::new();
     place.write("v.nrrd", nrrd());
-    place.succeeds(&["convert", "v.nrrd", "v.vti", "--frame", "world"]);
+    place.says(
+        &["convert", "v.nrrd", "v.vti", "--frame", "world"],
+        "along the input's axes (left-posterior-superior)",
+    );
     let image = place.image("v.vti");
     assert_eq!((image.dimensions, image.spacing), ([3, 2, 2], [2.0, 3.0, 4.0]));
     assert_eq!(image.point_arrays[0].values[..9], [1.0, 0.0, 0.5, 0.0, 20.0, 0.0, 0.5, 0.0, 30.0]);
@@ -203,7 +206,10 @@ fn slices_keep_their_place_in_every_frame() {
     place.write("v.nrrd", shifted);
     for frame in ["voxel", "world"] {
         let out = format!("{frame}.vti");
-        place.succeeds(&["convert", "v.nrrd", &out, "--slice", "z=1", "--frame", frame]);
+        place.says(
+            &["convert", "v.nrrd", &out, "--slice", "z=1", "--frame", frame],
+            "along the input's axes (left-posterior-superior)",
+        );
         let facts = place.succeeds(&["info", &out, "--json"]).json();
         assert_eq!(facts["origin"], serde_json::json!([5.0, 6.0]), "{frame}");
         assert_eq!(facts["spacing"], serde_json::json!([2.0, 3.0]), "{frame}");
@@ -220,7 +226,7 @@ fn frames_of_whole_volumes_turn_tensors_but_never_relabel_them() {
                   encoding: ascii\nmeasurement frame: (1,0,0) (0,1,0) (0,0,1)\n\n1 0 0 2 0 3\n";
     place.write("stated.nrrd", turned);
     let first = |file: &str| place.image(file).point_arrays[0].values[..5].to_vec();
-    place.succeeds(&["convert", "stated.nrrd", "world.vti"]);
+    place.says(&["convert", "stated.nrrd", "world.vti"], "along the input's axes (RAS)");
     assert_eq!(first("world.vti"), [1.0, 0.0, 0.0, 0.0, 2.0]);
     place.says(&["convert", "stated.nrrd", "voxel.vti", "--frame", "voxel"], "directions are left out");
     assert_eq!(first("voxel.vti"), [2.0, 0.0, 0.0, 0.0, 1.0]);
@@ -230,7 +236,7 @@ fn frames_of_whole_volumes_turn_tensors_but_never_relabel_them() {
     place.succeeds(&["compare", "stated.nrrd", "voxel.nrrd", "--tolerance", "0"]);
     let open = turned.replace("measurement frame: (1,0,0) (0,1,0) (0,0,1)\n", "");
     place.write("open.nrrd", open);
-    place.succeeds(&["convert", "open.nrrd", "read.vti", "--frame", "voxel"]);
+    place.says(&["convert", "open.nrrd", "read.vti", "--frame", "voxel"], "along the input's axes (RAS)");
     assert_eq!(first("read.vti"), [2.0, 0.0, 0.0, 0.0, 1.0]);
     assert_eq!(place.image("read.vti").direction, place.image("world.vti").direction);
     // Of a plane it says how numbers are read, and where the file states something else, that is said.
@@ -287,7 +293,10 @@ fn volumes_are_compared() {
 fn invariants_are_arrays_beside_the_tensors() {
     let place = Place::new();
     place.write("v.nrrd", nrrd());
-    place.succeeds(&["convert", "v.nrrd", "o.vti", "--invariants", "--frame", "world"]);
+    place.says(
+        &["convert", "v.nrrd", "o.vti", "--invariants", "--frame", "world"],
+        "along the input's axes (left-posterior-superior)",
+    );
     let image = tigereye_io::vti::read(&place.read("o.vti")).unwrap();
     let first = |name: &str| image.point_array(name).unwrap().values[0];
     // xx 1, yy 20, zz 30, xz 0.5.
@@ -300,7 +309,10 @@ fn invariants_are_arrays_beside_the_tensors() {
     // A volume of one layer is one too: its third row and column stay.
     let layer = nrrd().replace("sizes: 6 3 2 2", "sizes: 6 3 4 1");
     place.write("layer.nrrd", layer);
-    place.succeeds(&["convert", "layer.nrrd", "layer.vti", "--invariants", "--frame", "world"]);
+    place.says(
+        &["convert", "layer.nrrd", "layer.vti", "--invariants", "--frame", "world"],
+        "along the input's axes (left-posterior-superior)",
+    );
     let layer = tigereye_io::vti::read(&place.read("layer.vti")).unwrap();
     assert_eq!(
         layer.point_array("Tensors").unwrap().values[..9],

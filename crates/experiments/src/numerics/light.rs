@@ -11,7 +11,7 @@ fn right_of(light: Cell, distance: usize, grid: Grid) -> Option<Cell> {
 /// Net flux in +x that far right of a light, relative to distance 1; `None` outside of the grid.
 pub(crate) fn net_flux_ratio(light: &LightDistribution, source: Cell, distance: usize) -> Option<f64> {
     let flux = light.net_flux();
-    let at = |d| Some(flux.at(right_of(source, d, light.grid())?)[0]);
+    let at = |d| Some(flux.at(right_of(source, d, light.grid())?).x);
     Some(at(distance)? / at(1)?)
 }
 

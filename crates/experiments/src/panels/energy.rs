@@ -60,7 +60,7 @@ impl PanelKind for Energy {
 fn overlays(paths: &Paths) -> Vec<Overlay> {
     let line = |path: &[Cell], label: &str, colour, width_px| Overlay {
         label: label.to_owned(),
-        points: path.iter().map(|c| [c.x as f64, c.y as f64]).collect(),
+        points: path.iter().map(|c| c.centre()).collect(),
         colour,
         width_px,
         ..Overlay::default()

@@ -5,7 +5,7 @@ use crate::names::Names;
 use crate::numerics::gradient::ridge_columns;
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
-use tigereye_core::Field;
+use tigereye_core::{Field, Point};
 use tigereye_render::Overlay;
 use tigereye_views::gradient::Scalar;
 
@@ -48,7 +48,9 @@ fn ridge_line(slice: &Field<f64>) -> Overlay {
         _ => false,
     };
     let follows = |y: usize| near(y, ridge.get(y + 1)) || (y > 0 && near(y, ridge.get(y - 1)));
-    let point = |(y, x): (usize, &Option<f64>)| [x.filter(|_| follows(y)).unwrap_or(f64::NAN), y as f64];
+    let point = |(y, x): (usize, &Option<f64>)| {
+        Point::new(x.filter(|_| follows(y)).unwrap_or(f64::NAN), y as f64)
+    };
     let points = ridge.iter().enumerate().map(point).collect();
     Overlay { label: "largest value of each row".to_owned(), points, ..Overlay::default() }
 }

@@ -6,7 +6,7 @@ use crate::numerics::gradient::inner_cells;
 use crate::quantities::kind::{Measure, QuantityKind, measure};
 use crate::unavailable::OrUndefined;
 use serde::Deserialize;
-use tigereye_core::{Cell, Field, LtgVolume, pearson};
+use tigereye_core::{LtgVolume, Point, bilinear, pearson};
 
 /// Correlation of the mean over directions of two gradients, the coarser one sampled at the finer one's cells.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -38,19 +38,11 @@ fn correlation(a: &LtgVolume, b: &LtgVolume) -> Option<f64> {
     let pairs: Vec<(f64, f64)> = inner_cells(g)
         .map(|c| {
             let (x, y) = (relative(c.x, g.width(), f.width()), relative(c.y, g.height(), f.height()));
-            (*coarse_mean.at(c), bilinear(&fine_mean, x, y))
+            let fine = bilinear(f, Point::new(x, y)).iter().map(|(c, w)| w * fine_mean.at(*c)).sum();
+            (*coarse_mean.at(c), fine)
         })
         .collect();
     pearson(&pairs)
-}
-
-fn bilinear(field: &Field<f64>, x: f64, y: f64) -> f64 {
-    let grid = field.grid();
-    let (x0, y0) = (x.floor() as usize, y.floor() as usize);
-    let (x1, y1) = ((x0 + 1).min(grid.width() - 1), (y0 + 1).min(grid.height() - 1));
-    let (u, v) = (x - x0 as f64, y - y0 as f64);
-    let at = |x, y| *field.at(Cell::new(x, y));
-    (1.0 - v) * ((1.0 - u) * at(x0, y0) + u * at(x1, y0)) + v * ((1.0 - u) * at(x0, y1) + u * at(x1, y1))
 }
 
 #[cfg(test)]

@@ -66,9 +66,9 @@ impl QuantityKind for MajorAxisError {
         measure(move |results| {
             let field = &results.field(field).field;
             let error = |(cell, t): (Cell, &Tensor2)| {
-                let [x, y] = axes.of(t, 0.0)?.axes[Family::Major as usize];
+                let axis = axes.of(t, 0.0)?.axes[Family::Major as usize];
                 let expected = expression.eval(&variables(field.grid(), cell));
-                let off = (math::degrees(math::atan2(y, x)) - expected).rem_euclid(180.0);
+                let off = (math::degrees(math::atan2(axis.y, axis.x)) - expected).rem_euclid(180.0);
                 Some(off.min(180.0 - off))
             };
             Ok(worst(field.iter().filter(|(_, t)| !is_isotropic(t)).filter_map(error)))

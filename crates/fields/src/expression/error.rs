@@ -1,4 +1,4 @@
-//! Where and why a formula cannot be read.
+//! Syntax errors of formulas, with their positions.
 
 use crate::nearest::did_you_mean;
 use thiserror::Error;
@@ -11,19 +11,19 @@ pub struct ExpressionError {
     pub line: usize,
     /// Column in characters from 1.
     pub column: usize,
-    /// What is wrong there.
+    /// The error.
     pub kind: ExpressionErrorKind,
 }
 
-/// What is wrong with a formula.
+/// An error in a formula.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum ExpressionErrorKind {
     /// Something else is expected.
     #[error("found {found}, expected {expected}")]
     Unexpected {
-        /// What stands there.
+        /// The text found.
         found: String,
-        /// What could.
+        /// What was expected.
         expected: &'static str,
     },
     /// A name that is neither variable nor constant nor function.
@@ -64,7 +64,7 @@ pub enum ExpressionErrorKind {
     /// A number that is too large for an `f64`, or not written as one.
     #[error("`{text}` is not a number")]
     Number {
-        /// What stands there.
+        /// The text found.
         text: String,
     },
     /// A character that means nothing.

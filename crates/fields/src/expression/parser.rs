@@ -32,7 +32,7 @@ const fn strength(op: Binary) -> (u8, u8) {
 }
 
 impl Expression {
-    /// Parses `text`; names in it are those of `variables`, which go before constants of the same name.
+    /// Parses `text`; names refer to `variables`, which take precedence over constants of the same name.
     ///
     /// # Errors
     /// [`ExpressionError`] with the line and column of the first problem.

@@ -36,7 +36,7 @@ impl Expression {
         Self { code, stack, variables }
     }
 
-    /// The value for `values`, one per variable in the order given to [`Self::parse`]; NaN where there are fewer.
+    /// The value for `values`, one per variable in the order given to [`Self::parse`]; NaN if there are fewer.
     ///
     /// Costs one pass over the formula and, unless an argument list is very long, no allocation.
     #[must_use]

@@ -3,7 +3,7 @@
 //! ```text
 //!   phi = atan2(round((n-1) cos(2 i/(n-1)) - c), round(j-c)), c = (n-1)/2
 //! ```
-//! The identity where both arguments are 0. The first argument depends on the column only and takes the width for n,
+//! The identity if both arguments are 0. The first argument depends on the column only and takes the width for n,
 //! the second takes the height.
 //! Source: the thesis's synthetic test fields.
 

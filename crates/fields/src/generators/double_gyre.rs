@@ -8,13 +8,13 @@
 //! `cauchy_green`: C = F^T F of the flow map from `time` over `duration` (which may be negative), of determinant 1; F
 //! is integrated along with the particle, F' = grad(u) F, by the classical Runge-Kutta method of fourth order.
 //!
-//! The domain fills the field, samples on its rim included: cells are square for width - 1 = 2 (height - 1).
+//! The domain fills the field, including samples on its boundary: cells are square for width - 1 = 2 (height - 1).
 //! Source: Shadden, Lekien and Marsden, "Definition and properties of Lagrangian coherent structures", Physica D 2005.
 
 use crate::geometry::{Place, index_field};
 use crate::{Generator, Known, Mirror, Parameter, Settings};
 use tigereye_core::math::{PI, TAU, cos, sin};
-use tigereye_core::{Field, Tensor2};
+use tigereye_core::{Field, Tensor2, runge_kutta_step};
 
 pub(crate) const GENERATOR: Generator = Generator {
     name: "double_gyre",
@@ -88,16 +88,7 @@ impl Flow {
 
     fn follow(&self, x: f64, y: f64, start: f64, duration: f64, steps: usize) -> State {
         let h = duration / steps as f64;
-        let shifted = |s: &State, k: &State, by: f64| core::array::from_fn(|n| s[n] + by * k[n]);
-        let mut s = [x, y, 1.0, 0.0, 0.0, 1.0];
-        for step in 0..steps {
-            let t = start + step as f64 * h;
-            let k1 = self.rate(t, s);
-            let k2 = self.rate(t + 0.5 * h, shifted(&s, &k1, 0.5 * h));
-            let k3 = self.rate(t + 0.5 * h, shifted(&s, &k2, 0.5 * h));
-            let k4 = self.rate(t + h, shifted(&s, &k3, h));
-            s = core::array::from_fn(|n| s[n] + h / 6.0 * (k1[n] + 2.0 * k2[n] + 2.0 * k3[n] + k4[n]));
-        }
-        s
+        let step = |s, i| runge_kutta_step(|t, s| self.rate(t, s), start + i as f64 * h, s, h);
+        (0..steps).fold([x, y, 1.0, 0.0, 0.0, 1.0], step)
     }
 }

@@ -5,7 +5,7 @@
 //!   \ | /         up = (n-1-j)/(n-1), c = (n-1)/2
 //!   | | |
 //! ```
-//! Where both arguments are 0 (top of the middle column) the angle is 0.
+//! If both arguments are 0 (top of the middle column), the angle is 0.
 //! Source: the thesis's synthetic test fields.
 
 use crate::geometry::{Place, glyph, index_field};

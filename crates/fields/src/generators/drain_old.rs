@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   \ | /         phi = atan2(n-1-round(j-c), round(i-c)), c = (n-1)/2
-//!   \ | /         the identity where both arguments are 0
+//!   \ | /         the identity if both arguments are 0
 //!   \ | /
 //! ```
 //! Source: the thesis's synthetic test fields.

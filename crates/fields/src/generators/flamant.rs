@@ -8,7 +8,7 @@
 //! ```
 //! Principal lines are the rays of the load and circles about it. With the textbook's y pointing into the body
 //! `(sxx, syy, sxy) = -2P/(pi r^4) (x^2 y, y^3, x y^2)`; here y points up, so that sxy has the other sign. Compression
-//! is negative. Samples lie in the middles of the rows, so the load itself is no sample.
+//! is negative. Samples lie in the middles of the rows, so none lies at the load itself.
 //! Source: Flamant 1892; Timoshenko and Goodier, "Theory of Elasticity", article 36.
 
 use crate::geometry::Window;

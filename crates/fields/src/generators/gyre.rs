@@ -5,7 +5,7 @@
 //!   dy =  pi cos(2 pi i/(n-1)) sin(2 pi up)       phi = atan2(dy, dx)
 //! ```
 //! Isotropic where i and j both lie in {0, c, n-1} or both in {c/2, 3c/2}, c = (n-1)/2: there the vector vanishes. As
-//! in the published matrices those cells keep the angle that rounding leaves of it, so they are rotations, which
+//! in the published matrices, those cells keep the angle of its rounding errors, so they are rotations, which
 //! transmit as the identity does.
 //! Source: the thesis's synthetic test fields.
 

@@ -4,7 +4,7 @@
 //!   core: (R cos t, R sin t, S t / (2 pi))       R = major_radius, S = pitch
 //!   a point at distance d from the core has the eigenvalues
 //!     l1 along the fibre, l2 around the core, l3 away from it (radial)
-//!   fibre = core's tangent turned about the radial direction by twist * d / minor_radius
+//!   fibre = core's tangent rotated about the radial direction by twist * d / minor_radius
 //! ```
 //! Beyond `minor_radius` the eigenvalues fade to `background`, half way at that distance, over a width of about
 //! `boundary`. The picture is a plane of space from -2 R to 2 R along its longer side, its tensor the part of the 3D

@@ -1,8 +1,9 @@
-//! The generators, one a file. A new one is a file with a constant `GENERATOR` and a line here.
+//! The generators, one per file. A new one is a file with a constant `GENERATOR` and a line here.
 
 use crate::Generator;
 
 mod curve;
+mod degenerate_point;
 
 macro_rules! generators {
     ($($name:ident),+ $(,)?) => {

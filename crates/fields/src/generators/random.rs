@@ -9,9 +9,8 @@
 //! not known. Source: the thesis's synthetic test fields.
 
 use crate::geometry::{Place, index_field};
-use crate::splitmix::SplitMix64;
 use crate::{Generator, Known, Parameter, Settings};
-use tigereye_core::{Field, Tensor2};
+use tigereye_core::{Field, SplitMix64, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
     name: "random",

@@ -6,7 +6,7 @@
 //!   \ - /         gives phi = theta + 90 degrees
 //! ```
 //! The radii cover a square wider than the field by 25 cells all round. Cells that catch no point stay isotropic, as in
-//! the published matrices: 8 of them at 51 cells a side, all beyond radius 32, and a growing share of larger fields.
+//! the published matrices: 8 of them at 51 cells per side, all beyond radius 32, and a growing share of larger fields.
 //! The centre is isotropic: a quarter turn, as published.
 //! With `total` the minor axis is 0 and the major one 1. Source: the thesis's synthetic test fields.
 

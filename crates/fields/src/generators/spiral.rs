@@ -1,4 +1,4 @@
-//! Spiral: an Archimedean spiral, its lines turned inwards.
+//! Spiral: an Archimedean spiral whose lines are rotated inwards.
 //!
 //! ```text
 //!   r = 0.1 theta, theta = 0 .. 260 pi in whole degrees, phi = theta + 90 degrees - 0.5 rad

@@ -7,21 +7,15 @@
 //! longer side of the field reaches from -1 to 1. Source: Delmarcelle and Hesselink, "The topology of symmetric,
 //! second-order tensor fields", IEEE Visualization 1994.
 
-use crate::geometry::Window;
-use crate::{Generator, Known, Mirror, Parameter, Settings};
+use super::degenerate_point;
+use crate::{Generator, Known, Mirror, Settings};
 use tigereye_core::{Field, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
     name: "trisector",
     summary: "degenerate point of index -1/2 in the centre",
     source: "Delmarcelle and Hesselink 1994",
-    own_parameters: &[Parameter::real(
-        "mean",
-        2.0,
-        1.5,
-        1e6,
-        "mean eigenvalue, which keeps the tensor positive",
-    )],
+    own_parameters: &[degenerate_point::MEAN],
     determinant_one: false,
     symmetric: true,
     known: &[Known::Symmetries("", &[Mirror::UpDown]), Known::Index("", -0.5)],
@@ -29,9 +23,5 @@ pub(crate) const GENERATOR: Generator = Generator {
 };
 
 fn build(settings: &Settings) -> Field<Tensor2> {
-    let (mean, window) = (settings.number("mean"), Window::new(settings.grid(), 1.0));
-    Field::from_fn(settings.grid(), |cell| {
-        let (p, q) = (window.x(cell), -window.y(cell));
-        Tensor2::symmetric(mean + p, q, mean - p)
-    })
+    degenerate_point::field(settings, -1.0)
 }

@@ -17,13 +17,13 @@ use tigereye_core::{Cell, Field};
 const TERMS: usize = 6;
 /// Powers of x and y of each.
 const POWERS: [[usize; 2]; TERMS] = [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2]];
-/// Powers of the moments that fits need, and of those of samples.
+/// Powers of the moments of the weights and of the samples that fits need.
 const MOMENTS: usize = 5;
 const SAMPLE_MOMENTS: usize = 3;
 /// Least part of a term's square that the terms before it must leave: below, the samples do not tell it from them.
 /// Samples in three columns leave more than 1e-5, rounding less than 1e-14.
 const LEAST_PART: f64 = 1e-8;
-/// Narrowest Gaussian of a fit, cells: with less, the third sample of a row would have no weight left beside the first.
+/// Narrowest Gaussian of a fit, cells: below it, the third sample of a row would have negligible weight.
 const NARROWEST: f64 = 0.6;
 /// Columns that are done together, which bounds the memory.
 const STRIP: usize = 32;
@@ -124,7 +124,7 @@ impl Window {
     }
 }
 
-/// Solves the normal equations term by term, leaving out terms that those before them determine.
+/// Solves the normal equations term by term, omitting terms that depend on previous ones.
 fn solved(mut matrix: [[f64; TERMS]; TERMS], mut right: [f64; TERMS]) -> [Option<f64>; TERMS] {
     let whole: [f64; TERMS] = std::array::from_fn(|k| matrix[k][k]);
     let mut kept = [false; TERMS];
@@ -187,7 +187,7 @@ mod tests {
         all
     }
 
-    /// Samples in two columns say nothing of x^2, those in one nothing of x.
+    /// Samples in two columns do not determine x^2, those in one column do not determine x.
     #[test]
     fn terms_that_samples_do_not_determine_are_left_out() {
         for (width, known) in [(1, [false, false]), (2, [true, false]), (3, [true, true])] {

@@ -3,13 +3,13 @@
 use tigereye_core::math::exp;
 use tigereye_core::{Cell, Field};
 
-/// Gaussians are cut at this many standard deviations, where they are below 4e-4 of their top.
+/// Gaussians are truncated at this many standard deviations, where they are below 4e-4 of their maximum.
 pub(super) const CUT: f64 = 4.0;
 
 /// Which derivative along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
-    /// None: the smoothed value.
+    /// Order 0: the smoothed value.
     Value,
     /// The first.
     First,
@@ -102,7 +102,7 @@ impl Kernel {
     }
 }
 
-/// The sample at any index of a row that is not empty; beyond the ends the row goes on as its mirror image, `f(i - 1)`
+/// The sample at any index of a non-empty row; beyond the ends the row continues as its mirror image, `f(i - 1)`
 /// at -i.
 fn mirrored(row: &[f64], index: i64) -> f64 {
     let last = row.len() as i64 - 1;
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_go_on_beyond_their_ends() {
+    fn rows_continue_as_their_mirror_image() {
         let row = [1.0, 3.0, 7.0];
         assert_eq!([-3, -2, -1, 3, 4, 5].map(|i| mirrored(&row, i)), [7.0, 3.0, 1.0, 7.0, 3.0, 1.0]);
         assert_eq!(mirrored(&[4.0], -3), 4.0);

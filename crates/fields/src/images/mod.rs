@@ -1,4 +1,4 @@
-//! Tensor fields of images: what scalars and vectors on a grid say about directions.
+//! Tensor fields of images, derived from scalars and vectors on a grid.
 //!
 //! | tensor | of | |
 //! | --- | --- | --- |
@@ -11,9 +11,9 @@
 //! Derivatives are those of the field smoothed by a Gaussian of `sigma` cells (correlation with the Gaussian's
 //! derivatives), divided by the distance of the cells; `sigma` 0 means differences of neighbours.
 //!
-//! Samples may be missing (`None`), and they always are beyond the border. Nothing is put in their place: differences
+//! Samples may be missing (`None`), and always are beyond the border. They are not replaced: differences
 //! are one-sided there (`stencils.rs`), and where the Gaussian reaches a border or a hole, a polynomial is fitted to
-//! the samples that are there (`fit.rs`). Both are exact for polynomials of degree 2 where there are samples enough, as
+//! the existing samples (`fit.rs`). Both are exact for polynomials of degree 2 where there are samples enough, as
 //! inside. A cell without sample has no tensor, nor has one whose neighbours are too few for a derivative that the
 //! tensor needs.
 //!
@@ -34,7 +34,7 @@ use tigereye_core::{Field, Tensor2};
 /// Largest Gaussian, cells.
 pub const MAX_SIGMA: f64 = 100.0;
 
-/// Samples, `None` where there is none.
+/// Samples; `None` where one is missing.
 type Samples = Field<Option<f64>>;
 
 const VALUE: Order = Order::Value;
@@ -83,7 +83,7 @@ fn complete_in_rows(present: &Field<bool>, radius: usize) -> Field<bool> {
     let mut out = present.clone();
     let width = present.grid().width();
     for (row, to) in present.values().chunks(width).zip(out.values_mut().chunks_mut(width)) {
-        // How many samples in a row end here.
+        // Number of consecutive samples that end here.
         let mut run = 0;
         to.fill(false);
         for (x, present) in row.iter().enumerate() {
@@ -183,7 +183,7 @@ pub fn orientation_tensors(
     structure_tensors(scalars, spacing, sigma, window).map(|t| t.map(|t| t.quarter_turned()))
 }
 
-/// Gaussian averages of the values that are there. At the border the field goes on as its mirror image, which keeps
+/// Gaussian averages of the existing values. Beyond the border the field continues as its mirror image, which keeps
 /// squares positive.
 fn averages(products: &Field<Option<[f64; 3]>>, window: f64) -> [Field<f64>; 3] {
     let gauss = Kernel::gauss(window);

@@ -14,7 +14,7 @@ use tigereye_core::{Cell, Field, Grid, Tensor2};
 /// [`FieldError::Grid`] and [`FieldError::ResampledSize`] for sizes that are invalid or too large.
 pub fn resampled(field: &Field<Tensor2>, width: usize, height: usize) -> Result<Field<Tensor2>, FieldError> {
     let (wide, grid) = (Grid::new(width, field.grid().height())?, Grid::new(width, height)?);
-    // On the way there are as many rows as before.
+    // The intermediate field has the new width and the old height.
     let cells = width.saturating_mul(height.max(field.grid().height()));
     if width.max(height) > MAX_RESAMPLED || cells > MAX_RESAMPLED_CELLS.max(field.grid().cells()) {
         return Err(FieldError::ResampledSize { width, height });
@@ -86,8 +86,8 @@ mod tests {
         assert_eq!(resampled(&field, 7, 5), Ok(field));
     }
 
-    /// Inside, where the triangle meets no rim, linear fields stay linear on finer grids and on those coarser by a
-    /// whole number.
+    /// Inside, where the triangle does not reach the border, linear fields stay linear on finer grids and on those
+    /// coarser by a whole number.
     #[test]
     fn linear_fields_stay_linear() {
         for (width, height) in [(60, 60), (37, 41), (15, 10), (10, 4)] {
@@ -107,7 +107,7 @@ mod tests {
         }
     }
 
-    /// What a mask leaves out is not mixed in: a constant field stays constant around its hole.
+    /// Masked cells are not mixed in: a constant field stays constant around its hole.
     #[test]
     fn zero_tensors_are_not_mixed_in() {
         let t = Tensor2::new(1.0, 2.0, 3.0, 4.0);

@@ -7,14 +7,14 @@
 //! f1 - f0                   degree 1     f0 - 2 f1 + f2                degree 2
 //! ```
 //!
-//! The first line holds where both neighbours are there, the others where the row ends or has a hole at one side: the
+//! The first line applies if both neighbours exist, the others if the row ends or has a hole at one side: the
 //! longest that the samples in a row allow. Each is exact for polynomials of the degree beside it. No stencil reaches
 //! across a hole.
 
 use super::kernel::{Order, turned};
 use tigereye_core::Field;
 
-/// A derivative along both axes; `None` at cells without sample, or with too few in a row.
+/// A derivative along both axes; `None` at cells without a sample, or with too few consecutive ones.
 pub(super) fn derivative(field: &Field<Option<f64>>, [x, y]: [Order; 2]) -> Field<Option<f64>> {
     turned(&along_rows(&turned(&along_rows(field, x)), y))
 }

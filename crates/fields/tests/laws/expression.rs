@@ -20,7 +20,7 @@ fn check(cases: &[(&str, f64)]) {
 }
 
 #[test]
-fn precedence_is_a_mathematicians() {
+fn precedence_is_mathematical() {
     check(&[
         ("-x^2", -9.0),
         ("(-x)^2", 9.0),
@@ -134,7 +134,7 @@ fn nan_spreads() {
 }
 
 #[test]
-fn variables_go_before_constants() {
+fn variables_take_precedence_over_constants() {
     let e = Expression::parse("e + pi2", &["e", "pi2"]).expect("an expression");
     assert_eq!(e.eval(&[1.0, 2.0]), 3.0);
 }

@@ -39,7 +39,7 @@ fn cauchy_green(duration: f64, steps: usize) -> Field<Tensor2> {
 fn cauchy_green_keeps_the_area() {
     for duration in [10.0, -10.0] {
         for (cell, t) in cauchy_green(duration, 400).iter() {
-            // Stretched 1e3 times, components of 1e6 rounded in the last place leave little of a determinant of 1.
+            // Stretched 1e3 times, rounding of components of 1e6 in the last place dominates a determinant of 1.
             let rounding = 4.0 * f64::EPSILON * t.max_abs() * t.max_abs();
             let error = (t.determinant() - 1.0).abs();
             assert!(error < 1e-6 + rounding, "{cell:?}: {error:e}, rounding {rounding:e}");
@@ -132,7 +132,7 @@ fn helix_fibres_twist_with_the_distance() {
 
 #[test]
 fn helix_is_its_own_screw() {
-    // A quarter of the pitch up is a quarter turn, a whole pitch is none.
+    // A quarter of the pitch up is a quarter turn, a whole pitch the identity.
     let flat = field("helix:size=31");
     for (spec, expected) in [("offset=25", flat.quarter_turned()), ("offset=100", flat)] {
         let f = field(&format!("helix:size=31,{spec}"));

@@ -1,13 +1,13 @@
-//! The known answers of the generators' own files, and the facts that these declare.
+//! The known answers and the facts that the generators declare.
 
 use crate::{at, axis_difference, field, major_deg, same_ellipse};
 use tigereye_core::{Cell, Field, Tensor2};
 use tigereye_fields::{Known, Mirror, generators};
 
-/// Largest difference of what ellipses are made of, `A A^T`; fields are of the order of one.
+/// Largest difference of `A A^T`, which determines the ellipse; fields are of the order of one.
 const SAME: f64 = 1e-11;
 
-/// Largest error of directions, degrees, of numbers of turns, and of components by the largest one of the tensor.
+/// Largest error of directions (degrees), of numbers of turns, and of components relative to the tensor's largest.
 const ROUNDING: f64 = 1e-9;
 
 fn image(f: &Field<Tensor2>, mirror: Mirror) -> Field<Tensor2> {
@@ -19,7 +19,7 @@ fn image(f: &Field<Tensor2>, mirror: Mirror) -> Field<Tensor2> {
     }
 }
 
-/// Why a field is not its own image; nothing where it is.
+/// Why a field is not its own image; `None` if it is.
 fn unlike(f: &Field<Tensor2>, mirror: Mirror) -> Option<String> {
     let image = image(f, mirror);
     if image.grid() != f.grid() {
@@ -29,7 +29,7 @@ fn unlike(f: &Field<Tensor2>, mirror: Mirror) -> Option<String> {
     odd.map(|(c, t)| format!("{mirror:?} makes {:?} of {t:?} at ({}, {})", image.at(c), c.x, c.y))
 }
 
-/// Turns of the major axis along the rim of the square of half side `reach` about the centre, counter-clockwise.
+/// Turns of the major axis along the boundary of the square of half side `reach` about the centre, counter-clockwise.
 fn index(f: &Field<Tensor2>, reach: usize) -> f64 {
     let c = f.grid().centre();
     let side = 2 * reach;
@@ -46,7 +46,7 @@ fn index(f: &Field<Tensor2>, reach: usize) -> f64 {
     turned / 360.0
 }
 
-/// What is wrong with a known answer; nothing where it holds.
+/// Why a known answer does not hold; `None` if it does.
 fn contradiction(f: &Field<Tensor2>, known: &Known) -> Option<String> {
     match *known {
         Known::Symmetries(_, mirrors) => mirrors.iter().find_map(|&mirror| unlike(f, mirror)),
@@ -72,7 +72,7 @@ fn contradiction(f: &Field<Tensor2>, known: &Known) -> Option<String> {
     }
 }
 
-/// What of a generator's `known` does not hold, a sentence each, or that there is nothing.
+/// The entries of a generator's `known` that do not hold, one sentence each, or that it has none.
 fn faults_of(name: &str, known: &[Known]) -> Vec<String> {
     let place = format!("in the `GENERATOR` of crates/fields/src/generators/{name}.rs");
     if known.is_empty() {
@@ -99,7 +99,7 @@ fn known_answers_hold() {
 }
 
 #[test]
-fn wrong_answers_are_told_with_what_is_found() {
+fn wrong_answers_are_reported_with_what_is_found() {
     let wrong = [
         (Known::Symmetries("", &[Mirror::LeftRight, Mirror::UpDown]), "UpDown makes"),
         (Known::MajorAxis("size=41", [0, 0], 45.0), "the axis points to 135"),
@@ -119,7 +119,7 @@ fn wrong_answers_are_told_with_what_is_found() {
     );
 }
 
-/// What a generator must say of its fields instead of what it says, if that is wrong.
+/// The correction of a generator's facts about its fields, if they are wrong.
 fn undeclared(name: &str, key: &str, declared: bool, odd: Option<(Cell, f64)>) -> Option<String> {
     let place = format!("in the `GENERATOR` of crates/fields/src/generators/{name}.rs");
     match odd {
@@ -152,7 +152,7 @@ fn declared_facts_hold() {
 }
 
 #[test]
-fn a_wrong_fact_is_told_with_the_right_one() {
+fn a_wrong_fact_is_reported_with_the_right_one() {
     let at = Some((Cell::new(3, 4), 1.5));
     assert_eq!(undeclared("made_up", "symmetric", true, None), None);
     assert_eq!(undeclared("made_up", "symmetric", false, at), None);

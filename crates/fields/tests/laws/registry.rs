@@ -1,4 +1,4 @@
-//! A generator is one file and one line: what is missing, and what to do about it.
+//! A generator is one file and one line: messages name what is missing and how to add it.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -87,7 +87,7 @@ fn made_up(files: &[(&str, &str)]) -> Sources {
     files.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())).collect()
 }
 
-/// The only fault says all of `words`.
+/// The only fault contains all of `words`.
 #[track_caller]
 fn one_fault(faults: &[String], words: &[&str]) {
     let [fault] = faults else { panic!("expected one fault, found {faults:#?}") };
@@ -105,7 +105,7 @@ fn a_complete_generator_lacks_nothing() {
 }
 
 #[test]
-fn a_file_without_its_line_is_told_which_line_to_add() {
+fn unregistered_files_name_the_missing_line() {
     let list = "generators! {\n    drain,\n    gyre,\n}\n";
     let files = made_up(&[("drain", COMPLETE), ("gyre", COMPLETE), ("fan", COMPLETE), ("mod", list)]);
     let faults = faults_of_files(&files, &["drain", "gyre"]);
@@ -118,7 +118,7 @@ fn a_file_without_its_line_is_told_which_line_to_add() {
 }
 
 #[test]
-fn a_file_that_is_no_generator_is_told_where_an_example_is() {
+fn files_without_a_generator_name_an_example() {
     let files = made_up(&[("fan", "//! Fan.\n"), ("mod", "")]);
     one_fault(
         &faults_of_files(&files, &[]),
@@ -127,19 +127,19 @@ fn a_file_that_is_no_generator_is_told_where_an_example_is() {
 }
 
 #[test]
-fn a_generator_without_its_formula_is_told_where_to_write_it() {
+fn missing_formulas_name_their_file() {
     let files = made_up(&[("fan", "//! Fan.\nconst GENERATOR: Generator"), ("mod", "    fan,\n")]);
     one_fault(&faults_of_files(&files, &["fan"]), &["generators/fan.rs", "formula", "```text", "drain.rs"]);
 }
 
 #[test]
-fn a_name_unlike_its_file_is_told() {
+fn a_name_unlike_its_file_is_reported() {
     let files = made_up(&[("fan", COMPLETE), ("mod", "    fan,\n")]);
     one_fault(&faults_of_names(&files, &["fen"]), &["`fen` has no file", "generators/fen.rs", "`name`"]);
 }
 
 #[test]
-fn a_line_out_of_order_is_told_which_to_move() {
+fn lines_out_of_order_name_the_one_to_move() {
     let files = made_up(&[("fan", COMPLETE), ("gyre", COMPLETE)]);
     one_fault(&faults_of_names(&files, &["gyre", "fan"]), &["`fan` must not stand after `gyre`", "mod.rs"]);
 }

@@ -112,14 +112,15 @@ fn random_fields_are_deterministic() {
     assert_eq!(field("random:seed=7"), field("random:seed=7"));
     assert_ne!(field("random:seed=7"), field("random:seed=8"));
     let f = field("random:size=9,seed=1");
-    // At nine cells a side every cell is a control tensor: xx, yy, xy in the order drawn.
+    // At nine cells per side every cell is a control tensor: xx, yy, xy in the order drawn.
     let found = [at(&f, 0, 0), at(&f, 1, 0), at(&f, 8, 8)];
     for (t, [xx, yy, xy]) in found.iter().zip(RANDOM_SEED_1) {
         assert_eq!((t.xx(), t.yy(), t.xy()), (xx, yy, xy));
     }
 }
 
-/// From another implementation: xx, yy, xy of the first, second and last control tensor of seed 1, nine points a side.
+/// From another implementation: xx, yy, xy of the first, second and last control tensor of seed 1, nine points per
+/// side.
 const RANDOM_SEED_1: [[f64; 3]; 3] = [
     [0.1331231503445618, 0.49156351452540226, 0.9420055071735924],
     [-0.11128156588845584, -0.1114705983472839, 0.525788783823522],

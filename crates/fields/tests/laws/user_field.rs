@@ -15,7 +15,7 @@ fn components(width: usize, height: usize, texts: [&str; 4]) -> ExpressionField 
 }
 
 #[test]
-fn variables_are_the_place() {
+fn variables_are_the_position() {
     let f = components(5, 3, ["x", "y", "i", "j"]).build().expect("a field");
     assert_eq!(at(&f, 0, 0), Tensor2::new(-1.0, 1.0, 0.0, 0.0));
     assert_eq!(at(&f, 4, 0), Tensor2::new(1.0, 1.0, 4.0, 0.0));

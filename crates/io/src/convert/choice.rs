@@ -1,10 +1,12 @@
 //! Which array of image data is meant.
 
 use super::arrays::described;
+use super::error::ChoiceError;
 use super::wanted::{Association, Wanted};
 use crate::image::ActiveArrays;
 use crate::volume::{
-    ComponentArrays, Group, Naming, groups, joined, joined_rows, names_principal_values, naming, row_groups,
+    ComponentArrays, Group, Naming, VolumeError, groups, joined, joined_rows, names_principal_values, naming,
+    row_groups,
 };
 use crate::{DataArray, ImageData, IoError};
 use std::borrow::Cow;
@@ -69,8 +71,8 @@ fn named<'a>(image: &'a ImageData, name: &str) -> Result<(Association, &'a DataA
     };
     match called(name)[..] {
         [found] => Ok(found),
-        [] => at_one().ok_or_else(|| missing(image, &format!("array `{name}`"))),
-        [..] => Err(ambiguous(called(name))),
+        [] => Ok(at_one().ok_or_else(|| missing(image, &format!("array `{name}`")))?),
+        [..] => Err(ambiguous(called(name)).into()),
     }
 }
 
@@ -91,7 +93,7 @@ fn joined_as<'a>(image: &'a ImageData, name: &str, wanted: Wanted) -> Option<Fou
 }
 
 /// The arrays that fit, with their association where they differ in it.
-fn ambiguous<'a>(found: impl IntoIterator<Item = (Association, &'a DataArray)>) -> IoError {
+fn ambiguous<'a>(found: impl IntoIterator<Item = (Association, &'a DataArray)>) -> ChoiceError {
     let found: Vec<(Association, &DataArray)> = found.into_iter().collect();
     let differ = found.iter().any(|f| f.0 != found[0].0);
     let words = |(on, array): &(Association, &DataArray)| {
@@ -101,7 +103,7 @@ fn ambiguous<'a>(found: impl IntoIterator<Item = (Association, &'a DataArray)>) 
             ..DataArray::new("", array.components, Vec::new())
         }])
     };
-    IoError::AmbiguousArray { candidates: found.iter().flat_map(words).collect() }
+    ChoiceError::Ambiguous { candidates: found.iter().flat_map(words).collect() }
 }
 
 fn by_components<'a>(image: &'a ImageData, components: &ComponentArrays) -> Result<Found<'a>, IoError> {
@@ -109,9 +111,11 @@ fn by_components<'a>(image: &'a ImageData, components: &ComponentArrays) -> Resu
     let (on, first) = found[0];
     let arrays: Vec<&DataArray> = found.iter().map(|f| f.1).collect();
     let joined = components.joined(&arrays).filter(|_| found.iter().all(|f| f.0 == on));
-    let unfit =
-        || IoError::UnequalComponents { first: first.name.clone(), found: described(arrays.iter().copied()) };
-    joined.map(|array| (on, Cow::Owned(array))).ok_or_else(unfit)
+    let unfit = || VolumeError::UnequalComponents {
+        first: first.name.clone(),
+        found: described(arrays.iter().copied()),
+    };
+    Ok((on, Cow::Owned(joined.ok_or_else(unfit)?)))
 }
 
 fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
@@ -137,7 +141,7 @@ fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
             } else {
                 let mut found = separate(arrays, wanted);
                 if found.len() > 1 {
-                    return Err(IoError::AmbiguousArray { candidates: described(&found) });
+                    return Err(ChoiceError::Ambiguous { candidates: described(&found) }.into());
                 }
                 fitting.extend(found.pop().map(|found| (on, Cow::Owned(found))));
             }
@@ -151,9 +155,9 @@ fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
     };
     match all(image).find(|(_, a)| wanted == Wanted::Tensors && a.components > 1 && principal(a)) {
         Some((_, a)) => {
-            Err(IoError::Principal { array: a.name.clone(), names: a.component_names.join(", ") })
+            Err(VolumeError::Principal { array: a.name.clone(), names: a.component_names.join(", ") }.into())
         }
-        None => Err(missing(image, wanted.words())),
+        None => Err(missing(image, wanted.words()).into()),
     }
 }
 
@@ -169,7 +173,7 @@ pub(crate) fn left_aside<'a>(image: &'a ImageData, wanted: Wanted, chosen: &str)
 fn only(mut found: Vec<Found>) -> Result<Option<Found>, IoError> {
     match found.len() {
         0 | 1 => Ok(found.pop()),
-        _ => Err(ambiguous(found.iter().map(|(on, array)| (*on, array.as_ref())))),
+        _ => Err(ambiguous(found.iter().map(|(on, array)| (*on, array.as_ref()))).into()),
     }
 }
 
@@ -201,8 +205,8 @@ fn rows(arrays: &[&DataArray], length: usize) -> Vec<DataArray> {
     row_groups(&names, length).into_iter().filter_map(of_group).collect()
 }
 
-fn missing(image: &ImageData, wanted: &str) -> IoError {
+fn missing(image: &ImageData, wanted: &str) -> ChoiceError {
     let mut available = described(all(image).map(|f| f.1));
     available.extend(image.skipped.iter().cloned());
-    IoError::NoArray { wanted: wanted.to_owned(), available }
+    ChoiceError::NoArray { wanted: wanted.to_owned(), available }
 }

@@ -4,7 +4,7 @@ use super::arrays::{ENERGY, FLUX, INTENSITY, PROVENANCE};
 use super::rows::{self, Rows};
 use crate::volume::PlaneGeometry;
 use crate::{DataArray, ImageData};
-use tigereye_core::LightDistribution;
+use tigereye_core::{LightDistribution, Vector};
 
 /// An image of W x H x 1 points with three arrays:
 ///
@@ -36,7 +36,10 @@ pub fn image_from_light(
 #[must_use]
 pub fn image_of_energy(light: &LightDistribution, geometry: &PlaneGeometry) -> ImageData {
     let (rows, [width, height]) = (Rows::of_results(geometry), sides(light));
-    let along = |&[x, y]: &[f64; 2]| if geometry.is_placed() { geometry.along([x, y]) } else { [x, y, 0.0] };
+    let along = |flux: &Vector| {
+        let [x, y] = flux.to_array();
+        if geometry.is_placed() { geometry.along([x, y]) } else { [x, y, 0.0] }
+    };
     let flux: Vec<f64> = light.net_flux().values().iter().flat_map(along).collect();
     let energy = light.energy();
     let mut image = ImageData::empty([width, height, 1]);

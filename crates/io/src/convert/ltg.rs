@@ -4,7 +4,9 @@
 //! flipped, as in the published volumes.
 
 use super::arrays::{LTG_ARRAY, PROVENANCE, PUBLISHED_ARRAY, described};
+use super::error::ChoiceError;
 use super::rows::{self, Rows};
+use crate::array_error::ArrayError;
 use crate::volume::PlaneGeometry;
 use crate::{DataArray, FieldEntry, FieldValues, ImageData, IoError, ScalarType};
 use tigereye_core::{Directions, Grid, LtgVolume};
@@ -31,12 +33,12 @@ impl LtgImage {
     /// The volume; the caller knows how many directions there were in all.
     ///
     /// # Errors
-    /// [`IoError::Slices`] for slices beyond `directions`.
+    /// [`ChoiceError::Slices`] for slices beyond `directions`.
     pub fn into_volume(self, directions: Directions) -> Result<LtgVolume, IoError> {
         let limit = directions.count();
         if self.slices.last().is_some_and(|&t| t >= limit) {
             let found = self.slices.iter().rev().take(8).rev().map(|&t| t as f64).collect();
-            return Err(IoError::Slices { found, expected: self.slices.len(), limit });
+            return Err(ChoiceError::Slices { found, expected: self.slices.len(), limit }.into());
         }
         Ok(LtgVolume::new(self.grid, directions, self.slices, self.values))
     }
@@ -66,7 +68,7 @@ pub fn image_from_ltg(volume: &LtgVolume, geometry: &PlaneGeometry, field_data_j
 /// component. Slices are those of the field data, or 0, 1, 2, ...
 ///
 /// # Errors
-/// [`IoError::NoArray`], [`IoError::AmbiguousArray`], [`IoError::Slices`].
+/// [`ChoiceError::NoArray`], [`ChoiceError::Ambiguous`], [`ChoiceError::Slices`].
 pub fn ltg_from_image(image: &ImageData) -> Result<LtgImage, IoError> {
     let array = scalar_array(image)?;
     let [width, height, layers] = image.dimensions;
@@ -74,7 +76,7 @@ pub fn ltg_from_image(image: &ImageData) -> Result<LtgImage, IoError> {
     let expected = (grid.cells() as u128) * layers as u128;
     if array.values.len() as u128 != expected {
         let (found, array) = (array.values.len() as u128, array.name.clone());
-        return Err(IoError::ArraySize { array, byte: 0, found, expected, unit: "numbers" });
+        return Err(ArrayError::Size { array, byte: 0, found, expected, unit: "numbers" }.into());
     }
     Ok(LtgImage {
         array: array.name.clone(),
@@ -96,19 +98,21 @@ fn scalar_array(image: &ImageData) -> Result<&DataArray, IoError> {
         [array] => Ok(array),
         [] => {
             let wanted = "point array with one component".to_owned();
-            Err(IoError::NoArray { wanted, available: described(&image.point_arrays) })
+            Err(ChoiceError::NoArray { wanted, available: described(&image.point_arrays) }.into())
         }
-        _ => Err(IoError::AmbiguousArray { candidates: described(scalars) }),
+        _ => Err(ChoiceError::Ambiguous { candidates: described(scalars) }.into()),
     }
 }
 
-fn slices(image: &ImageData, layers: usize) -> Result<Vec<usize>, IoError> {
+fn slices(image: &ImageData, layers: usize) -> Result<Vec<usize>, ChoiceError> {
     let Some(numbers) = image.numbers(SLICES) else { return Ok((0..layers).collect()) };
     let index = |&n: &f64| (n >= 0.0 && n < Directions::MAX as f64 && n.fract() == 0.0).then_some(n as usize);
     let slices: Option<Vec<usize>> = numbers.iter().map(index).collect();
-    slices.filter(|s| s.len() == layers && s.windows(2).all(|w| w[0] < w[1])).ok_or_else(|| IoError::Slices {
-        found: numbers.iter().copied().take(8).collect(),
-        expected: layers,
-        limit: Directions::MAX,
+    slices.filter(|s| s.len() == layers && s.windows(2).all(|w| w[0] < w[1])).ok_or_else(|| {
+        ChoiceError::Slices {
+            found: numbers.iter().copied().take(8).collect(),
+            expected: layers,
+            limit: Directions::MAX,
+        }
     })
 }

@@ -2,6 +2,7 @@
 
 mod arrays;
 mod choice;
+mod error;
 mod light;
 mod ltg;
 mod rows;
@@ -11,6 +12,7 @@ pub(crate) use arrays::{GHOSTS, VALID_POINTS};
 pub use arrays::{LTG_ARRAY, PROVENANCE, TENSOR_ARRAY};
 pub use choice::ArrayChoice;
 pub(crate) use choice::{choose_array, left_aside};
+pub use error::ChoiceError;
 pub use light::{image_from_light, image_of_energy};
 pub use ltg::{LtgImage, SLICES, image_from_ltg, ltg_from_image};
 pub use rows::Rows;

@@ -26,7 +26,7 @@ pub(super) fn read(cursor: &mut Cursor, image: &mut ImageData) -> Result<(), IoE
             b"POINT_DATA" => true,
             b"CELL_DATA" => false,
             _ => {
-                let Some((_, target)) = &mut target else { return Err(fault(byte, word, ATTRIBUTES)) };
+                let Some((_, target)) = &mut target else { return Err(fault(byte, word, ATTRIBUTES).into()) };
                 attribute(cursor, byte, word, target)?;
                 continue;
             }
@@ -37,7 +37,7 @@ pub(super) fn read(cursor: &mut Cursor, image: &mut ImageData) -> Result<(), IoE
         let tuples: u64 = cursor.parse(expected)?;
         let dimensions = if on_points { image.dimensions } else { image.cell_dimensions() };
         if u128::from(tuples) != dimensions.iter().map(|&n| n as u128).product::<u128>() {
-            return Err(fault(at, tuples.to_string().as_bytes(), expected));
+            return Err(fault(at, tuples.to_string().as_bytes(), expected).into());
         }
         let target_of =
             Target { tuples, arrays: Vec::new(), active: ActiveArrays::default(), skipped: Vec::new() };
@@ -119,7 +119,9 @@ fn attribute(cursor: &mut Cursor, byte: usize, word: &[u8], target: &mut Target)
         b"FIELD" => fields(cursor, |cursor, name, tuples, components| {
             let (at, scalar) = (cursor.at(), cursor.element()?);
             if tuples != target.tuples {
-                return Err(fault(at, tuples.to_string().as_bytes(), "a tuple for every point or cell"));
+                return Err(
+                    fault(at, tuples.to_string().as_bytes(), "a tuple for every point or cell").into()
+                );
             }
             target.push(cursor, name, scalar, components)?;
             while cursor.peek_is("METADATA") {
@@ -129,7 +131,7 @@ fn attribute(cursor: &mut Cursor, byte: usize, word: &[u8], target: &mut Target)
             Ok(())
         }),
         b"METADATA" => target.metadata(cursor),
-        _ => Err(fault(byte, word, ATTRIBUTES)),
+        _ => Err(fault(byte, word, ATTRIBUTES).into()),
     }
 }
 
@@ -173,7 +175,7 @@ fn components(cursor: &mut Cursor) -> Result<usize, IoError> {
     if (1..=MAX_COMPONENTS).contains(&n) {
         Ok(n as usize)
     } else {
-        Err(fault(at, n.to_string().as_bytes(), expected))
+        Err(fault(at, n.to_string().as_bytes(), expected).into())
     }
 }
 
@@ -186,7 +188,7 @@ fn fields(
     let at = cursor.at();
     let count: u64 = cursor.parse("the number of arrays")?;
     if count > MAX_COMPONENTS {
-        return Err(fault(at, count.to_string().as_bytes(), "at most 65536 arrays"));
+        return Err(fault(at, count.to_string().as_bytes(), "at most 65536 arrays").into());
     }
     for _ in 0..count {
         let name = cursor.name()?;

@@ -1,6 +1,9 @@
 //! Words, lines and numbers of a legacy file.
 
-use crate::error::shortened;
+use super::error::LegacyError;
+use crate::array_error::ArrayError;
+use crate::limits::LimitError;
+use crate::text::shortened;
 use crate::words::{Words, numbers};
 use crate::{ByteOrder, IoError, Limits, ScalarType};
 
@@ -56,7 +59,7 @@ impl<'a> Cursor<'a> {
         cursor.binary = match word.to_ascii_uppercase().as_slice() {
             b"ASCII" => false,
             b"BINARY" => true,
-            _ => return Err(fault(byte, word, "ASCII or BINARY")),
+            _ => return Err(fault(byte, word, "ASCII or BINARY").into()),
         };
         Ok(cursor)
     }
@@ -71,7 +74,7 @@ impl<'a> Cursor<'a> {
         let window = &rest[..rest.len().min(MAX_LINE)];
         let length = window.iter().position(|&b| b == b'\n').unwrap_or(window.len());
         if length == MAX_LINE {
-            return Err(fault(self.at, window, "a line of at most 4096 bytes"));
+            return Err(fault(self.at, window, "a line of at most 4096 bytes").into());
         }
         self.at += (length + 1).min(rest.len());
         Ok(window[..length].strip_suffix(b"\r").unwrap_or(&window[..length]))
@@ -79,7 +82,7 @@ impl<'a> Cursor<'a> {
 
     /// The next word with its place.
     pub(super) fn word(&mut self, expected: &'static str) -> Result<(usize, &'a [u8]), IoError> {
-        self.next().ok_or_else(|| fault(self.bytes.len(), b"", expected))
+        Ok(self.next().ok_or_else(|| fault(self.bytes.len(), b"", expected))?)
     }
 
     /// The next word; `None` at the end of the file.
@@ -110,7 +113,7 @@ impl<'a> Cursor<'a> {
     pub(super) fn parse<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, IoError> {
         let (byte, word) = self.word(expected)?;
         let parsed = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok());
-        parsed.ok_or_else(|| fault(byte, word, expected))
+        Ok(parsed.ok_or_else(|| fault(byte, word, expected))?)
     }
 
     pub(super) fn finite(&mut self, expected: &'static str) -> Result<f64, IoError> {
@@ -119,7 +122,7 @@ impl<'a> Cursor<'a> {
         if number.is_finite() {
             Ok(number)
         } else {
-            Err(fault(byte, number.to_string().as_bytes(), expected))
+            Err(fault(byte, number.to_string().as_bytes(), expected).into())
         }
     }
 
@@ -133,7 +136,7 @@ impl<'a> Cursor<'a> {
         let byte = self.at;
         match self.element()? {
             Stored::Numbers(scalar) => Ok(scalar),
-            Stored::Other(kind) => Err(fault(byte, kind.name().as_bytes(), TYPES)),
+            Stored::Other(kind) => Err(fault(byte, kind.name().as_bytes(), TYPES).into()),
         }
     }
 
@@ -156,7 +159,7 @@ impl<'a> Cursor<'a> {
             b"bit" => return Ok(Stored::Other(Other::Bits)),
             b"string" | b"utf8_string" => return Ok(Stored::Other(Other::Strings)),
             b"variant" => return Ok(Stored::Other(Other::Variants)),
-            _ => return Err(fault(byte, word, TYPES)),
+            _ => return Err(fault(byte, word, TYPES).into()),
         }))
     }
 
@@ -173,7 +176,7 @@ impl<'a> Cursor<'a> {
         let left = (self.bytes.len() - self.at) as u128;
         if count > left {
             let (array, byte, present) = (array.to_owned(), self.at, left as usize);
-            return Err(IoError::ArrayTruncated { array, byte, needed: count, present });
+            return Err(ArrayError::Truncated { array, byte, needed: count, present }.into());
         }
         for _ in 0..count {
             // Text has a line for every string, and for every variant its type and value.
@@ -209,7 +212,7 @@ impl<'a> Cursor<'a> {
         let rest = &self.bytes[self.at..];
         if needed > rest.len() as u128 {
             let (array, byte, present) = (array.to_owned(), self.at, rest.len());
-            return Err(IoError::ArrayTruncated { array, byte, needed, present });
+            return Err(ArrayError::Truncated { array, byte, needed, present }.into());
         }
         self.at += needed as usize;
         Ok(&rest[..needed as usize])
@@ -224,7 +227,7 @@ impl<'a> Cursor<'a> {
     ) -> Result<Vec<f64>, IoError> {
         let left = u64::try_from(count).ok().and_then(|n| self.values_left.checked_sub(n));
         let limit = self.limits.values;
-        let many = || IoError::TooManyValues { array: array.to_owned(), byte: self.at, limit };
+        let many = || LimitError::Values { array: array.to_owned(), byte: self.at, limit };
         self.values_left = left.ok_or_else(many)?;
         if !self.binary {
             let mut words = Words::new(&self.bytes[self.at..]);
@@ -273,6 +276,6 @@ pub(super) fn decoded(word: &[u8]) -> String {
     String::from_utf8_lossy(&name).into_owned()
 }
 
-pub(super) fn fault(byte: usize, found: &[u8], expected: &'static str) -> IoError {
-    IoError::LegacyWord { byte, found: shortened(found), expected }
+pub(super) fn fault(byte: usize, found: &[u8], expected: &'static str) -> LegacyError {
+    LegacyError::Word { byte, found: shortened(found), expected }
 }

@@ -1,7 +1,9 @@
 //! The points of a legacy data set, as a lattice.
 
 use super::cursor::{Cursor, fault};
+use crate::limits::LimitError;
 use crate::points::{PointLattice, TOLERANCE};
+use crate::volume::VolumeError;
 use crate::{ImageData, IoError};
 
 const SETS: &str = "DATASET STRUCTURED_POINTS, STRUCTURED_GRID or RECTILINEAR_GRID";
@@ -10,7 +12,7 @@ const SETS: &str = "DATASET STRUCTURED_POINTS, STRUCTURED_GRID or RECTILINEAR_GR
 pub(super) fn read(cursor: &mut Cursor) -> Result<ImageData, IoError> {
     let (byte, word) = cursor.word(SETS)?;
     if !word.eq_ignore_ascii_case(b"DATASET") {
-        return Err(fault(byte, word, SETS));
+        return Err(fault(byte, word, SETS).into());
     }
     let (byte, word) = cursor.word(SETS)?;
     let kind = word.to_ascii_uppercase();
@@ -18,7 +20,7 @@ pub(super) fn read(cursor: &mut Cursor) -> Result<ImageData, IoError> {
     let mut image = match kind {
         b"STRUCTURED_POINTS" => ImageData::empty([1; 3]),
         b"STRUCTURED_GRID" | b"RECTILINEAR_GRID" => ImageData::empty([1; 3]),
-        _ => return Err(fault(byte, word, SETS)),
+        _ => return Err(fault(byte, word, SETS).into()),
     };
     let mut sized = false;
     let mut placed = kind == b"STRUCTURED_POINTS";
@@ -48,7 +50,7 @@ pub(super) fn read(cursor: &mut Cursor) -> Result<ImageData, IoError> {
         return Ok(image);
     }
     let (byte, word) = cursor.word(expected)?;
-    Err(fault(byte, word, expected))
+    Err(fault(byte, word, expected).into())
 }
 
 fn dimensions(cursor: &mut Cursor) -> Result<[usize; 3], IoError> {
@@ -59,13 +61,13 @@ fn dimensions(cursor: &mut Cursor) -> Result<[usize; 3], IoError> {
         let at = cursor.at();
         *axis = cursor.parse(expected)?;
         if *axis == 0 {
-            return Err(fault(at, b"0", expected));
+            return Err(fault(at, b"0", expected).into());
         }
     }
     let cells = n.iter().fold(1_u128, |p, &d| p.saturating_mul(u128::from(d)));
     let limit = cursor.limits().cells;
     if cells > u128::from(limit) {
-        return Err(IoError::TooManyCells { byte, cells, limit });
+        return Err(LimitError::Cells { byte, cells, limit }.into());
     }
     Ok(n.map(|d| d as usize))
 }
@@ -83,13 +85,15 @@ fn points(cursor: &mut Cursor, image: &mut ImageData) -> Result<(), IoError> {
     let count: u64 = cursor.parse("the number of points")?;
     let [nx, ny, nz] = image.dimensions;
     if u128::from(count) != nx as u128 * ny as u128 * nz as u128 {
-        return Err(fault(at, count.to_string().as_bytes(), "as many points as the DIMENSIONS declare"));
+        return Err(
+            fault(at, count.to_string().as_bytes(), "as many points as the DIMENSIONS declare").into()
+        );
     }
     let scalar = cursor.scalar()?;
     let values = cursor.numbers("POINTS", scalar, 3 * u128::from(count))?;
     let points = values.as_chunks::<3>().0;
     let lattice = PointLattice::of(points, image.dimensions);
-    lattice.map_err(|point| IoError::NoLattice { point })?.place(image);
+    lattice.map_err(|point| VolumeError::NoLattice { point })?.place(image);
     Ok(())
 }
 
@@ -98,12 +102,14 @@ fn coordinates(cursor: &mut Cursor, axis: usize, image: &mut ImageData) -> Resul
     const NAMES: [&str; 3] = ["X_COORDINATES", "Y_COORDINATES", "Z_COORDINATES"];
     let (byte, word) = cursor.word(NAMES[axis])?;
     if !word.eq_ignore_ascii_case(NAMES[axis].as_bytes()) {
-        return Err(fault(byte, word, NAMES[axis]));
+        return Err(fault(byte, word, NAMES[axis]).into());
     }
     let at = cursor.at();
     let count: usize = cursor.parse("the number of coordinates")?;
     if count != image.dimensions[axis] {
-        return Err(fault(at, count.to_string().as_bytes(), "as many coordinates as the DIMENSIONS declare"));
+        return Err(
+            fault(at, count.to_string().as_bytes(), "as many coordinates as the DIMENSIONS declare").into()
+        );
     }
     let scalar = cursor.scalar()?;
     let values = cursor.numbers(NAMES[axis], scalar, count as u128)?;
@@ -114,7 +120,7 @@ fn coordinates(cursor: &mut Cursor, axis: usize, image: &mut ImageData) -> Resul
         (!near || step == 0.0).then_some(i)
     };
     if let Some(point) = values.iter().enumerate().find_map(off).filter(|_| count > 1) {
-        return Err(IoError::NoLattice { point });
+        return Err(VolumeError::NoLattice { point }.into());
     }
     (image.origin[axis], image.spacing[axis]) = (first, step);
     Ok(())

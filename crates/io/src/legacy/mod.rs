@@ -10,9 +10,11 @@
 
 mod attributes;
 mod cursor;
+mod error;
 mod geometry;
 mod write;
 
+pub use error::LegacyError;
 pub use write::write;
 
 use crate::{ImageData, IoError, Limits};

@@ -1,7 +1,9 @@
 //! From [`ImageData`] to bytes.
 
-use crate::error::shortened;
+use crate::array_error::ArrayError;
+use crate::text::shortened;
 use crate::volume::points_of_image;
+use crate::write_error::WriteError;
 use crate::{DataArray, ImageData, IoError, ScalarType};
 
 /// Longest second line of a file, the line feed among it.
@@ -11,14 +13,14 @@ const TITLE: usize = 256;
 /// FIELD. Field data are left out; `title` has room for 255 bytes.
 ///
 /// # Errors
-/// [`IoError::Unwritable`] for a title or names that the format cannot hold, [`IoError::ArraySize`],
-/// [`IoError::EmptyImage`].
+/// [`WriteError::Unwritable`] for a title or names that the format cannot hold, [`ArrayError::Size`],
+/// [`WriteError::EmptyImage`].
 pub fn write(image: &ImageData, title: &str) -> Result<Vec<u8>, IoError> {
     if image.dimensions.contains(&0) {
-        return Err(IoError::EmptyImage { dimensions: image.dimensions });
+        return Err(WriteError::EmptyImage { dimensions: image.dimensions }.into());
     }
     if title.len() >= TITLE || title.chars().any(char::is_control) {
-        return Err(IoError::Unwritable { name: shortened(title.as_bytes()) });
+        return Err(WriteError::Unwritable { name: shortened(title.as_bytes()) }.into());
     }
     let [nx, ny, nz] = image.dimensions;
     let count = nx * ny * nz;
@@ -60,7 +62,7 @@ fn checked(bytes: &mut Vec<u8>, array: &DataArray, tuples: usize) -> Result<(), 
     let (found, expected) = (array.values.len() as u128, tuples as u128 * array.components as u128);
     if found != expected {
         let (array, byte) = (array.name.clone(), bytes.len());
-        return Err(IoError::ArraySize { array, byte, found, expected, unit: "numbers" });
+        return Err(ArrayError::Size { array, byte, found, expected, unit: "numbers" }.into());
     }
     numbers(bytes, array.scalar, &array.values);
     Ok(())
@@ -78,7 +80,7 @@ fn numbers(bytes: &mut Vec<u8>, scalar: ScalarType, values: &[f64]) {
 fn name(array: &DataArray) -> Result<&str, IoError> {
     let unfit = |c: char| c.is_control() || c.is_whitespace();
     if array.name.is_empty() || array.name.contains(unfit) {
-        return Err(IoError::Unwritable { name: shortened(array.name.as_bytes()) });
+        return Err(WriteError::Unwritable { name: shortened(array.name.as_bytes()) }.into());
     }
     Ok(&array.name)
 }

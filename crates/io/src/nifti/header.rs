@@ -1,5 +1,8 @@
 //! The 348 bytes that head a NIfTI-1 file.
 
+use super::error::NiftiError;
+use crate::inflate::DataError;
+use crate::limits::LimitError;
 use crate::volume::Content;
 use crate::{ByteOrder, IoError, Limits, ScalarType};
 
@@ -28,6 +31,8 @@ pub(super) struct Header {
     pub(super) components: usize,
     /// What the intent makes of the components.
     pub(super) content: Content,
+    /// The step along the fourth axis, where that is the components' and the header calls it time, in words.
+    pub(super) time_step: Option<String>,
     pub(super) kind: &'static str,
     /// Slope and intercept, where they do something.
     pub(super) scaling: Option<(f64, f64)>,
@@ -67,36 +72,37 @@ impl Bytes<'_> {
     }
 }
 
-fn fault(byte: usize, field: &'static str, found: impl ToString, expected: &'static str) -> IoError {
-    IoError::NiftiField { byte, field, found: found.to_string(), expected }
+fn fault(byte: usize, field: &'static str, found: impl ToString, expected: &'static str) -> NiftiError {
+    NiftiError::Field { byte, field, found: found.to_string(), expected }
 }
 
 impl Header {
     pub(super) fn parse(bytes: &[u8], limits: Limits) -> Result<Self, IoError> {
-        let head = bytes.get(..LENGTH).ok_or(IoError::DataTruncated {
+        let head = bytes.get(..LENGTH).ok_or(DataError::Truncated {
             byte: 0,
             needed: LENGTH as u128,
             present: bytes.len() as u64,
         })?;
         let fields = Bytes { bytes: head, order: byte_order(head)? };
         if &head[344..348] != b"n+1\0" {
-            let found = format!("`{}`", crate::error::shortened(&head[344..347]));
-            return Err(fault(344, "magic", found, "`n+1`: one file with header and data"));
+            let found = format!("`{}`", crate::text::shortened(&head[344..347]));
+            return Err(fault(344, "magic", found, "`n+1`: one file with header and data").into());
         }
         let dim: [i16; 8] = std::array::from_fn(|i| fields.short(40 + 2 * i));
         let shape = shape(dim)?;
         let scalar = scalar(&fields)?;
         let (components, content, kind) = meaning(&fields, dim[0], shape)?;
+        let time_step = time_step(&fields).filter(|_| shape[3] > 1);
         let cells = shape[..3].iter().map(|&n| n as u128).product::<u128>();
         if cells > u128::from(limits.cells) {
-            return Err(IoError::TooManyCells { byte: 40, cells, limit: limits.cells });
+            return Err(LimitError::Cells { byte: 40, cells, limit: limits.cells }.into());
         }
         if cells * components as u128 > u128::from(limits.values) {
-            return Err(IoError::TooManyValues { array: kind.to_owned(), byte: 40, limit: limits.values });
+            return Err(LimitError::Values { array: kind.to_owned(), byte: 40, limit: limits.values }.into());
         }
         let offset = fields.float(108);
         if !((352.0..=MAX_OFFSET).contains(&offset) && offset.fract() == 0.0) {
-            return Err(fault(108, "vox_offset", offset, "a whole number from 352 to 67108864"));
+            return Err(fault(108, "vox_offset", offset, "a whole number from 352 to 67108864").into());
         }
         let (slope, intercept) = (fields.float(112), fields.float(116));
         let scales = slope != 0.0 && slope.is_finite() && intercept.is_finite();
@@ -107,6 +113,7 @@ impl Header {
             size: [shape[0], shape[1], shape[2]],
             components,
             content,
+            time_step,
             kind,
             scaling: (scales && (slope, intercept) != (1.0, 0.0)).then_some((slope, intercept)),
             position: position(&fields)?,
@@ -125,7 +132,7 @@ impl Header {
     }
 }
 
-fn byte_order(head: &[u8]) -> Result<ByteOrder, IoError> {
+fn byte_order(head: &[u8]) -> Result<ByteOrder, NiftiError> {
     let size = [head[0], head[1], head[2], head[3]];
     let (little, big) = (i32::from_le_bytes(size), i32::from_be_bytes(size));
     match (little, big) {
@@ -137,7 +144,7 @@ fn byte_order(head: &[u8]) -> Result<ByteOrder, IoError> {
 }
 
 /// Lengths of seven axes; those beyond the declared number are 1.
-fn shape(dim: [i16; 8]) -> Result<[usize; 7], IoError> {
+fn shape(dim: [i16; 8]) -> Result<[usize; 7], NiftiError> {
     if !(1..=7).contains(&dim[0]) {
         return Err(fault(40, "dim[0]", dim[0], "a number of axes from 1 to 7"));
     }
@@ -152,7 +159,7 @@ fn shape(dim: [i16; 8]) -> Result<[usize; 7], IoError> {
     Ok(shape)
 }
 
-fn scalar(fields: &Bytes) -> Result<ScalarType, IoError> {
+fn scalar(fields: &Bytes) -> Result<ScalarType, NiftiError> {
     let code = fields.short(70);
     let scalar = match code {
         2 => ScalarType::UInt8,
@@ -179,7 +186,11 @@ fn scalar(fields: &Bytes) -> Result<ScalarType, IoError> {
 }
 
 /// Components, what they are, and a name.
-fn meaning(fields: &Bytes, axes: i16, shape: [usize; 7]) -> Result<(usize, Content, &'static str), IoError> {
+fn meaning(
+    fields: &Bytes,
+    axes: i16,
+    shape: [usize; 7],
+) -> Result<(usize, Content, &'static str), NiftiError> {
     let (intent, p1, p2) = (fields.short(68), fields.float(56), fields.float(60));
     if shape[5] != 1 || shape[6] != 1 || (shape[3] != 1 && shape[4] != 1) {
         let found = format!("{shape:?}");
@@ -216,16 +227,35 @@ fn meaning(fields: &Bytes, axes: i16, shape: [usize; 7]) -> Result<(usize, Conte
         _ if VECTORS.contains(&intent) => {
             Ok((components, Content::NiftiVector, "vectors (intent 1006 or 1007)"))
         }
+        _ if axes <= 4 && time_step(fields).is_some() => Ok((
+            components,
+            Content::NiftiNumbers,
+            "volumes along the fourth axis, which is time by the header",
+        )),
         _ if axes <= 4 => Ok((components, Content::NiftiNumbers, "components along the fourth axis")),
         _ => Ok((components, Content::NiftiNumbers, "components along the fifth axis")),
     }
+}
+
+/// The unit of time in `xyzt_units`, and the codes it may have (nifti1.h).
+const TIME_BITS: u8 = 0x38;
+const TIME_UNITS: [(u8, &str); 3] = [(8, "s"), (16, "ms"), (24, "us")];
+
+/// The step of time along the fourth axis. A step of 1 s is what programs leave there that write tensors (dipy, FSL,
+/// MRtrix3), and says nothing.
+fn time_step(fields: &Bytes) -> Option<String> {
+    let [units] = fields.get(123);
+    let (code, unit) = TIME_UNITS.into_iter().find(|(code, _)| *code == units & TIME_BITS)?;
+    let step = fields.float(92);
+    let is_stated = step > 0.0 && step.is_finite() && (code, step) != (8, 1.0);
+    is_stated.then(|| format!("{step} {unit}"))
 }
 
 /// What is left where there is neither.
 const BY_SIZES: &str = "the voxel sizes alone (no sform, no qform)";
 
 /// The sform where there is one, else the qform, else the voxel sizes.
-fn position(fields: &Bytes) -> Result<(Position, &'static str), IoError> {
+fn position(fields: &Bytes) -> Result<(Position, &'static str), NiftiError> {
     if let Some(sform) = sform(fields)? {
         return Ok((sform, "the sform"));
     }
@@ -237,7 +267,7 @@ fn position(fields: &Bytes) -> Result<(Position, &'static str), IoError> {
     Ok(((axes, [0.0; 3]), BY_SIZES))
 }
 
-fn sform(fields: &Bytes) -> Result<Option<Position>, IoError> {
+fn sform(fields: &Bytes) -> Result<Option<Position>, NiftiError> {
     if fields.short(254) <= 0 {
         return Ok(None);
     }
@@ -249,7 +279,7 @@ fn sform(fields: &Bytes) -> Result<Option<Position>, IoError> {
     Ok(Some((axes, [m[3], m[7], m[11]])))
 }
 
-fn qform(fields: &Bytes) -> Result<Option<Position>, IoError> {
+fn qform(fields: &Bytes) -> Result<Option<Position>, NiftiError> {
     if fields.short(252) <= 0 {
         return Ok(None);
     }

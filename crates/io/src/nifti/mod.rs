@@ -11,12 +11,14 @@
 //!
 //! Standard: nifti1.h of the NIfTI Data Format Working Group, 2003.
 
+mod error;
 mod header;
 mod write;
 
+pub use error::NiftiError;
 pub use write::{WrittenAs, write, write_packed};
 
-use crate::inflate::{gunzip, is_gzip};
+use crate::inflate::{DataError, gunzip, is_gzip};
 use crate::volume::{Lattice, World};
 use crate::{ByteOrder, IoError, Limits, ScalarType};
 use header::{Header, LENGTH};
@@ -53,7 +55,7 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<Lattice, IoError
     };
     if (all.len() as u64) < needed {
         let (byte, present) = (header.offset as usize, (all.len() as u64).saturating_sub(header.offset));
-        return Err(IoError::DataTruncated { byte, needed: u128::from(needed - header.offset), present });
+        return Err(DataError::Truncated { byte, needed: u128::from(needed - header.offset), present }.into());
     }
     let data = &all[header.offset as usize..needed as usize];
     let mut values = by_voxel(data, header.components, header.scalar, header.order);
@@ -79,8 +81,17 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<Lattice, IoError
         component_names: Vec::new(),
         notes,
         remarks: Vec::new(),
+        order_remarks: header.time_step.map(|step| series(header.components, &step)).into_iter().collect(),
         warnings: header.disagreement.map(apart).into_iter().collect(),
     })
+}
+
+/// Words for components along an axis of time.
+fn series(components: usize, step: &str) -> String {
+    format!(
+        "the header says that the fourth axis is time, in steps of {step}: its {components} volumes are taken as components, as \
+         in tensors fitted to such a series"
+    )
 }
 
 /// Words for a qform that lies elsewhere than the sform.

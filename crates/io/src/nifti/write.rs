@@ -1,7 +1,8 @@
 //! From [`TensorVolume`] to bytes.
 
+use super::error::NiftiError;
 use super::header::{LENGTH, MATRIX, SYMMETRIC};
-use crate::volume::{Frame, TensorVolume, World, symmetric, written_scalar};
+use crate::volume::{Frame, TensorVolume, VolumeError, World, symmetric, written_scalar};
 use crate::{IoError, ScalarType};
 use flate2::Compression;
 use flate2::write::GzEncoder;
@@ -30,7 +31,7 @@ impl WrittenAs {
             (Self::Matrices, false) => Ok((MATRIX, &[0, 1, 2, 3, 4, 5, 6, 7, 8])),
             (Self::Fsl, true) => Ok((0, &[0, 1, 2, 4, 5, 8])),
             (Self::Mrtrix, true) => Ok((0, &[0, 4, 8, 1, 2, 5])),
-            (Self::Fsl | Self::Mrtrix, false) => Err(IoError::NotSymmetric),
+            (Self::Fsl | Self::Mrtrix, false) => Err(VolumeError::NotSymmetric.into()),
         }
     }
 
@@ -55,13 +56,13 @@ impl WrittenAs {
 /// becomes an extension of comments.
 ///
 /// # Errors
-/// [`IoError::NiftiSize`], [`IoError::NotSymmetric`] where six components cannot hold the tensors, and
-/// [`IoError::SkewedAxes`] where components must be turned and cannot be.
+/// [`NiftiError::Size`], [`VolumeError::NotSymmetric`] where six components cannot hold the tensors, and
+/// [`VolumeError::SkewedAxes`] where components must be turned and cannot be.
 pub fn write(volume: &TensorVolume, as_what: WrittenAs, provenance: &str) -> Result<Vec<u8>, IoError> {
     let lattice = volume.lattice();
     let size = lattice.size;
     let lengths = size.map(|n| i16::try_from(n).ok());
-    let [Some(nx), Some(ny), Some(nz)] = lengths else { return Err(IoError::NiftiSize { size }) };
+    let [Some(nx), Some(ny), Some(nz)] = lengths else { return Err(NiftiError::Size { size }.into()) };
     let tensors = as_what.tensors(volume)?;
     let (intent, entries) = as_what.entries(symmetric(&tensors))?;
     let scalar = written_scalar(lattice.scalar);

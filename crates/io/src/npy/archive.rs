@@ -1,8 +1,10 @@
 //! The arrays of a `.npz` archive.
 
+use super::error::NpyError;
 use super::lattice_of_members;
 use super::positions::is_position;
-use crate::error::shortened;
+use crate::limits::LimitError;
+use crate::text::shortened;
 use crate::volume::Lattice;
 use crate::{ArrayChoice, IoError, Limits, Wanted};
 use std::io::{Cursor, Read as _};
@@ -14,20 +16,20 @@ const MAX_ARRAYS: usize = 4096;
 const DEFLATE_RATIO: u64 = 1040;
 const ARCHIVE: &str = "a .npz archive";
 
-fn fault(problem: impl Into<String>, expected: &'static str) -> IoError {
-    IoError::Archive { problem: problem.into(), expected }
+fn fault(problem: impl Into<String>, expected: &'static str) -> NpyError {
+    NpyError::Archive { problem: problem.into(), expected }
 }
 
 /// The bytes of one `.npy` file of an archive, and its name: the named one (with or without `.npy`), or the only one.
 ///
 /// # Errors
-/// [`IoError::Archive`], which lists the arrays.
+/// [`NpyError::Archive`], which lists the arrays.
 pub fn array_of_archive(bytes: &[u8], name: Option<&str>) -> Result<(String, Vec<u8>), IoError> {
     let mut archive = Archive::open(bytes)?;
     let chosen = match (name, &archive.files[..]) {
         (Some(name), files) => files.iter().find(|f| plain(f) == name || *f == name),
         (None, [only]) => Some(only),
-        (None, _) => return Err(fault(archive.listed(), "the name of one")),
+        (None, _) => return Err(fault(archive.listed(), "the name of one").into()),
     };
     let chosen = chosen.cloned().ok_or_else(|| {
         let name = shortened(name.unwrap_or_default().as_bytes());
@@ -55,10 +57,10 @@ pub fn read_archive(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result
 /// Names and bytes of all `.npy` files of an archive.
 ///
 /// # Errors
-/// [`IoError::Archive`], and [`IoError::TooManyValues`] for more bytes together than the default limit of one array.
+/// [`NpyError::Archive`], and [`LimitError::Values`] for more bytes together than the default limit of one array.
 pub fn arrays_of_archive(bytes: &[u8]) -> Result<Vec<(String, Vec<u8>)>, IoError> {
     let all = files_of_archive(bytes, |_| true)?;
-    if all.is_empty() { Err(fault(Archive::open(bytes)?.listed(), "at least one")) } else { Ok(all) }
+    if all.is_empty() { Err(fault(Archive::open(bytes)?.listed(), "at least one").into()) } else { Ok(all) }
 }
 
 fn files_of_archive(
@@ -72,7 +74,7 @@ fn files_of_archive(
         total += data.len() as u64;
         let limit = Limits::default().values;
         if total > 8 * limit + (1 << 20) {
-            return Err(IoError::TooManyValues { array: name, byte: 0, limit });
+            return Err(LimitError::Values { array: name, byte: 0, limit }.into());
         }
         all.push((name, data));
     }
@@ -86,14 +88,14 @@ struct Archive<'a> {
 }
 
 fn unreadable(e: zip::result::ZipError) -> IoError {
-    fault(shortened(e.to_string().as_bytes()), ARCHIVE)
+    fault(shortened(e.to_string().as_bytes()), ARCHIVE).into()
 }
 
 impl<'a> Archive<'a> {
     fn open(bytes: &'a [u8]) -> Result<Self, IoError> {
         let zip = ZipArchive::new(Cursor::new(bytes)).map_err(unreadable)?;
         if zip.len() > MAX_ARRAYS {
-            return Err(fault(format!("{} arrays", zip.len()), "at most 4096"));
+            return Err(fault(format!("{} arrays", zip.len()), "at most 4096").into());
         }
         let files = zip.file_names().filter(|n| n.ends_with(".npy")).map(str::to_owned).collect();
         Ok(Self { zip, files })
@@ -116,7 +118,7 @@ impl<'a> Archive<'a> {
         let declared = entry.size();
         if declared > most {
             let problem = format!("`{}` declares {declared} bytes", name());
-            return Err(fault(problem, "no more than deflate can hold"));
+            return Err(fault(problem, "no more than deflate can hold").into());
         }
         let mut data = Vec::new();
         let read = entry.take(declared).read_to_end(&mut data);

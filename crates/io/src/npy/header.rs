@@ -3,8 +3,9 @@
 //! The dictionary `{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }` is the only Python accepted: strings,
 //! two booleans and one flat tuple cannot nest.
 
-use crate::error::shortened;
-use crate::{IoError, ScalarType};
+use super::error::NpyError;
+use crate::ScalarType;
+use crate::text::shortened;
 
 /// NumPy's own bound for headers that are not trusted.
 const MAX_HEADER: usize = 10_000;
@@ -20,7 +21,7 @@ pub(super) struct Header {
 }
 
 impl Header {
-    pub(super) fn parse(bytes: &[u8]) -> Result<Self, IoError> {
+    pub(super) fn parse(bytes: &[u8]) -> Result<Self, NpyError> {
         let (start, end) = text_range(bytes)?;
         let mut text = Text { bytes: &bytes[..end], at: start };
         let (mut descr, mut fortran, mut shape) = (None, None, None);
@@ -46,7 +47,7 @@ impl Header {
             return Err(header(start, "the keys descr, fortran_order and shape"));
         };
         let scalar =
-            scalar_type(descr).ok_or_else(|| IoError::NpyType { byte: at, descr: shortened(descr) })?;
+            scalar_type(descr).ok_or_else(|| NpyError::Type { byte: at, descr: shortened(descr) })?;
         let shape = fitting(&shape, scalar, end, bytes.len() - end)?;
         // Behind the quote and the byte order.
         let truth = (descr.get(1..) == Some(b"b1")).then_some(at + 2);
@@ -54,12 +55,12 @@ impl Header {
     }
 }
 
-fn header(byte: usize, expected: &'static str) -> IoError {
-    IoError::NpyHeader { byte, expected }
+fn header(byte: usize, expected: &'static str) -> NpyError {
+    NpyError::Header { byte, expected }
 }
 
 /// Where the dictionary starts and ends.
-fn text_range(bytes: &[u8]) -> Result<(usize, usize), IoError> {
+fn text_range(bytes: &[u8]) -> Result<(usize, usize), NpyError> {
     if !bytes.starts_with(b"\x93NUMPY") {
         return Err(header(0, "the magic bytes \\x93NUMPY"));
     }
@@ -79,7 +80,7 @@ fn text_range(bytes: &[u8]) -> Result<(usize, usize), IoError> {
 }
 
 /// The shape, if its data are exactly the `present` bytes from `byte` on.
-fn fitting(shape: &[u64], scalar: ScalarType, byte: usize, present: usize) -> Result<Vec<usize>, IoError> {
+fn fitting(shape: &[u64], scalar: ScalarType, byte: usize, present: usize) -> Result<Vec<usize>, NpyError> {
     let count = |n: u128, &axis: &u64| n.saturating_mul(u128::from(axis));
     let declared = shape.iter().fold(scalar.bytes() as u128, count);
     let sizes: Option<Vec<usize>> = shape.iter().map(|&n| usize::try_from(n).ok()).collect();
@@ -87,7 +88,7 @@ fn fitting(shape: &[u64], scalar: ScalarType, byte: usize, present: usize) -> Re
     let strides = shape.iter().filter(|&&n| n > 0).fold(1, count);
     match sizes {
         Some(sizes) if declared == present as u128 && strides <= isize::MAX as u128 => Ok(sizes),
-        _ => Err(IoError::NpySize { byte, declared, present }),
+        _ => Err(NpyError::Size { byte, declared, present }),
     }
 }
 
@@ -135,12 +136,12 @@ impl<'a> Text<'a> {
         found
     }
 
-    fn token(&mut self, token: &[u8], expected: &'static str) -> Result<(), IoError> {
+    fn token(&mut self, token: &[u8], expected: &'static str) -> Result<(), NpyError> {
         if self.accept(token) { Ok(()) } else { Err(header(self.at, expected)) }
     }
 
     /// A quoted string without escapes, and where it starts.
-    fn string(&mut self) -> Result<(usize, &'a [u8]), IoError> {
+    fn string(&mut self) -> Result<(usize, &'a [u8]), NpyError> {
         self.skip_blanks();
         let at = self.at;
         let Some(&quote @ (b'\'' | b'"')) = self.rest().first() else {
@@ -152,14 +153,14 @@ impl<'a> Text<'a> {
         Ok((at, &content[..end]))
     }
 
-    fn boolean(&mut self) -> Result<bool, IoError> {
+    fn boolean(&mut self) -> Result<bool, NpyError> {
         if self.accept(b"False") {
             return Ok(false);
         }
         self.token(b"True", "True or False").map(|()| true)
     }
 
-    fn tuple(&mut self) -> Result<Vec<u64>, IoError> {
+    fn tuple(&mut self) -> Result<Vec<u64>, NpyError> {
         self.token(b"(", "a tuple `(`")?;
         let mut axes = Vec::new();
         while !self.accept(b")") {
@@ -175,7 +176,7 @@ impl<'a> Text<'a> {
         Ok(axes)
     }
 
-    fn integer(&mut self) -> Result<u64, IoError> {
+    fn integer(&mut self) -> Result<u64, NpyError> {
         self.skip_blanks();
         let digits = self.rest().iter().take_while(|b| b.is_ascii_digit()).count();
         let text = std::str::from_utf8(&self.rest()[..digits]).ok();

@@ -1,7 +1,9 @@
 //! Arrays of many shapes as lattices.
 
+use super::error::NpyError;
 use super::positions::{self, Positions};
 use super::{NpyArray, read_array};
+use crate::convert::ChoiceError;
 use crate::volume::{Content, Lattice, World, groups, row_groups};
 use crate::{ArrayChoice, DataArray, ImageData, IoError, Wanted, choose_array};
 
@@ -82,21 +84,21 @@ fn could_have_components_first(shape: &[usize], wanted: Wanted) -> bool {
 /// up; volumes have components along their own axes.
 ///
 /// # Errors
-/// As [`read_array`], and [`IoError::NpyShape`] or [`IoError::NpyComponentsFirst`] for another shape.
+/// As [`read_array`], and [`NpyError::Shape`] or [`NpyError::ComponentsFirst`] for another shape.
 pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
     let NpyArray { shape, values, scalar } = read_array(bytes)?;
     let layout = Layout::of(&shape, wanted).filter(|_| !shape.contains(&0));
     let Some(layout) = layout else {
         return Err(if has_components_first(&shape, wanted) {
-            IoError::NpyComponentsFirst { shape }
+            NpyError::ComponentsFirst { shape }.into()
         } else {
-            IoError::NpyShape { shape, expected: expected(wanted) }
+            NpyError::Shape { shape, expected: expected(wanted) }.into()
         });
     };
     // A mask before six numbers is rarer than an array of seven columns.
     let components_first = has_components_first(&shape, wanted);
     if components_first && shape.last() == Some(&7) {
-        return Err(IoError::NpyComponentsFirst { shape });
+        return Err(NpyError::ComponentsFirst { shape }.into());
     }
     let warnings = could_have_components_first(&shape, wanted).then(|| {
         let (first, last) = (shape[0], shape[shape.len() - 1]);
@@ -135,6 +137,7 @@ fn laid_out(array: NpyArray, layout: Layout, warnings: Vec<String>) -> Lattice {
         component_names: Vec::new(),
         notes: vec![note.to_owned()],
         remarks: Vec::new(),
+        order_remarks: Vec::new(),
         warnings,
     }
 }
@@ -145,7 +148,7 @@ fn laid_out(array: NpyArray, layout: Layout, warnings: Vec<String>) -> Lattice {
 ///
 /// # Errors
 /// As [`read_lattice`] for the named or only array, as [`crate::volume::lattice_from_image`] for one out of several,
-/// and [`IoError::NpzPositions`].
+/// and [`NpyError::Positions`].
 pub fn lattice_of_members(
     members: &[(String, Vec<u8>)],
     choice: ArrayChoice,
@@ -154,7 +157,7 @@ pub fn lattice_of_members(
     let named = |name: &str| members.iter().find(|(n, _)| n == name);
     let (used, lattice) = match (members, choice) {
         (_, ArrayChoice::Named(name)) => {
-            let missing = || IoError::NoArray {
+            let missing = || ChoiceError::NoArray {
                 wanted: format!("array `{name}`"),
                 available: members.iter().map(|(n, _)| format!("`{n}`")).collect(),
             };
@@ -229,7 +232,7 @@ fn out_of_several(
     }
     let used: Vec<String> = array.name.split(", ").map(str::to_owned).collect();
     let first = read.iter().find(|(name, _)| used.first() == Some(name));
-    let missing = || IoError::NoArray { wanted: "array".to_owned(), available: Vec::new() };
+    let missing = || ChoiceError::NoArray { wanted: "array".to_owned(), available: Vec::new() };
     let (_, first) = first.ok_or_else(missing)?;
     Ok((used, first.clone().with_array(array.into_owned())))
 }
@@ -270,7 +273,7 @@ fn read_numbers(bytes: &[u8]) -> Result<Lattice, IoError> {
     let expected = expected(Wanted::Scalars);
     layout
         .map(|l| laid_out(array.clone(), l, Vec::new()))
-        .ok_or(IoError::NpyShape { shape: array.shape, expected })
+        .ok_or(NpyError::Shape { shape: array.shape, expected }.into())
 }
 
 /// From `[x][y][z][component]` to tuples with x fastest.

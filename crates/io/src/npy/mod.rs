@@ -15,6 +15,7 @@
 //! `numpy.meshgrid` takes and makes them. They place the cells, so that what has the largest y is on top.
 
 mod archive;
+mod error;
 mod header;
 mod lattice;
 mod positions;
@@ -22,6 +23,7 @@ mod read;
 mod write;
 
 pub use archive::{array_of_archive, arrays_of_archive, read_archive};
+pub use error::NpyError;
 pub use lattice::{lattice_of_members, read_lattice};
 pub use read::{NpyArray, read_array, read_tensors};
 pub use write::{write_array, write_light, write_ltg, write_tensors};

@@ -1,9 +1,10 @@
 //! Where the cells of an archive lie: arrays of positions beside the data.
 
+use super::error::NpyError;
 use super::{NpyArray, read_array};
 use crate::points::PointLattice;
 use crate::volume::{Frame, Known, Lattice, World};
-use crate::{ImageData, IoError};
+use crate::{ImageData, Y_UPWARDS};
 
 /// What the axes of positions are called, in any case; the third is that of volumes.
 const AXES: [[&str; 3]; 5] = [
@@ -103,10 +104,10 @@ impl Positions {
     /// The lattice where the positions put it.
     ///
     /// # Errors
-    /// [`IoError::NpzPositions`] for positions without equal steps.
-    pub(super) fn place(&self, mut lattice: Lattice) -> Result<Lattice, IoError> {
+    /// [`NpyError::Positions`] for positions without equal steps.
+    pub(super) fn place(&self, mut lattice: Lattice) -> Result<Lattice, NpyError> {
         let names = self.names.join(", ");
-        let fault = |position| IoError::NpzPositions { names: names.clone(), position };
+        let fault = |position| NpyError::Positions { names: names.clone(), position };
         let found = PointLattice::of(&self.points, lattice.size).map_err(fault)?;
         let mut image = ImageData::empty(lattice.size);
         found.place(&mut image);
@@ -116,6 +117,9 @@ impl Positions {
         lattice.world = World::Viewer;
         lattice.notes.retain(|note| !note.starts_with("indexed"));
         lattice.notes.push(format!("cells at the positions {names}"));
+        if !self.is_volume && lattice.components > 1 {
+            lattice.remarks.push(Y_UPWARDS.to_owned());
+        }
         if self.is_volume {
             // Whoever has positions has components along the same axes, rather than along those of the array.
             lattice.frame = (Frame::World, Known::Assumed);

@@ -1,5 +1,6 @@
 //! Arrays and tensor fields from `.npy` bytes.
 
+use super::error::NpyError;
 use super::header::Header;
 use crate::scalar::with_type;
 use crate::{IoError, ScalarType};
@@ -43,7 +44,7 @@ pub fn read_array(bytes: &[u8]) -> Result<NpyArray, IoError> {
 /// Row 0 of the array is the top row; nothing is flipped. Components may be infinite or not a number.
 ///
 /// # Errors
-/// As [`read_array`], and [`IoError::NpyShape`] for another shape.
+/// As [`read_array`], and [`NpyError::Shape`] for another shape.
 pub fn read_tensors(bytes: &[u8]) -> Result<Field<Tensor2>, IoError> {
     let NpyArray { shape, values, .. } = read_array(bytes)?;
     let (height, width, tensors): (usize, usize, Vec<Tensor2>) = match shape[..] {
@@ -57,15 +58,15 @@ pub fn read_tensors(bytes: &[u8]) -> Result<Field<Tensor2>, IoError> {
         }
         _ => {
             let expected = "(H, W, 2, 2), (H, W, 4) or (H, W, 3)";
-            return Err(IoError::NpyShape { shape, expected });
+            return Err(NpyError::Shape { shape, expected }.into());
         }
     };
     Ok(Field::from_values(Grid::new(width, height)?, tensors)?)
 }
 
 /// The numbers as they are stored. The header was checked, so npyz meets no size it cannot trust.
-fn stored<T: npyz::Deserialize>(bytes: &[u8]) -> Result<Vec<T>, IoError> {
-    let unread = |_| IoError::NpyHeader { byte: 0, expected: "a header that npyz reads" };
+fn stored<T: npyz::Deserialize>(bytes: &[u8]) -> Result<Vec<T>, NpyError> {
+    let unread = |_| NpyError::Header { byte: 0, expected: "a header that npyz reads" };
     NpyFile::new(bytes).and_then(NpyFile::into_vec).map_err(unread)
 }
 

@@ -1,17 +1,18 @@
 //! Arrays and results to `.npy` bytes: version 1.0, float64, little-endian, C order.
 
+use super::error::NpyError;
 use crate::IoError;
 use tigereye_core::{Field, LightDistribution, LtgVolume, Tensor2};
 
 /// Writes an array whose last index runs fastest.
 ///
 /// # Errors
-/// [`IoError::NpyShape`] unless there are as many values as the shape says, on at most 32 axes.
+/// [`NpyError::Shape`] unless there are as many values as the shape says, on at most 32 axes.
 pub fn write_array(shape: &[usize], values: &[f64]) -> Result<Vec<u8>, IoError> {
     let count = shape.iter().try_fold(1_usize, |n, &axis| n.checked_mul(axis));
     if count != Some(values.len()) || shape.len() > 32 {
         let expected = "the number of values given, on at most 32 axes";
-        return Err(IoError::NpyShape { shape: shape.to_vec(), expected });
+        return Err(NpyError::Shape { shape: shape.to_vec(), expected }.into());
     }
     Ok(encoded(shape, values.iter().copied()))
 }

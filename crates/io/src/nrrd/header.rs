@@ -1,7 +1,9 @@
 //! The text header of an NRRD file.
 
+use super::error::NrrdError;
 use super::layout::{KINDS, Kind, Layout};
-use crate::error::shortened;
+use crate::limits::LimitError;
+use crate::text::shortened;
 use crate::volume::order_of;
 use crate::{ByteOrder, IoError, Limits, ScalarType, Wanted};
 
@@ -81,8 +83,8 @@ struct Fields<'a> {
 const WEIGHTED: [&str; 2] = ["modality:=dwmri", "dwmri_"];
 
 impl<'a> Fields<'a> {
-    fn parse(bytes: &'a [u8]) -> Result<Self, IoError> {
-        let fault = |line, field, found: &[u8], expected| IoError::NrrdField {
+    fn parse(bytes: &'a [u8]) -> Result<Self, NrrdError> {
+        let fault = |line, field, found: &[u8], expected| NrrdError::Field {
             line,
             field,
             found: shortened(found),
@@ -125,8 +127,8 @@ impl<'a> Fields<'a> {
     }
 
     /// A field; `None` for comments and for the key/value pairs of applications.
-    fn entry(text: &'a [u8], line: usize) -> Result<Option<Entry<'a>>, IoError> {
-        let fault = |expected| IoError::NrrdField { line, field: "line", found: shortened(text), expected };
+    fn entry(text: &'a [u8], line: usize) -> Result<Option<Entry<'a>>, NrrdError> {
+        let fault = |expected| NrrdError::Field { line, field: "line", found: shortened(text), expected };
         if text.starts_with(b"#") {
             return Ok(None);
         }
@@ -143,11 +145,11 @@ impl<'a> Fields<'a> {
     }
 
     /// Refuses fields that are given twice: programs differ in which of them they take.
-    fn check_once(&self) -> Result<(), IoError> {
+    fn check_once(&self) -> Result<(), NrrdError> {
         for (i, e) in self.entries.iter().enumerate() {
             if self.entries[..i].iter().any(|before| before.name == e.name) {
                 let found = shortened(e.name.as_bytes());
-                return Err(IoError::NrrdField {
+                return Err(NrrdError::Field {
                     line: e.line,
                     field: "field",
                     found,
@@ -168,18 +170,18 @@ impl<'a> Fields<'a> {
         names: &[&str],
         field: &'static str,
         expected: &'static str,
-    ) -> Result<&Entry<'a>, IoError> {
-        let missing = || IoError::NrrdField { line: self.lines, field, found: String::new(), expected };
+    ) -> Result<&Entry<'a>, NrrdError> {
+        let missing = || NrrdError::Field { line: self.lines, field, found: String::new(), expected };
         self.get(names).ok_or_else(missing)
     }
 }
 
 impl Entry<'_> {
-    fn fault(&self, field: &'static str, expected: &'static str) -> IoError {
-        IoError::NrrdField { line: self.line, field, found: shortened(self.value.as_bytes()), expected }
+    fn fault(&self, field: &'static str, expected: &'static str) -> NrrdError {
+        NrrdError::Field { line: self.line, field, found: shortened(self.value.as_bytes()), expected }
     }
 
-    fn integer(&self, field: &'static str, expected: &'static str) -> Result<i64, IoError> {
+    fn integer(&self, field: &'static str, expected: &'static str) -> Result<i64, NrrdError> {
         self.value.parse().map_err(|_| self.fault(field, expected))
     }
 }
@@ -196,12 +198,12 @@ impl Header {
             Ok(n) if n <= limits.values => n,
             _ => {
                 let line = fields.get(&["sizes"]).map_or(1, |e| e.line);
-                return Err(too_large(bytes, line, count, limits.values));
+                return Err(too_large(bytes, line, count, limits.values).into());
             }
         };
         let order = byte_order(&fields, scalar, encoding)?;
         if let Some(e) = fields.get(&["blocksize"]) {
-            return Err(e.fault("block size", "numbers, not blocks"));
+            return Err(e.fault("block size", "numbers, not blocks").into());
         }
         let line_skip = match fields.get(&["lineskip"]) {
             Some(e) => u64::try_from(e.integer("line skip", "a count from 0")?)
@@ -226,12 +228,13 @@ impl Header {
         };
         if !directions.is_empty() && directions.len() != axes {
             let (found, expected) = (directions.len().to_string(), "a vector or `none` for every axis");
-            return Err(IoError::NrrdField {
+            return Err(NrrdError::Field {
                 line: directions_line,
                 field: "space directions",
                 found,
                 expected,
-            });
+            }
+            .into());
         }
         Ok(Self {
             scalar,
@@ -263,8 +266,8 @@ impl Header {
         })
     }
 
-    pub(super) fn fault(&self, field: &'static str, found: &str, expected: &'static str) -> IoError {
-        IoError::NrrdField { line: self.lines, field, found: shortened(found.as_bytes()), expected }
+    pub(super) fn fault(&self, field: &'static str, found: &str, expected: &'static str) -> NrrdError {
+        NrrdError::Field { line: self.lines, field, found: shortened(found.as_bytes()), expected }
     }
 
     pub(super) const fn has_directions(&self) -> bool {
@@ -273,14 +276,14 @@ impl Header {
 
     /// Finds the axis of tuples: by its kind, or else the first axis if it has a number of components that fits.
     pub(super) fn layout(&self, wanted: Wanted) -> Result<Layout, IoError> {
-        let fault = |found: &str, expected| IoError::NrrdField {
+        let fault = |found: &str, expected| NrrdError::Field {
             line: self.kinds_line,
             field: "kinds",
             found: shortened(found.as_bytes()),
             expected,
         };
         if !self.kinds.is_empty() && self.kinds.len() != self.sizes.len() {
-            return Err(fault(&self.kinds.join(" "), "a kind for every axis"));
+            return Err(fault(&self.kinds.join(" "), "a kind for every axis").into());
         }
         let kind = |name: &String| KINDS.into_iter().find(|k| k.name.eq_ignore_ascii_case(name));
         let tensors: Vec<(usize, Kind)> =
@@ -292,25 +295,28 @@ impl Header {
                 Some(axis) if matches!(self.sizes[axis], 2 | 3) => (axis, None),
                 None if self.kinds.is_empty() && matches!(self.sizes[0], 2 | 3) => (0, None),
                 _ => {
-                    return Err(fault(&self.kinds.join(" "), "an axis of kind 2-vector, 3-vector or vector"));
+                    return Err(
+                        fault(&self.kinds.join(" "), "an axis of kind 2-vector, 3-vector or vector").into()
+                    );
                 }
             },
             (Wanted::Tensors, [(axis, kind)]) => (*axis, Some(*kind)),
             (Wanted::Tensors, []) if let Some(line) = self.weighted => {
-                return Err(IoError::NrrdWeighted { line });
+                return Err(NrrdError::Weighted { line }.into());
             }
             (Wanted::Tensors, []) => {
                 let axis = self.axis_of_numbers();
                 (axis.ok_or_else(|| fault(&self.kinds.join(" "), KIND_NAMES))?, None)
             }
-            (Wanted::Tensors, _) => return Err(fault(&self.kinds.join(" "), "one tensor axis")),
+            (Wanted::Tensors, _) => return Err(fault(&self.kinds.join(" "), "one tensor axis").into()),
         };
         let tuple = kind.map_or(self.sizes[axis], |k| k.tuple() as u64);
         if tuple != self.sizes[axis] {
             return Err(fault(
                 &format!("{} of size {}", self.kinds[axis], self.sizes[axis]),
                 "the size of that kind",
-            ));
+            )
+            .into());
         }
         let masked = kind.map_or(tuple == 7, |k| k.masked);
         let inner = self.sizes[..axis].iter().product::<u64>() as usize;
@@ -352,11 +358,11 @@ impl Header {
 
     /// Refuses space directions that are no axes of a space: `none` on an axis of the lattice, a vector on the axis of
     /// tuples, and vectors that lie in a plane.
-    pub(super) fn check_directions(&self, layout: &Layout) -> Result<(), IoError> {
+    pub(super) fn check_directions(&self, layout: &Layout) -> Result<(), NrrdError> {
         if !self.has_directions() {
             return Ok(());
         }
-        let fault = |found: String, expected| IoError::NrrdField {
+        let fault = |found: String, expected| NrrdError::Field {
             line: self.directions_line,
             field: "space directions",
             found,
@@ -386,16 +392,17 @@ impl Header {
     /// The layout with the size of its lattice.
     fn sized(&self, mut layout: Layout) -> Result<Layout, IoError> {
         if !(1..=3).contains(&layout.lattice.len()) {
-            return Err(IoError::NrrdField {
+            return Err(NrrdError::Field {
                 line: self.kinds_line,
                 field: "kinds",
                 found: format!("{} axes", self.sizes.len()),
                 expected: "one to three axes besides those of tuples",
-            });
+            }
+            .into());
         }
         let cells = u128::from(self.count) / layout.tuple as u128;
         if cells > u128::from(self.limits.cells) {
-            return Err(IoError::TooManyCells { byte: 0, cells, limit: self.limits.cells });
+            return Err(LimitError::Cells { byte: 0, cells, limit: self.limits.cells }.into());
         }
         // The product of all sizes is within the limits.
         layout.lattice.iter().enumerate().for_each(|(i, &a)| layout.size[i] = self.sizes[a] as usize);
@@ -486,12 +493,12 @@ const ENCODINGS: &str = "raw, gzip or ascii";
 const KIND_NAMES: &str =
     "a tensor kind such as 3D-symmetric-matrix for one axis, or 6, 7 or 9 numbers on the first";
 
-fn too_large(bytes: &[u8], line: usize, count: u128, limit: u64) -> IoError {
+fn too_large(bytes: &[u8], line: usize, count: u128, limit: u64) -> LimitError {
     let before = bytes.split(|&b| b == b'\n').take(line - 1).map(|l| l.len() + 1).sum();
-    IoError::TooManyCells { byte: before, cells: count, limit }
+    LimitError::Cells { byte: before, cells: count, limit }
 }
 
-fn scalar(e: &Entry) -> Result<ScalarType, IoError> {
+fn scalar(e: &Entry) -> Result<ScalarType, NrrdError> {
     Ok(match e.value.to_ascii_lowercase().as_str() {
         "signed char" | "int8" | "int8_t" => ScalarType::Int8,
         "uchar" | "unsigned char" | "uint8" | "uint8_t" => ScalarType::UInt8,
@@ -517,7 +524,7 @@ fn scalar(e: &Entry) -> Result<ScalarType, IoError> {
     })
 }
 
-fn encoding(e: &Entry) -> Result<Encoding, IoError> {
+fn encoding(e: &Entry) -> Result<Encoding, NrrdError> {
     match e.value.to_ascii_lowercase().as_str() {
         "raw" => Ok(Encoding::Raw),
         "gzip" | "gz" => Ok(Encoding::Gzip),
@@ -526,7 +533,7 @@ fn encoding(e: &Entry) -> Result<Encoding, IoError> {
     }
 }
 
-fn byte_order(fields: &Fields, scalar: ScalarType, encoding: Encoding) -> Result<ByteOrder, IoError> {
+fn byte_order(fields: &Fields, scalar: ScalarType, encoding: Encoding) -> Result<ByteOrder, NrrdError> {
     if encoding == Encoding::Text || scalar.bytes() == 1 {
         return Ok(ByteOrder::Little);
     }
@@ -538,7 +545,7 @@ fn byte_order(fields: &Fields, scalar: ScalarType, encoding: Encoding) -> Result
     }
 }
 
-fn sizes(fields: &Fields) -> Result<Vec<u64>, IoError> {
+fn sizes(fields: &Fields) -> Result<Vec<u64>, NrrdError> {
     let d = fields.required(&["dimension"], "dimension", "a number of axes from 1 to 16")?;
     let axes = d.integer("dimension", "a number of axes from 1 to 16")?;
     if !(1..=MAX_AXES as i64).contains(&axes) {
@@ -552,7 +559,7 @@ fn sizes(fields: &Fields) -> Result<Vec<u64>, IoError> {
 }
 
 /// The data file: a plain name, so that a header cannot point anywhere else.
-fn data_file(fields: &Fields) -> Result<Option<String>, IoError> {
+fn data_file(fields: &Fields) -> Result<Option<String>, NrrdError> {
     let Some(e) = fields.get(&["datafile"]) else { return Ok(None) };
     let several =
         e.value.starts_with("LIST") || e.value.split_whitespace().count() > 1 && e.value.contains('%');
@@ -570,7 +577,7 @@ fn data_file(fields: &Fields) -> Result<Option<String>, IoError> {
 }
 
 /// Vectors in parentheses, `none` where an axis has none. Two components get a third of 0.
-fn vectors(e: &Entry, field: &'static str, most: usize) -> Result<Vec<Option<[f64; 3]>>, IoError> {
+fn vectors(e: &Entry, field: &'static str, most: usize) -> Result<Vec<Option<[f64; 3]>>, NrrdError> {
     let expected = "vectors (x,y,z), or none";
     let fault = || e.fault(field, expected);
     let (mut rest, mut found) = (e.value.trim_start(), Vec::new());
@@ -599,12 +606,12 @@ fn finite(word: &str) -> Option<f64> {
     word.trim().parse().ok().filter(|v: &f64| v.is_finite())
 }
 
-fn origin(e: &Entry) -> Result<Option<[f64; 3]>, IoError> {
+fn origin(e: &Entry) -> Result<Option<[f64; 3]>, NrrdError> {
     Ok(vectors(e, "space origin", 1)?.first().copied().flatten())
 }
 
 /// Vectors of the file are the columns of the matrix. Two vectors of a plane are completed by z.
-fn measurement(e: &Entry) -> Result<Option<[f64; 9]>, IoError> {
+fn measurement(e: &Entry) -> Result<Option<[f64; 9]>, NrrdError> {
     let found = vectors(e, "measurement frame", 3)?;
     let columns = match found[..] {
         [Some(a), Some(b), Some(c)] => [a, b, c],
@@ -616,7 +623,7 @@ fn measurement(e: &Entry) -> Result<Option<[f64; 9]>, IoError> {
     Ok(Some([at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8)]))
 }
 
-fn spacings(e: &Entry, axes: usize) -> Result<Vec<f64>, IoError> {
+fn spacings(e: &Entry, axes: usize) -> Result<Vec<f64>, NrrdError> {
     let numbers: Option<Vec<f64>> = e.value.split_whitespace().map(|w| w.parse().ok()).collect();
     numbers.filter(|n| n.len() == axes).ok_or_else(|| e.fault("spacings", "a number or nan for every axis"))
 }

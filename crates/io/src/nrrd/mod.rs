@@ -9,10 +9,12 @@
 //! Format: <http://teem.sourceforge.net/nrrd/format.html>.
 
 mod data;
+mod error;
 mod header;
 mod layout;
 mod write;
 
+pub use error::NrrdError;
 pub use write::write;
 
 use crate::volume::{Content, Frame, Known, Lattice, World};
@@ -54,7 +56,7 @@ pub fn read_with_limits(
         (Some(_), Some(data)) => data::read(&header, data, 0)?,
         (Some(name), None) => {
             let expected = "the bytes of that file";
-            return Err(header.fault("data file", name, expected));
+            return Err(header.fault("data file", name, expected).into());
         }
     };
     let (values, mask) = layout.tuples(values);
@@ -89,6 +91,7 @@ pub fn read_with_limits(
         component_names,
         notes,
         remarks: header.assumed_centring(&layout).into_iter().collect(),
+        order_remarks: Vec::new(),
         warnings: (layout.kind.is_none() && layout.masked)
             .then(|| "seven numbers taken as a mask and xx,xy,xz,yy,yz,zz".to_owned())
             .into_iter()

@@ -13,7 +13,7 @@ use std::io::Write as _;
 /// the mask is the volume's, or 1. `provenance` becomes the value of the key `tigereye`.
 ///
 /// # Errors
-/// [`IoError::SkewedAxes`] where components must be turned and cannot be.
+/// [`crate::volume::VolumeError::SkewedAxes`] where components must be turned and cannot be.
 pub fn write(volume: &TensorVolume, frame: Frame, provenance: &str) -> Result<Vec<u8>, IoError> {
     let lattice = volume.lattice();
     let tensors = volume.along(frame)?;

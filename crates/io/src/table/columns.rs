@@ -1,9 +1,12 @@
 //! Tables with a name for every column.
 
+use super::error::TableError;
 use super::text::{Text, parsed};
-use crate::error::shortened;
+use super::times;
+use super::validity::{Validity, parsed_validity};
+use crate::text::{TextError, shortened};
 use crate::volume::{Lattice, lattice_from_points};
-use crate::{ArrayChoice, DataArray, IoError, PolyData, Wanted};
+use crate::{ArrayChoice, DataArray, IoError, PolyData, Wanted, Y_UPWARDS};
 
 /// Names of the columns of positions along x, y and z, in lower case without marks: `X`, `Points:0`, `coor.X`, `X [m]`.
 const POSITIONS: [[&str; 18]; 3] = [
@@ -69,18 +72,21 @@ const POSITIONS: [[&str; 18]; 3] = [
     ],
 ];
 
-/// A column: its name and its unit, as they stand above the numbers.
+/// A column: its name, its unit and its time, as they stand above the numbers.
 struct Column {
     name: String,
     unit: Option<String>,
+    time: Option<String>,
 }
 
 impl Column {
-    /// `S11 [MPa]`, `solid.sx (N/m^2)`.
+    /// `S11 [MPa]`, `solid.sx (N/m^2) @ t=0`.
     fn of(text: &str) -> Self {
+        let (text, time) = times::split(text);
         let start = text.find(['[', '(']).filter(|at| *at > 0);
         let unit = start.map(|at| text[at + 1..].trim_end_matches([']', ')', ' ']).to_owned());
-        Self { name: text[..start.unwrap_or(text.len())].trim().to_owned(), unit }
+        let name = text[..start.unwrap_or(text.len())].trim().to_owned();
+        Self { name, unit, time: time.map(str::to_owned) }
     }
 }
 
@@ -103,13 +109,15 @@ impl Header {
             return Ok(found);
         }
         match first {
-            Some((line, names)) => Err(IoError::TableHeader { line, found: shortened(names.as_bytes()) }),
+            Some((line, names)) => {
+                Err(TableError::Header { line, found: shortened(names.as_bytes()) }.into())
+            }
             None if wanted == Wanted::Scalars && text.columns() == 3 => {
                 Ok(Self::named(0, &["x", "y", "value"].map(str::to_owned)))
             }
             None => {
                 let found = format!("{} columns without names", text.columns());
-                Err(IoError::TableHeader { line: text.first(), found })
+                Err(TableError::Header { line: text.first(), found }.into())
             }
         }
     }
@@ -131,6 +139,44 @@ impl Header {
         self.columns.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ")
     }
 
+    /// Leaves the columns of the time that the user chooses, or of the only one, under names without it; without such a
+    /// choice every column has its time in its name. Returns the columns that are left aside.
+    ///
+    /// # Errors
+    /// [`TableError::Times`].
+    fn choose_time(&mut self, choice: ArrayChoice) -> Result<(Option<String>, Vec<usize>), IoError> {
+        let full = |c: &Column| {
+            c.time.as_ref().map_or_else(|| c.name.clone(), |time| format!("{}{}{time}", c.name, times::MARK))
+        };
+        let names: Vec<String> = self.columns.iter().map(full).collect();
+        let chosen = times::chosen(self.line, &names, choice)?.map(str::to_owned);
+        match &chosen {
+            Some(time) => {
+                let is_other = |c: &Column| c.time.as_ref().is_some_and(|t| t != time);
+                let aside = (0..names.len()).filter(|&c| is_other(&self.columns[c])).collect();
+                Ok((chosen, aside))
+            }
+            None => {
+                self.columns.iter_mut().zip(names).for_each(|(column, name)| column.name = name);
+                Ok((None, Vec::new()))
+            }
+        }
+    }
+
+    /// The columns that say which points are valid; one that the user names as data is none.
+    fn validity(&self, choice: ArrayChoice) -> Vec<(usize, Validity)> {
+        let is_data = |name: &str| match choice {
+            ArrayChoice::Usual => false,
+            ArrayChoice::Named(named) => named == name,
+            ArrayChoice::Components(components) => components.arrays().any(|array| array == name),
+        };
+        let validity = |(at, column): (usize, &Column)| {
+            let is_free = !self.places.contains(&Some(at)) && !is_data(&column.name);
+            Some((at, Validity::of(&column.name).filter(|_| is_free)?))
+        };
+        self.columns.iter().enumerate().filter_map(validity).collect()
+    }
+
     /// A warning where columns that belong together have different units.
     fn unequal_units(&self, of: &[usize]) -> Option<String> {
         let units: Vec<&String> = of.iter().filter_map(|&c| self.columns[c].unit.as_ref()).collect();
@@ -147,19 +193,27 @@ impl Header {
 /// and y).
 ///
 /// # Errors
-/// [`IoError::TableHeader`] without names of all columns or without positions; names line and column of a word that
+/// [`TableError::Header`] without names of all columns or without positions; names line and column of a word that
 /// does not fit; and as [`lattice_from_points`].
 pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice, IoError> {
     let text = Text::of(bytes)?;
-    let header = Header::of(&text, wanted)?;
+    text.check_zones()?;
+    let mut header = Header::of(&text, wanted)?;
+    let (time, of_other_times) = header.choose_time(choice)?;
+    let validity = header.validity(choice);
+    // A time is no array.
+    let is_time = time.as_ref().is_some_and(|time| times::is_named(time, choice));
+    let choice = if is_time { ArrayChoice::Usual } else { choice };
     let places = header.places;
-    let rows = text.lines.iter().map(|(number, line)| row(&text, *number, line, &places));
+    let rows = text.lines.iter().map(|(number, line)| row(&text, *number, line, &places, &validity));
     let rows = rows.collect::<Result<Vec<Vec<f64>>, IoError>>()?;
-    let points = rows.iter().map(|row| places.map(|place| place.map_or(0.0, |c| row[c]))).collect();
+    let points: Vec<[f64; 3]> =
+        rows.iter().map(|row| places.map(|place| place.map_or(0.0, |c| row[c]))).collect();
     let mut data = PolyData { points, ..PolyData::default() };
-    let others: Vec<usize> = (0..header.columns.len())
-        .filter(|c| !places.contains(&Some(*c)) && !header.doubled.contains(c))
-        .collect();
+    let is_validity = |c: &usize| validity.iter().any(|(at, _)| at == c);
+    let is_left = |c: &usize| header.doubled.contains(c) || of_other_times.contains(c) || is_validity(c);
+    let others: Vec<usize> =
+        (0..header.columns.len()).filter(|c| !places.contains(&Some(*c)) && !is_left(c)).collect();
     let names: Vec<&str> = header.columns.iter().map(|c| c.name.as_str()).collect();
     let arrays = arrays(&names, &others);
     for (name, columns) in &arrays {
@@ -170,11 +224,25 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
             data.point_arrays.push(DataArray::new(name, columns.len(), values));
         }
     }
+    let mask = mask(&data.points, &rows, &validity)?;
     let mut lattice = lattice_from_points(data, choice, wanted)?;
+    if let Some(mask) = mask {
+        lattice.mask_by(&mask);
+    }
     lattice.notes[0] = match header.line {
         0 => "one point a line, columns x, y and a number by their places".to_owned(),
         line => format!("one point a line, columns by their names in line {line}"),
     };
+    if let Some(time) = &time {
+        let others = of_other_times.len();
+        let aside =
+            if others > 0 { format!("; {others} columns of other times left aside") } else { String::new() };
+        lattice.notes.push(format!("columns at {time}{aside}"));
+    }
+    lattice.remarks.extend(validity.iter().filter_map(|&(at, validity)| {
+        let values: Vec<f64> = rows.iter().map(|row| row[at]).collect();
+        validity.said(names[at], &values, "points")
+    }));
     let said = text.decimal_commas();
     lattice.remarks.extend(said.map(|(words, _)| words.to_owned()));
     if said.is_some_and(|(_, thousands)| thousands) {
@@ -199,15 +267,13 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
                 .to_owned(),
         );
     } else if lattice.size[2] == 1 && wanted == Wanted::Tensors {
-        lattice.remarks.push(
-            "y taken to run upwards; where a file has y downwards the picture is upside down".to_owned(),
-        );
+        lattice.remarks.push(Y_UPWARDS.to_owned());
     }
     let read =
         |name: &str| arrays.iter().find(|(n, _)| n == name).map(|(_, c)| c.clone()).unwrap_or_default();
     let of_array: Vec<usize> = lattice.array.split(", ").flat_map(read).collect();
     let of_places: Vec<usize> = places.into_iter().flatten().collect();
-    let is_read = |c: &usize| of_array.contains(c) || of_places.contains(c) || header.doubled.contains(c);
+    let is_read = |c: &usize| of_array.contains(c) || of_places.contains(c) || is_left(c);
     let unread: Vec<&str> = (0..names.len()).filter(|c| !is_read(c)).map(|c| names[c]).collect();
     if !unread.is_empty() {
         lattice.remarks.push(unread_words(&unread));
@@ -229,17 +295,51 @@ fn unread_words(unread: &[&str]) -> String {
     )
 }
 
-/// The numbers of a line. Words are no number but at the needed columns.
-fn row(text: &Text, line: usize, bytes: &[u8], needed: &[Option<usize>]) -> Result<Vec<f64>, IoError> {
+/// Which points the columns of validity leave, on the lattice of all; `None` where that is every one.
+///
+/// # Errors
+/// As [`lattice_from_points`].
+fn mask(
+    points: &[[f64; 3]],
+    rows: &[Vec<f64>],
+    validity: &[(usize, Validity)],
+) -> Result<Option<Lattice>, IoError> {
+    let is_out = |row: &Vec<f64>| validity.iter().any(|(at, validity)| validity.leaves_out(row[*at]));
+    let confidence: Vec<f64> = rows.iter().map(|row| if is_out(row) { 0.0 } else { 1.0 }).collect();
+    if !confidence.contains(&0.0) {
+        return Ok(None);
+    }
+    let data = PolyData {
+        points: points.to_vec(),
+        point_arrays: vec![DataArray::new("mask", 1, confidence)],
+        ..PolyData::default()
+    };
+    lattice_from_points(data, ArrayChoice::Usual, Wanted::Scalars).map(Some)
+}
+
+/// The numbers of a line. Words are no number but at the needed columns; those of validity may be words.
+fn row(
+    text: &Text,
+    line: usize,
+    bytes: &[u8],
+    needed: &[Option<usize>],
+    validity: &[(usize, Validity)],
+) -> Result<Vec<f64>, IoError> {
     let expected = text.columns();
     let mut numbers = Vec::with_capacity(expected);
     for (column, word) in text.separator.words(bytes) {
-        let value = parsed(word);
+        let is_validity = validity.iter().any(|(at, _)| *at == numbers.len());
+        let value = if is_validity { parsed_validity(word) } else { parsed(word) };
+        if is_validity && value.is_none() {
+            return Err(TableError::NotValidity { line, column, found: shortened(word) }.into());
+        }
         if needed.contains(&Some(numbers.len())) {
             let found = || shortened(word);
             match value {
-                None => return Err(IoError::NotANumber { line, column, found: found() }),
-                Some(v) if !v.is_finite() => return Err(IoError::NotFinite { line, column, found: found() }),
+                None => return Err(TextError::NotANumber { line, column, found: found() }.into()),
+                Some(v) if !v.is_finite() => {
+                    return Err(TextError::NotFinite { line, column, found: found() }.into());
+                }
                 Some(_) => {}
             }
         }
@@ -251,7 +351,7 @@ fn row(text: &Text, line: usize, bytes: &[u8], needed: &[Option<usize>]) -> Resu
     let found = text.separator.words(bytes).count();
     if found != expected {
         let column = bytes.trim_ascii_end().len() + 1;
-        return Err(IoError::TableRow { line, column, found, expected });
+        return Err(TableError::Row { line, column, found, expected }.into());
     }
     Ok(numbers)
 }
@@ -356,13 +456,120 @@ mod tests {
     #[test]
     fn columns_that_are_not_read_are_named() {
         let line = |x: f64, y: f64| format!("{x},{y},1,2,3,1,7");
-        let bytes = table("x,y,S11,S22,S12,isValid,Mises\n", line);
+        let bytes = table("x,y,S11,S22,S12,Status,Mises\n", line);
         let remarks = read(&bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap().remarks;
-        assert!(
-            remarks.iter().any(|r| r.contains("not read") && r.contains("isValid, Mises")),
-            "{remarks:?}"
-        );
+        assert!(remarks.iter().any(|r| r.contains("not read") && r.contains("Status, Mises")), "{remarks:?}");
         assert!(remarks.iter().any(|r| r.contains("y taken to run upwards")), "{remarks:?}");
+    }
+
+    /// As beside vectors: what a column of validity leaves out is masked, and said.
+    #[test]
+    fn columns_of_validity_are_masks() {
+        let read = |bytes: &[u8]| read(bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap();
+        for (name, out, kept, convention) in [
+            ("isValid", "False", "True", "below 1"),
+            ("valid", "no", "yes", "below 1"),
+            ("CHC", "-2", "1", "below 1"),
+            ("Vector type [-]", "0", "1", "below 1"),
+            ("mask", "1", "0", "not 0"),
+        ] {
+            let word = |x: f64| if x < 2.0 { out } else { kept };
+            // Positions in any order are masked at the same points.
+            for reversed in [false, true] {
+                let bytes = table("", |x, y| {
+                    format!("{x},{y},{},2,3,{}", if x < 2.0 { f64::NAN } else { 1.0 }, word(x))
+                });
+                let mut lines: Vec<&str> = std::str::from_utf8(&bytes).unwrap().lines().collect();
+                if reversed {
+                    lines.swap(0, 7);
+                    lines.swap(2, 5);
+                }
+                let text = format!("x,y,S11,S22,S12,{name}\n{}\n", lines.join("\n"));
+                let lattice = read(text.as_bytes());
+                let mask = lattice.mask.clone().unwrap();
+                assert!(
+                    mask.iter().enumerate().all(|(i, m)| (*m == 0.0) == (i % 4 == 0)),
+                    "{name}: {mask:?}"
+                );
+                let name = name.split(" [").next().unwrap();
+                let words =
+                    format!("3 of 12 points left out by the column `{name}`, where it is {convention}");
+                assert!(lattice.remarks.contains(&words), "{:?}", lattice.remarks);
+                assert!(!lattice.remarks.iter().any(|r| r.contains("not read")), "{:?}", lattice.remarks);
+            }
+        }
+        let flagged = read(&table("x,y,S11,S22,S12,flags\n", |x, y| format!("{x},{y},1,2,3,{}", x - 1.0)));
+        assert_eq!(flagged.mask, None);
+        assert!(
+            flagged.remarks.iter().any(|r| r.starts_with("9 points with a flag")),
+            "{:?}",
+            flagged.remarks
+        );
+    }
+
+    /// COMSOL's columns of several times, read one time after the user's choice.
+    #[test]
+    fn one_time_of_several_is_read() {
+        let header = "% x  y  solid.sx (N/m^2) @ t=0  solid.sy (N/m^2) @ t=0  solid.sxy (N/m^2) @ t=0 \
+                      solid.sx (N/m^2) @ t=1  solid.sy (N/m^2) @ t=1  solid.sxy (N/m^2) @ t=1\n";
+        let bytes = table(header, |x, y| format!("{x} {y} 1 2 3 4 5 6"));
+        let fault = read(&bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap_err().to_string();
+        assert!(
+            fault.starts_with("line 1: ") && fault.contains("several times or parameters (t=0; t=1)"),
+            "{fault}"
+        );
+        let full = "XX=solid.sx @ t=1,YY=solid.sy @ t=1,XY=solid.sxy @ t=1";
+        let full = crate::volume::ComponentArrays::parse(full).unwrap();
+        for choice in [ArrayChoice::Named("t=1"), ArrayChoice::Named("@ t=1"), ArrayChoice::Components(&full)]
+        {
+            let lattice = read(&bytes, choice, Wanted::Tensors);
+            let lattice = lattice.unwrap_or_else(|e| panic!("{choice:?}: {e}"));
+            assert_eq!(lattice.values[..3], [4.0, 5.0, 6.0], "{choice:?}");
+        }
+        // Of the only time nobody has to say anything, whatever separates the columns.
+        let at = "@ t=0, Q=2";
+        for mark in ["  ", ","] {
+            let names =
+                ["x", "y", &format!("S11 (Pa) {at}"), &format!("S22 (Pa) {at}"), &format!("S12 (Pa) {at}")]
+                    .join(mark);
+            let bytes = table(&format!("% {names}\n"), |x, y| {
+                [x, y, 1.0, 2.0, 3.0].map(|v| v.to_string()).join(mark)
+            });
+            let lattice = read(&bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap();
+            assert_eq!(lattice.values[..3], [1.0, 2.0, 3.0]);
+            assert!(lattice.notes.iter().any(|n| n.contains("columns at t=0, Q=2")), "{:?}", lattice.notes);
+        }
+    }
+
+    /// Tecplot's variables one a line, and its zones that are no table.
+    #[test]
+    fn tecplot_zones_are_understood_or_refused() {
+        let variables = "VARIABLES = \"X [m]\"\n\"Y [m]\"\n\"S11\"\n\"S22\"\n\"S12\"\n";
+        let with = |zone: &str| {
+            table(&format!("TITLE = \"a\"\n{variables}{zone}\n"), |x, y| {
+                format!("{x} {y} {x} {} 0.25", 10.0 * y)
+            })
+        };
+        is_read(&with(
+            "ZONE T=\"BLOCK 1\", I=4, J=3, DATAPACKING=POINT\n DT=(SINGLE SINGLE SINGLE SINGLE SINGLE)",
+        ));
+        #[track_caller]
+        fn refused(bytes: &[u8], words: &str) {
+            let fault = read(bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap_err().to_string();
+            assert!(fault.contains(words), "{fault}");
+            assert_eq!(super::super::kind(bytes), super::super::Kind::Named);
+        }
+        refused(
+            &with("ZONE I=4, J=3\n DATAPACKING=BLOCK"),
+            "line 8: the zone has one variable after the other",
+        );
+        refused(&with("ZONE I=4, J=3, F=BLOCK"), "expected DATAPACKING=POINT");
+        refused(
+            &with("ZONE N=12, E=6, F=FEPOINT, ET=QUADRILATERAL"),
+            "line 7: the zone is one of finite elements",
+        );
+        let two = [with("ZONE I=4, J=3"), b"ZONE I=4, J=3\n1 2 3 4 5\n".to_vec()].concat();
+        refused(&two, "line 20: a second zone begins");
     }
 
     #[test]
@@ -384,6 +591,10 @@ mod tests {
         refused("a,y,S11,S22,S12\n1,2,3,4,5\n", "line 1: the columns `a, y, S11, S22, S12`");
         refused("x,y,S11,S22\n1,2,3,4\n", "`S11` (1 component)");
         refused("x,y,S11,S22,S12\n1,2,3,4,5\n1,b,3,4,5\n", "line 3, column 3: expected a number");
+        refused(
+            "x,y,S11,S22,S12,valid\n1,2,3,4,5,ok\n",
+            "line 2, column 11: expected a number, true or false, found `ok`",
+        );
         refused("x,y,S11,S22,S12\n1,2,3,4,5\n2,2,3,4\n", "line 3, column 8: found 4 numbers, expected 5");
     }
 }

@@ -6,11 +6,15 @@
 //!
 //! Columns are separated by blanks or tabs, by commas, or by semicolons; where semicolons or tabs separate them, a
 //! comma is a decimal point. Lines that do not begin with a number come first, if at all; one of them may name the
-//! columns (`VARIABLES=` of Tecplot files, `%` of COMSOL, the first line of a `.csv`). y is taken to run upwards.
+//! columns (`VARIABLES=` of Tecplot files, also one a line; `%` of COMSOL; the first line of a `.csv`). y is taken to
+//! run upwards. A Tecplot file has one ordered zone of points; of COMSOL's columns of several times
+//! (`solid.sx @ t=0.5`) those of one are read, which the user chooses.
 //!
 //! [`read_vectors`]: columns x, y, u and v by their names (OpenPIV, PIVlab, JPIV, DaVis, Insight; vx and vy for u and
-//! v), otherwise by their places. Positions form a lattice, in any order; nodes without vector are masked. What may
-//! stand beside the vectors:
+//! v), otherwise by their places. Positions form a lattice, in any order; nodes without vector are masked.
+//!
+//! Columns that say which points hold no measurement, beside vectors and tensors, as numbers, `true` and `false`, or
+//! `yes` and `no`:
 //!
 //! | name | masked where | program |
 //! | --- | --- | --- |
@@ -20,6 +24,9 @@
 //! | `isvalid`, `valid`, `validity` | below 1 | DaVis and others |
 //! | `flags` (fifth without names) | never: such vectors were mostly replaced; counted | OpenPIV |
 //!
+//! `status` is none of them: programs disagree about whether its 0 is good or bad. Like every column that is not read,
+//! it is named.
+//!
 //! [`read_numbers`]: an image, one number a cell.
 //!
 //! [`read_columns`]: every column with a name is an array, those of `Stress:0`, `Stress:1`, ... (ParaView) are one;
@@ -28,12 +35,16 @@
 //! 2x2 blocks ([`crate::matrices`]) are rows of numbers, too. [`kind`] tells them apart.
 
 mod columns;
+mod error;
 mod numbers;
 mod steps;
 mod text;
+mod times;
+mod validity;
 mod vectors;
 
 pub use columns::read as read_columns;
+pub use error::TableError;
 pub use numbers::read as read_numbers;
 pub use vectors::read as read_vectors;
 
@@ -70,7 +81,7 @@ pub fn kind(bytes: &[u8]) -> Kind {
     if columns < 3 {
         return Kind::Other;
     }
-    if text.names().next().is_some() || vectors::names_vectors(&text) {
+    if text.names().next().is_some() || vectors::names_vectors(&text) || text.is_of_tecplot() {
         return Kind::Named;
     }
     let row = |(_, line): &(usize, &[u8])| {

@@ -1,7 +1,7 @@
 //! Rows of numbers as an image.
 
 use super::text::{Text, parsed};
-use crate::error::shortened;
+use crate::text::{TextError, shortened};
 use crate::volume::{Frame, Known, Lattice, World};
 use crate::{IoError, ScalarType};
 use tigereye_core::Grid;
@@ -18,13 +18,13 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     for &(line, row) in &text.lines {
         let before = values.len();
         for (column, word) in text.separator.words(row) {
-            let fault = || IoError::NotANumber { line, column, found: shortened(word) };
+            let fault = || TextError::NotANumber { line, column, found: shortened(word) };
             values.push(parsed(word).ok_or_else(fault)?);
         }
         let found = values.len() - before;
         if found != expected {
             let column = row.trim_ascii_end().len() + 1;
-            return Err(IoError::RaggedRow { line, column, found, expected });
+            return Err(TextError::RaggedRow { line, column, found, expected }.into());
         }
     }
     let grid = Grid::new(expected, text.lines.len())?;
@@ -44,6 +44,7 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
         component_names: Vec::new(),
         notes: vec!["one number a cell, first row on top".to_owned()],
         remarks: Vec::new(),
+        order_remarks: Vec::new(),
         warnings: Vec::new(),
     })
 }
@@ -62,6 +63,6 @@ mod tests {
         }
         let fault = read(b"1 2\n3 x\n").unwrap_err().to_string();
         assert!(fault.contains("line 2, column 3"), "{fault}");
-        assert!(matches!(read(b"1 2\n3\n"), Err(IoError::RaggedRow { line: 2, .. })));
+        assert!(matches!(read(b"1 2\n3\n"), Err(IoError::Text(TextError::RaggedRow { line: 2, .. }))));
     }
 }

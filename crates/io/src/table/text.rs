@@ -1,6 +1,9 @@
 //! Lines of numbers, and the lines above them.
 
+use super::error::TableError;
+use super::times::MARK;
 use crate::IoError;
+use crate::text::TextError;
 
 /// What separates the numbers of a line.
 #[derive(Clone, Copy)]
@@ -57,7 +60,7 @@ const LABELLED: usize = 3;
 
 impl<'a> Text<'a> {
     /// # Errors
-    /// [`IoError::EmptyText`] where no line holds numbers.
+    /// [`TextError::Empty`] where no line holds numbers.
     pub(super) fn of(bytes: &'a [u8]) -> Result<Self, IoError> {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_end();
         let mut above = Vec::new();
@@ -75,7 +78,7 @@ impl<'a> Text<'a> {
             }
             above.push(String::from_utf8_lossy(line).into_owned());
         }
-        Err(IoError::EmptyText)
+        Err(TextError::Empty.into())
     }
 
     /// Number of the first line of numbers, from 1.
@@ -102,14 +105,90 @@ impl<'a> Text<'a> {
 
     /// Names of the columns: lines above the numbers with as many as there are columns, with their numbers, the nearest
     /// first.
-    pub(super) fn names(&self) -> impl Iterator<Item = (usize, Vec<String>)> + '_ {
+    pub(super) fn names(&self) -> impl Iterator<Item = (usize, Vec<String>)> {
         let columns = self.columns();
-        let named = move |(i, line): (usize, &String)| {
-            let names = names_of(line);
-            (names.len() == columns).then_some((i + 1, names))
-        };
-        self.above.iter().enumerate().rev().filter_map(named)
+        self.headers().into_iter().filter(move |(_, names)| names.len() == columns)
     }
+
+    /// The names in every line above the numbers, with the numbers of these lines, the nearest first. Variables of
+    /// Tecplot files may stand one a line.
+    pub(super) fn headers(&self) -> Vec<(usize, Vec<String>)> {
+        let mut all: Vec<(usize, Vec<String>)> = Vec::new();
+        let mut is_list = false;
+        for (i, line) in self.above.iter().enumerate() {
+            let names = names_of(line);
+            match all.last_mut() {
+                Some((_, variables)) if is_list && is_quoted(line) => variables.extend(names),
+                _ => {
+                    is_list = line.to_ascii_lowercase().contains("variables");
+                    all.push((i + 1, names));
+                }
+            }
+        }
+        all.reverse();
+        all
+    }
+
+    /// Whether a line above the numbers begins a zone, as Tecplot has it.
+    pub(super) fn is_of_tecplot(&self) -> bool {
+        self.above.iter().any(|line| words_outside_quotes(line).any(|word| word == "ZONE"))
+    }
+
+    /// Refuses zones of Tecplot files that are no table, one point a line.
+    ///
+    /// # Errors
+    /// [`TableError::Zone`].
+    pub(super) fn check_zones(&self) -> Result<(), IoError> {
+        if !self.is_of_tecplot() {
+            return Ok(());
+        }
+        let fault = |line, found, expected| Err(TableError::Zone { line, found, expected }.into());
+        for (i, line) in self.above.iter().enumerate() {
+            if words_outside_quotes(line).any(|word| matches!(word.as_str(), "BLOCK" | "FEBLOCK")) {
+                let expected = "DATAPACKING=POINT, one point a line, as Tecplot writes it on demand";
+                return fault(i + 1, "the zone has one variable after the other (BLOCK)", expected);
+            }
+            if words_outside_quotes(line).any(|word| ELEMENTS.contains(&word.as_str())) {
+                let expected =
+                    "an ordered zone of points on a lattice, to which Tecplot or ParaView interpolates";
+                return fault(i + 1, "the zone is one of finite elements", expected);
+            }
+        }
+        let begins_zone = |line: &[u8]| {
+            let words = line.trim_ascii_start().split(|b| !b.is_ascii_alphanumeric());
+            words.take(1).any(|word| word.eq_ignore_ascii_case(b"zone"))
+        };
+        match self.lines.iter().find(|(_, line)| begins_zone(line)) {
+            Some(&(line, _)) => {
+                fault(line, "a second zone begins", "one zone, such as that of one time, in a file")
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// What Tecplot calls zones of finite elements.
+const ELEMENTS: [&str; 8] = [
+    "FEPOINT",
+    "FELINESEG",
+    "FETRIANGLE",
+    "FEQUADRILATERAL",
+    "FETETRAHEDRON",
+    "FEBRICK",
+    "FEPOLYGON",
+    "FEPOLYHEDRON",
+];
+
+/// The words of a line outside its quotes, in capitals.
+fn words_outside_quotes(line: &str) -> impl Iterator<Item = String> {
+    let outside = line.split('"').step_by(2).flat_map(|part| part.split(|c: char| !c.is_alphanumeric()));
+    outside.filter(|word| !word.is_empty()).map(str::to_ascii_uppercase)
+}
+
+/// Whether a line holds quoted names alone.
+fn is_quoted(line: &str) -> bool {
+    let outside: String = line.split('"').step_by(2).collect();
+    line.contains('"') && outside.chars().all(|c| c.is_whitespace() || c == ',')
 }
 
 fn is_comment(line: &[u8]) -> bool {
@@ -142,11 +221,43 @@ pub(super) fn names_of(line: &str) -> Vec<String> {
     let owned = |words: Vec<&str>| words.into_iter().map(|w| w.trim().to_owned()).collect();
     if names.contains('"') {
         owned(names.split('"').skip(1).step_by(2).collect())
+    } else if names.contains(MARK) {
+        // Parameters of one column, `@ t=0, Q=3`, have a blank behind their comma.
+        const WITHIN: &str = "\u{1}";
+        let marked = names.replace(", ", WITHIN);
+        if marked.contains(',') {
+            marked.split(',').map(|word| word.replace(WITHIN, ", ").trim().to_owned()).collect()
+        } else {
+            names_between_blanks(names)
+        }
     } else if let Some(separator) = ['\t', ',', ';'].into_iter().find(|s| names.contains(*s)) {
         owned(names.strip_suffix(separator).unwrap_or(names).split(separator).collect())
     } else {
-        owned(names.split_whitespace().filter(|w| !w.starts_with(['[', '('])).collect())
+        names_between_blanks(names)
     }
+}
+
+/// Names between blanks, without their units; COMSOL's keep what follows their mark of a time, `@ t=0, Q=3`.
+fn names_between_blanks(text: &str) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    let mut words = text.split_whitespace();
+    while let Some(word) = words.next() {
+        match names.last_mut() {
+            Some(name) if word == MARK.trim() => {
+                name.push_str(MARK.trim_end());
+                for word in words.by_ref() {
+                    name.push(' ');
+                    name.push_str(word);
+                    if !word.ends_with([',', ':']) {
+                        break;
+                    }
+                }
+            }
+            _ if word.starts_with(['[', '(']) => {}
+            _ => names.push(word.to_owned()),
+        }
+    }
+    names
 }
 
 /// A number, possibly in quotes, or with Fortran's `D` before its exponent. Its decimal point may be a comma, which

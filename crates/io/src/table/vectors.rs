@@ -1,10 +1,13 @@
 //! Tables of vectors.
 
+use super::error::TableError;
 use super::steps::Steps;
-use super::text::{Text, names_of, parsed};
-use crate::error::shortened;
+use super::text::{Text, parsed};
+use super::times;
+use super::validity::{Validity, parsed_validity};
+use crate::text::{TextError, shortened};
 use crate::volume::{Frame, Known, Lattice, World};
-use crate::{IoError, ScalarType};
+use crate::{ArrayChoice, IoError, ScalarType};
 
 /// Nodes of the lattice for each vector at most: others lie on no lattice, or on too thin a part of one.
 const SPARSE: usize = 2;
@@ -15,11 +18,7 @@ enum Role {
     Y,
     U,
     V,
-    Flags,
-    /// Masked where not 0.
-    Mask,
-    /// Masked below 1.
-    Choice,
+    Validity(Validity),
 }
 
 impl Role {
@@ -27,13 +26,12 @@ impl Role {
 
     /// The role of a name such as `x`, `x [px]`, `"U m/s"` or `Velocity u [m/s]`.
     fn of(name: &str) -> Option<Self> {
+        if let Some(validity) = Validity::of(name) {
+            return Some(Self::Validity(validity));
+        }
         let name = name.to_ascii_lowercase();
         let mut words = name.split([' ', '[', '(', '"']).filter(|w| !w.is_empty());
         let first = words.next()?;
-        // `vector type [-]` says what a vector is; `vector direction [degrees]` and the like say nothing of it.
-        if first == "vector" && words.clone().next().is_some_and(|second| second != "type") {
-            return None;
-        }
         let word = if ["velocity", "displacement"].contains(&first) { words.next()? } else { first };
         let word = word.replace(['_', ':', '-', '.'], "");
         match word.as_str() {
@@ -41,9 +39,6 @@ impl Role {
             "y" | "ypos" | "points1" => Some(Self::Y),
             "u" | "vx" | "ux" | "u0" | "velx" | "velocityx" | "velocity0" | "uvel" => Some(Self::U),
             "v" | "vy" | "uy" | "u1" | "vely" | "velocityy" | "velocity1" | "vvel" => Some(Self::V),
-            "flags" | "flag" => Some(Self::Flags),
-            "mask" => Some(Self::Mask),
-            "chc" | "vector" | "vectortype" | "isvalid" | "valid" | "validity" => Some(Self::Choice),
             _ => None,
         }
     }
@@ -51,6 +46,8 @@ impl Role {
 
 /// Which column holds what.
 struct Columns {
+    /// As in the file; empty without names.
+    names: Vec<String>,
     roles: Vec<Option<Role>>,
     /// What stands in brackets behind the names.
     units: Vec<Option<String>>,
@@ -62,10 +59,12 @@ struct Columns {
 
 impl Columns {
     fn by_place(columns: usize) -> Self {
-        let all = [Role::X, Role::Y, Role::U, Role::V, Role::Flags, Role::Mask];
+        let [flags, mask] = [Validity::Flags, Validity::Mask].map(Role::Validity);
+        let all = [Role::X, Role::Y, Role::U, Role::V, flags, mask];
         // One column beside the vectors may be anything.
         let known = if columns < all.len() { 4 } else { all.len() };
         Self {
+            names: Vec::new(),
             roles: all[..known].iter().copied().map(Some).collect(),
             units: vec![None; known],
             named: None,
@@ -75,8 +74,7 @@ impl Columns {
 
     /// The columns that the lines above the numbers name; the last line that does so.
     fn named_above(text: &Text) -> Option<Self> {
-        let named = |(i, line): (usize, &String)| {
-            let names = names_of(line);
+        let named = |(line, names): (usize, Vec<String>)| {
             let roles: Vec<Option<Role>> = names.iter().map(|name| Role::of(name)).collect();
             let unit = |name: &String| {
                 let (_, unit) = name.split_once(['[', '('])?;
@@ -86,9 +84,10 @@ impl Columns {
             let once = |role: &Role| roles.iter().filter(|r| **r == Some(*role)).count() == 1;
             let is_unread = |(name, role): (&String, &Option<Role>)| role.is_none().then(|| name.clone());
             let unread = names.iter().zip(&roles).filter_map(is_unread).collect();
-            Role::NEEDED.iter().all(once).then_some(Self { roles, units, named: Some(i + 1), unread })
+            let is_complete = Role::NEEDED.iter().all(once);
+            is_complete.then_some(Self { names, roles, units, named: Some(line), unread })
         };
-        text.above.iter().enumerate().rev().find_map(named)
+        text.headers().into_iter().find_map(named)
     }
 
     /// Warnings where x and y, or u and v, have different units.
@@ -107,6 +106,19 @@ impl Columns {
     fn of(&self, role: Role) -> Option<usize> {
         self.roles.iter().position(|r| *r == Some(role))
     }
+
+    /// The columns that say which vectors are valid.
+    fn validity(&self) -> impl Iterator<Item = (usize, Validity)> {
+        self.roles.iter().enumerate().filter_map(|(at, role)| match role {
+            Some(Role::Validity(validity)) => Some((at, *validity)),
+            _ => None,
+        })
+    }
+
+    /// What a column is called in messages.
+    fn name(&self, at: usize) -> String {
+        self.names.get(at).map_or_else(|| format!("number {}", at + 1), |name| name.trim().to_owned())
+    }
 }
 
 /// A vector with its place.
@@ -124,43 +136,45 @@ struct Row {
 /// Names line and column of the first word that does not fit; positions off the lattice, and two vectors at one.
 pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     let text = Text::of(bytes)?;
+    text.check_zones()?;
     let columns = match (Columns::named_above(&text), text.names().next()) {
         (Some(columns), _) => columns,
         (None, Some((line, names))) => {
-            return Err(IoError::TableHeader { line, found: shortened(names.join(", ").as_bytes()) });
+            times::chosen(line, &names, ArrayChoice::Usual)?;
+            return Err(TableError::Header { line, found: shortened(names.join(", ").as_bytes()) }.into());
         }
         (None, None) => Columns::by_place(text.columns()),
     };
-    let mut rows = Vec::new();
-    let (mut flagged, mut others) = (0, 0);
-    for &(number, line) in &text.lines {
-        let numbers = numbers(&text, &columns, line, number)?;
-        let of = |role| columns.of(role).and_then(|at| numbers.get(at)).copied();
-        let need = |role| of(role).unwrap_or(f64::NAN);
-        // A sixth column without name that holds anything but 0 and 1 is no mask.
-        let mask = of(Role::Mask).unwrap_or(0.0);
-        others += usize::from(mask != 0.0 && mask != 1.0);
-        flagged += usize::from(of(Role::Flags).is_some_and(|f| f != 0.0));
-        rows.push(Row {
-            line: number,
-            position: [need(Role::X), need(Role::Y)],
-            vector: [need(Role::U), need(Role::V)],
-            masked: mask != 0.0 || of(Role::Choice).is_some_and(|c| c < 1.0),
-        });
-    }
+    let read = text.lines.iter().map(|&(number, line)| numbers(&text, &columns, line, number));
+    let read = read.collect::<Result<Vec<Vec<f64>>, IoError>>()?;
+    let values = |at: usize| read.iter().map(|row| row[at]).collect::<Vec<f64>>();
     let mut notes = vec![words_of(&columns)];
     let mut said = Vec::new();
+    // More columns may be named than there are.
+    let mut validity: Vec<(usize, Validity)> =
+        columns.validity().filter(|(at, _)| *at < text.columns()).collect();
+    // A sixth column without name that holds anything but 0 and 1 is no mask.
+    let is_binary = |at: usize| values(at).iter().all(|v| [0.0, 1.0].contains(v));
+    let are_masks = validity.iter().all(|&(at, v)| v != Validity::Mask || is_binary(at));
+    if columns.named.is_some() || are_masks {
+        said.extend(validity.iter().filter_map(|&(at, v)| v.said(&columns.name(at), &values(at), "vectors")));
+    } else {
+        validity.clear();
+        notes.push("the sixth column holds more than 0 and 1 and is left aside".to_owned());
+    }
+    let place = Role::NEEDED.map(|role| columns.of(role).unwrap_or_default());
+    let row = |(&(line, _), row): (&(usize, &[u8]), &Vec<f64>)| {
+        let [x, y, u, v] = place.map(|at| row[at]);
+        let masked = validity.iter().any(|&(at, validity)| validity.leaves_out(row[at]));
+        Row { line, position: [x, y], vector: [u, v], masked }
+    };
+    let rows: Vec<Row> = text.lines.iter().zip(&read).map(row).collect();
     if columns.named.is_none() && columns.roles.len() >= 5 && is_flat(&rows) {
-        return Err(IoError::TableHeader {
+        return Err(TableError::Header {
             line: text.first(),
             found: format!("{} columns, the third of one value", text.columns()),
-        });
-    }
-    if columns.named.is_none() && others > 0 {
-        rows.iter_mut().for_each(|row| row.masked = false);
-        notes.push("the sixth column holds more than 0 and 1 and is left aside".to_owned());
-    } else if flagged > 0 {
-        said.push(format!("{flagged} vectors with a flag other than 0, taken as they stand"));
+        }
+        .into());
     }
     if !columns.unread.is_empty() {
         said.push(format!(
@@ -208,12 +222,19 @@ fn numbers(text: &Text, columns: &Columns, line: &[u8], number: usize) -> Result
     for (column, word) in text.separator.words(line) {
         count += 1;
         let role = columns.roles.get(count - 1).copied().flatten();
-        let value = match (parsed(word), role) {
+        let is_validity = matches!(role, Some(Role::Validity(_)));
+        let value = if is_validity { parsed_validity(word) } else { parsed(word) };
+        let value = match (value, role) {
             (None, Some(_)) => {
-                return Err(IoError::NotANumber { line: number, column, found: shortened(word) });
+                let (line, found) = (number, shortened(word));
+                return Err(if is_validity {
+                    TableError::NotValidity { line, column, found }.into()
+                } else {
+                    TextError::NotANumber { line, column, found }.into()
+                });
             }
             (Some(v), Some(Role::X | Role::Y)) if !v.is_finite() => {
-                return Err(IoError::NotFinite { line: number, column, found: shortened(word) });
+                return Err(TextError::NotFinite { line: number, column, found: shortened(word) }.into());
             }
             (value, _) => value.unwrap_or(f64::NAN),
         };
@@ -225,7 +246,7 @@ fn numbers(text: &Text, columns: &Columns, line: &[u8], number: usize) -> Result
     if count != expected || count < needed {
         let expected = expected.max(needed);
         let column = line.trim_ascii_end().len() + 1;
-        return Err(IoError::TableRow { line: number, column, found: count, expected });
+        return Err(TableError::Row { line: number, column, found: count, expected }.into());
     }
     Ok(found)
 }
@@ -236,9 +257,7 @@ fn words_of(columns: &Columns) -> String {
         Some(Role::Y) => "y",
         Some(Role::U) => "u",
         Some(Role::V) => "v",
-        Some(Role::Flags) => "flags",
-        Some(Role::Mask) => "mask (left out where not 0)",
-        Some(Role::Choice) => "validity (left out below 1)",
+        Some(Role::Validity(validity)) => validity.words(),
         None => "(not read)",
     };
     let names: Vec<&str> = columns.roles.iter().map(name).collect();
@@ -257,7 +276,7 @@ fn lattice(rows: &[Row], mut notes: Vec<String>) -> Result<Lattice, IoError> {
     let index = |axis: usize, i: usize| {
         let value = rows[i].position[axis];
         let (line, axis_name, step) = (rows[i].line, ['x', 'y'][axis], axes[axis].step);
-        axes[axis].index(value).ok_or(IoError::Position { line, axis: axis_name, value, step })
+        axes[axis].index(value).ok_or(TableError::Position { line, axis: axis_name, value, step })
     };
     let sparse = nodes > rows.len().saturating_mul(SPARSE);
     let mut line_of = vec![0; if sparse { 0 } else { nodes }];
@@ -270,14 +289,14 @@ fn lattice(rows: &[Row], mut notes: Vec<String>) -> Result<Lattice, IoError> {
         }
         let node = y * width + x;
         if line_of[node] > 0 {
-            return Err(IoError::SamePosition { line: row.line, before: line_of[node] });
+            return Err(TableError::SamePosition { line: row.line, before: line_of[node] }.into());
         }
         line_of[node] = row.line;
         values[2 * node..2 * node + 2].copy_from_slice(&row.vector);
         mask[node] = if row.masked { 0.0 } else { 1.0 };
     }
     if sparse {
-        return Err(IoError::SparsePositions { vectors: rows.len(), width, height });
+        return Err(TableError::SparsePositions { vectors: rows.len(), width, height }.into());
     }
     let missing = nodes - rows.len();
     if missing > 0 {
@@ -300,6 +319,7 @@ fn lattice(rows: &[Row], mut notes: Vec<String>) -> Result<Lattice, IoError> {
         component_names: Vec::new(),
         notes,
         remarks: Vec::new(),
+        order_remarks: Vec::new(),
         warnings: Vec::new(),
     })
 }
@@ -342,6 +362,10 @@ mod tests {
         let more = "x [px],y [px],u [px/frame],v [px/frame],vector direction [degrees],Vector length [px],Vector type [-]\n";
         let line = |x: f64, y: f64| format!("{x},{y},{x},{},0.5,0,{}", ten(y), 1 - low(y));
         is_read(&table(more, line), 4);
+        for [yes, no] in [["True", "False"], ["\"true\"", "\"false\""], ["YES", "no"]] {
+            let word = |y: f64| if low(y) == 1 { no } else { yes };
+            is_read(&table("x,y,u,v,valid\n", |x, y| format!("{x},{y},{x},{},{}", ten(y), word(y))), 4);
+        }
         is_read(&table("x,y,u,v,valid\n", |x, y| format!("{x},{y},{x},{},{}", ten(y), 1 - low(y))), 4);
         let insight =
             "TITLE=\"run\" VARIABLES=\"X mm\", \"Y mm\", \"U m/s\", \"V m/s\", \"CHC\", ZONE I=4, J=3\n";
@@ -412,6 +436,11 @@ mod tests {
             "",
             &|x, y| format!("{x} {y} {x} 1 0"),
             "columns not read, whatever they say of the vectors: number 5",
+        );
+        is_said(
+            "x,y,u,v,mask\n",
+            &|x, y| format!("{x},{y},{x},1,{}", u8::from(x > 4.0)),
+            "6 of 12 vectors left out by the column `mask`, where it is not 0",
         );
         is_said("x,y,u,v,flags,mask\n", &|x, y| format!("{x},{y},{x},1,1,0"), "12 vectors with a flag");
         is_said("x,y,u,v\n", &|x, y| format!("{x},{y},{},0", x - 1.0), "3 vectors are exactly zero");

@@ -1,5 +1,6 @@
 //! What a user says about the plane of a volume.
 
+use super::error::PlaneError;
 use crate::IoError;
 use tigereye_core::{Field, Grid, Tensor2};
 
@@ -129,12 +130,12 @@ impl Crop {
     /// The part of a field.
     ///
     /// # Errors
-    /// [`IoError::CropRange`] for an empty part, or one that sticks out.
+    /// [`PlaneError::CropRange`] for an empty part, or one that sticks out.
     pub fn of(self, field: &Field<Tensor2>) -> Result<Field<Tensor2>, IoError> {
         let (width, height) = (field.grid().width(), field.grid().height());
         let fits = |[a, b]: [usize; 2], n| a < b && b <= n;
         if !fits(self.x, width) || !fits(self.y, height) {
-            return Err(IoError::CropRange { x: self.x, y: self.y, width, height });
+            return Err(PlaneError::CropRange { x: self.x, y: self.y, width, height }.into());
         }
         let grid = Grid::new(self.x[1] - self.x[0], self.y[1] - self.y[0])?;
         let (x, y) = (self.x[0], self.y[0]);
@@ -155,24 +156,24 @@ impl PlaneChoice {
     /// Plane and index of the slice: as chosen, or the only plane of a flat volume.
     ///
     /// # Errors
-    /// [`IoError::PlaneNeeded`], [`IoError::SliceNeeded`], [`IoError::PlaneConflict`], [`IoError::SliceRange`].
-    pub fn resolve(self, size: [usize; 3]) -> Result<(Plane, usize), IoError> {
+    /// [`PlaneError::Needed`], [`PlaneError::SliceNeeded`], [`PlaneError::Conflict`], [`PlaneError::SliceRange`].
+    pub fn resolve(self, size: [usize; 3]) -> Result<(Plane, usize), PlaneError> {
         let flat = || [Plane::Xy, Plane::Xz, Plane::Yz].into_iter().find(|p| size[p.normal() as usize] == 1);
         let plane = match (self.plane, self.slice) {
             (Some(plane), Some((axis, _))) if plane.normal() != axis => {
                 let (plane, normal, axis) = (plane.name(), plane.normal().name(), axis.name());
-                return Err(IoError::PlaneConflict { plane, axis, normal });
+                return Err(PlaneError::Conflict { plane, axis, normal });
             }
             (Some(plane), _) => plane,
             (None, Some((axis, _))) => Plane::of_normal(axis),
-            (None, None) => flat().ok_or(IoError::PlaneNeeded { size })?,
+            (None, None) => flat().ok_or(PlaneError::Needed { size })?,
         };
         let (axis, last) = (plane.normal().name(), size[plane.normal() as usize].saturating_sub(1));
         match self.slice {
-            Some((_, index)) if index > last => Err(IoError::SliceRange { axis, index, last }),
+            Some((_, index)) if index > last => Err(PlaneError::SliceRange { axis, index, last }),
             Some((_, index)) => Ok((plane, index)),
             None if last == 0 => Ok((plane, 0)),
-            None => Err(IoError::SliceNeeded { plane: plane.name(), axis, last }),
+            None => Err(PlaneError::SliceNeeded { plane: plane.name(), axis, last }),
         }
     }
 }

@@ -1,11 +1,13 @@
 //! Between VTK image data and volumes.
 
 use super::convention::Content;
+use super::error::VolumeError;
 use super::lattice::Lattice;
 use super::matrix3::IDENTITY;
 use super::meaning::{Frame, Known, World};
 use super::names::{Naming, naming};
 use super::tensors::TensorVolume;
+use crate::array_error::ArrayError;
 use crate::convert::{
     ArrayChoice, Association, GHOSTS, Rows, TENSOR_ARRAY, VALID_POINTS, Wanted, choose_array, left_aside,
 };
@@ -21,7 +23,7 @@ const HIDDEN_CELL: u8 = 32 | 8;
 /// in any order.
 ///
 /// # Errors
-/// [`IoError::NoLattice`], and as [`lattice_from_image`]. Cell arrays belong to polygons and are not looked at.
+/// [`VolumeError::NoLattice`], and as [`lattice_from_image`]. Cell arrays belong to polygons and are not looked at.
 pub fn lattice_from_points<'a>(
     data: PolyData,
     array: impl Into<ArrayChoice<'a>>,
@@ -31,7 +33,7 @@ pub fn lattice_from_points<'a>(
         Ok(lattice) => (lattice, None),
         Err(point) => {
             let scattered = PointLattice::scattered(&data.points);
-            let (lattice, order) = scattered.map_err(|_| IoError::NoLattice { point })?;
+            let (lattice, order) = scattered.map_err(|_| VolumeError::NoLattice { point })?;
             (lattice, Some(order))
         }
     };
@@ -60,8 +62,8 @@ pub fn lattice_from_points<'a>(
 /// form a lattice of cell centres. Points that VTK marked as invalid or hidden are masked.
 ///
 /// # Errors
-/// [`IoError::NoArray`], [`IoError::AmbiguousArray`], [`IoError::Principal`], [`IoError::UnequalComponents`],
-/// [`IoError::ArraySize`].
+/// [`crate::ChoiceError::NoArray`], [`crate::ChoiceError::Ambiguous`], [`VolumeError::Principal`],
+/// [`VolumeError::UnequalComponents`], [`ArrayError::Size`].
 pub fn lattice_from_image<'a>(
     image: &ImageData,
     array: impl Into<ArrayChoice<'a>>,
@@ -123,6 +125,7 @@ pub fn lattice_from_image<'a>(
         component_names: array.component_names,
         notes,
         remarks,
+        order_remarks: Vec::new(),
         warnings: Vec::new(),
     })
 }
@@ -134,7 +137,7 @@ fn check_size(array: &DataArray, size: [usize; 3]) -> Result<(), IoError> {
         return Ok(());
     }
     let array = array.name.clone();
-    Err(IoError::ArraySize { array, byte: 0, found, expected, unit: "numbers" })
+    Err(ArrayError::Size { array, byte: 0, found, expected, unit: "numbers" }.into())
 }
 
 /// What an array is, and the order of its components: by their names, else by the tables.
@@ -220,7 +223,7 @@ fn spread(flags: &[bool], from: [usize; 3], to: [usize; 3], all: bool) -> Vec<bo
 /// tensors are along the voxel axes.
 ///
 /// # Errors
-/// [`IoError::SkewedAxes`] where components must be turned and cannot be.
+/// [`VolumeError::SkewedAxes`] where components must be turned and cannot be.
 pub fn image_from_volume(volume: &TensorVolume, frame: Frame) -> Result<ImageData, IoError> {
     let lattice = volume.lattice();
     let values = volume.along(frame)?.into_iter().flatten().collect();

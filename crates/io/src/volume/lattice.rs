@@ -1,10 +1,11 @@
 //! Numbers on a lattice as a file has them.
 
+use super::error::VolumeError;
 use super::matrix3::{IDENTITY, inverse, product};
 use super::meaning::{Frame, Known, World};
 use super::names::{Naming, naming};
 use super::order::TensorOrder;
-use crate::{IoError, ScalarType};
+use crate::ScalarType;
 
 /// Largest cosine between two axes that are still taken as orthogonal: files hold them in single precision.
 const ORTHOGONAL: f64 = 1e-3;
@@ -42,6 +43,8 @@ pub struct Lattice {
     pub notes: Vec<String>,
     /// What was assumed or left out that changes the result and that no option says, a sentence each.
     pub remarks: Vec<String>,
+    /// The same, but only worth saying where the user does not state the component order.
+    pub order_remarks: Vec<String>,
     /// What looks wrong in the file, a sentence each.
     pub warnings: Vec<String>,
 }
@@ -240,7 +243,7 @@ impl Lattice {
 
     /// What turns components in `frame` into components along the voxel axes, `K v` or `K D K^T`; `None` where nothing
     /// does.
-    pub(crate) fn to_voxel(&self, frame: Frame) -> Result<Option<[f64; 9]>, IoError> {
+    pub(crate) fn to_voxel(&self, frame: Frame) -> Result<Option<[f64; 9]>, VolumeError> {
         let measured = match (frame, self.measurement) {
             (Frame::Voxel, _) => return Ok(None),
             (Frame::Fsl, _) => return Ok(self.reverses_x_for_fsl().then(|| self.fsl_signs())),
@@ -252,11 +255,11 @@ impl Lattice {
         if directions == measured {
             return Ok(None);
         }
-        inverse(&directions).map(|r| Some(product(&r, &measured))).ok_or(IoError::SkewedAxes { off: 1.0 })
+        inverse(&directions).map(|r| Some(product(&r, &measured))).ok_or(VolumeError::SkewedAxes { off: 1.0 })
     }
 
-    pub(super) fn orthogonal_directions(&self) -> Result<[f64; 9], IoError> {
-        self.skew().map_or_else(|| Ok(self.directions()), |off| Err(IoError::SkewedAxes { off }))
+    pub(super) fn orthogonal_directions(&self) -> Result<[f64; 9], VolumeError> {
+        self.skew().map_or_else(|| Ok(self.directions()), |off| Err(VolumeError::SkewedAxes { off }))
     }
 
     /// The largest cosine between two voxel axes, where they are not at right angles.

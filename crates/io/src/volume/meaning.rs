@@ -122,6 +122,12 @@ impl World {
         matches!(self, Self::Scanner(_))
     }
 
+    /// Whether the axes are named after the patient: left or right, posterior or anterior.
+    #[must_use]
+    pub fn is_of_patient(&self) -> bool {
+        self.signs().is_some()
+    }
+
     /// Signs that turn the axes to the right, anterior and superior; `None` for worlds that are not the patient's.
     pub(crate) fn signs(&self) -> Option<[f64; 3]> {
         let Self::Scanner(name) = self else { return None };

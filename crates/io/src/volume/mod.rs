@@ -10,6 +10,7 @@
 mod choice;
 mod components;
 mod convention;
+mod error;
 mod geometry;
 mod image;
 mod lattice;
@@ -27,6 +28,7 @@ pub use choice::{Axis, Crop, Plane, PlaneChoice, parse_slice};
 pub use components::ComponentArrays;
 pub(crate) use components::{joined, joined_rows};
 pub use convention::{ALIASES, Alias, CONVENTIONS, Content, Convention, documentation};
+pub use error::{PlaneError, VolumeError};
 pub use geometry::PlaneGeometry;
 pub(crate) use image::points_of_image;
 pub use image::{image_from_volume, lattice_from_image, lattice_from_points, points_from_image};

@@ -178,7 +178,7 @@ pub(crate) fn names_strain(name: &str) -> bool {
 
 fn is_strain(name: &str) -> bool {
     let words = words_of(name);
-    let short = pair_of(name).map(|(_, stem)| stem).unwrap_or_default();
+    let short = pair_of(name).or_else(|| normal_of(name)).map(|(_, stem)| stem).unwrap_or_default();
     let is = |w: &str| {
         let word = w.trim_end_matches('s');
         word.starts_with("strain")
@@ -202,35 +202,95 @@ pub(crate) struct Group {
     pub(crate) order: TensorOrder,
 }
 
-/// Stems that mean one tensor where normal and shear components are called differently.
-const SAME_QUANTITY: [[&str; 2]; 4] = [["sigma", "tau"], ["σ", "τ"], ["eps", "gamma"], ["ε", "γ"]];
+/// What shear components are called, and the normal components of the same quantity.
+const SHEARS: [(&[&str], &[&str]); 2] = [
+    (&["tau", "τ", "t"], &["sigma", "σ", "sig", "s", "stress"]),
+    (&["gamma", "γ", "gam", "g"], &["eps", "ε", "epsilon", "e", "strain"]),
+];
+
+/// Whether shears of one name and normal components of another, `tau` and `sigma`, are one quantity's; what stands
+/// before these words, as in `plate_sigma`, is the same then.
+fn are_one_quantity(normal: &str, shear: &str) -> bool {
+    let split = |stem: &str| {
+        let (before, last) = stem.rsplit_once('_').unwrap_or(("", stem));
+        (before.to_owned(), last.to_owned())
+    };
+    let ((before, normal), (before_shear, shear)) = (split(normal), split(shear));
+    let fits = |(shears, normals): &(&[&str], &[&str])| {
+        shears.contains(&shear.as_str()) && normals.contains(&normal.as_str())
+    };
+    before == before_shear && SHEARS.iter().any(fits)
+}
+
+/// Names that share what stands before their index pairs.
+struct Stem {
+    name: String,
+    members: Vec<usize>,
+    pairs: Vec<Pair>,
+}
+
+impl Stem {
+    fn add(all: &mut Vec<Self>, name: String, member: usize, pair: Pair) {
+        match all.iter_mut().find(|stem| stem.name == name) {
+            Some(stem) => {
+                stem.members.push(member);
+                stem.pairs.push(pair);
+            }
+            None => all.push(Self { name, members: vec![member], pairs: vec![pair] }),
+        }
+    }
+
+    /// Whether all entries are on the diagonal, or all off it.
+    fn holds(&self, diagonal: bool) -> bool {
+        self.pairs.iter().all(|pair| (pair.0[0] == pair.0[1]) == diagonal)
+    }
+
+    fn take(&mut self, other: Self) {
+        self.members.extend(other.members);
+        self.pairs.extend(other.pairs);
+    }
+}
 
 /// Arrays called `S_XX`, `S_YY`, `S_XY` are one tensor: the groups of names that share what stands before their index
-/// pairs.
+/// pairs, or whose shears have their own name (`sigma_x`, `sigma_y`, `tau_xy`).
 pub(crate) fn groups(names: &[&str]) -> Vec<Group> {
-    let mut stems: Vec<(String, Vec<usize>, Vec<Pair>)> = Vec::new();
+    let (mut stems, mut singles) = (Vec::new(), Vec::new());
     for (at, name) in names.iter().enumerate() {
-        let Some((pair, stem)) = pair_of(name) else { continue };
-        let same = SAME_QUANTITY.iter().find(|[_, shear]| *shear == stem);
-        let stem = same.map_or(stem, |[normal, _]| (*normal).to_owned());
-        match stems.iter_mut().find(|(s, _, _)| *s == stem) {
-            Some((_, members, pairs)) => {
-                members.push(at);
-                pairs.push(pair);
-            }
-            None => stems.push((stem, vec![at], vec![pair])),
+        if let Some((pair, stem)) = pair_of(name) {
+            Stem::add(&mut stems, stem, at, pair);
+        } else if let Some((pair, stem)) = normal_of(name) {
+            Stem::add(&mut singles, stem, at, pair);
         }
     }
     // `SX` beside `SXY` is a normal component, as Ansys has it.
-    for (at, name) in names.iter().enumerate() {
-        let Some((pair, stem)) = normal_of(name).filter(|_| pair_of(name).is_none()) else { continue };
-        let of_shears = stems.iter_mut().find(|(s, _, pairs)| *s == stem && !pairs.contains(&pair));
-        if let Some((_, members, pairs)) = of_shears {
-            members.push(at);
-            pairs.push(pair);
+    let mut others = Vec::new();
+    for single in singles {
+        let fits = |stem: &&mut Stem| {
+            stem.name == single.name && stem.pairs.iter().all(|p| !single.pairs.contains(p))
+        };
+        match stems.iter_mut().find(fits) {
+            Some(stem) => stem.take(single),
+            None => others.push(single),
         }
     }
-    let group = |(_, members, pairs): (String, Vec<usize>, Vec<Pair>)| {
+    stems.extend(others);
+    // Normal components that lack their shears take those of another name, where only one fits.
+    let normals: Vec<String> = stems.iter().filter(|s| s.holds(true)).map(|s| s.name.clone()).collect();
+    let normals_of = |shear: &str| {
+        let mut found = normals.iter().filter(|normal| are_one_quantity(normal, shear));
+        found.next().filter(|_| found.next().is_none())
+    };
+    let (shears, mut stems): (Vec<Stem>, Vec<Stem>) = stems.into_iter().partition(|s| s.holds(false));
+    for shear in shears {
+        match normals_of(&shear.name).and_then(|name| stems.iter_mut().find(|s| s.name == *name)) {
+            Some(normal) if normal.holds(true) => normal.take(shear),
+            _ => stems.push(shear),
+        }
+    }
+    let group = |stem: Stem| {
+        let mut all: Vec<(usize, Pair)> = stem.members.into_iter().zip(stem.pairs).collect();
+        all.sort_unstable_by_key(|(member, _)| *member);
+        let (members, pairs): (Vec<usize>, Vec<Pair>) = all.into_iter().unzip();
         let order = TensorOrder::by_entries(&entries_of(&pairs)?).ok()?;
         Some(Group { members, order })
     };
@@ -341,8 +401,27 @@ mod tests {
         assert_eq!(found[0].members, [0, 2, 4]);
         let ansys = groups(&["SXY", "UX", "SX", "SY"]);
         assert_eq!((ansys.len(), &ansys[0].members[..]), (1, &[0, 2, 3][..]));
-        let shear = groups(&["sigma_xx", "sigma_yy", "tau_xy"]);
-        assert_eq!(shear.len(), 1);
+        for names in [
+            ["sigma_xx", "sigma_yy", "tau_xy"],
+            ["sxx", "syy", "txy"],
+            ["sx", "sy", "txy"],
+            ["sigma_x", "sigma_y", "tauxy"],
+            ["σxx", "σyy", "τxy"],
+            ["plate sig_x", "plate sig_y", "plate tau_xy"],
+            ["stress_xx", "stress_yy", "tau_xy"],
+            ["eps_xx", "eps_yy", "gamma_xy"],
+            ["ex", "ey", "gxy"],
+        ] {
+            let found = groups(&names);
+            assert_eq!((found.len(), found[0].order.to_string()), (1, "xx,yy,xy".to_owned()), "{names:?}");
+            assert_eq!(found[0].members, [0, 1, 2]);
+            let is_strain = names[0].starts_with('e');
+            assert_eq!(names.iter().any(|n| names_strain(n)), is_strain, "{names:?}");
+        }
+        // Two quantities to which shears could belong, and shears that are there already.
+        assert!(groups(&["sigma_xx", "sigma_yy", "stress_xx", "stress_yy", "tau_xy"]).is_empty());
+        let own = groups(&["sigma_xx", "sigma_yy", "sigma_xy", "tau_xy"]);
+        assert_eq!((own.len(), &own[0].members[..]), (1, &[0, 1, 2][..]));
         let rows = row_groups(&["T_y", "grad", "T_x", "T_z"], 3);
         assert_eq!(rows, [[2, 0, 3]]);
         let gradient = groups(&["u", "dvdy", "dvdx", "dudy", "dudx"]);

@@ -37,6 +37,7 @@ impl Lattice {
             component_names: Vec::new(),
             notes: vec!["first row on top, in the frame x right, y up".to_owned()],
             remarks: Vec::new(),
+            order_remarks: Vec::new(),
             warnings: Vec::new(),
         }
     }
@@ -78,7 +79,7 @@ impl TensorVolume {
     /// All tensors along the axes of `frame` (world, voxel or FSL's), row by row; those of voxels with mask 0 are zero.
     ///
     /// # Errors
-    /// [`IoError::SkewedAxes`] where components must be turned and cannot be.
+    /// [`crate::volume::VolumeError::SkewedAxes`] where components must be turned and cannot be.
     pub(crate) fn along(&self, frame: Frame) -> Result<Vec<[f64; 9]>, IoError> {
         let turn = match frame {
             Frame::Voxel => self.lattice.to_voxel(self.frame.0)?,
@@ -98,7 +99,7 @@ impl TensorVolume {
     /// All tensors along the world's axes, row by row; those of voxels with mask 0 are zero.
     ///
     /// # Errors
-    /// [`IoError::SkewedAxes`] where components must be turned and cannot be.
+    /// [`crate::volume::VolumeError::SkewedAxes`] where components must be turned and cannot be.
     pub fn in_world(&self) -> Result<Vec<[f64; 9]>, IoError> {
         self.along(Frame::World)
     }

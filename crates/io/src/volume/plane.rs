@@ -1,6 +1,7 @@
 //! From a volume to a field in a plane.
 
 use super::choice::{Axis, Plane, PlaneChoice};
+use super::error::VolumeError;
 use super::geometry::{PlaneGeometry, world_axes};
 use super::lattice::Lattice;
 use super::matrix3::turned;
@@ -166,10 +167,10 @@ impl Lattice {
     /// One number a voxel, in a plane.
     ///
     /// # Errors
-    /// [`IoError::TupleSize`] for tuples, and as [`Self::cut`].
+    /// [`VolumeError::TupleSize`] for tuples, and as [`Self::cut`].
     pub fn scalars(&self, choice: PlaneChoice) -> Result<Slice<f64>, IoError> {
         if self.components != 1 {
-            return Err(self.tuple_size("one number a voxel"));
+            return Err(self.tuple_size("one number a voxel").into());
         }
         // Distances along the axes are those of the world at right angles only.
         self.orthogonal_directions()?;
@@ -180,10 +181,10 @@ impl Lattice {
     /// Vectors of two or three components projected into a plane, along x (right) and y (up) of the picture.
     ///
     /// # Errors
-    /// [`IoError::TupleSize`] for other tuples, [`IoError::SkewedAxes`], and as [`Self::cut`].
+    /// [`VolumeError::TupleSize`] for other tuples, [`VolumeError::SkewedAxes`], and as [`Self::cut`].
     pub fn vectors(&self, choice: PlaneChoice, frame: Option<Frame>) -> Result<Slice<[f64; 2]>, IoError> {
         if !(2..=3).contains(&self.components) {
-            return Err(self.tuple_size("two or three"));
+            return Err(self.tuple_size("two or three").into());
         }
         let cut = self.cut(choice)?;
         let frame = frame.unwrap_or(self.frame.0);
@@ -213,7 +214,7 @@ impl Lattice {
         if self.size[cut.plane.normal() as usize] == 1 {
             return Ok(shown.to_vec());
         }
-        Err(self.tuple_size("three for this plane, which the two do not lie in"))
+        Err(self.tuple_size("three for this plane, which the two do not lie in").into())
     }
 
     /// Which cells of a plane the mask leaves out; `None` where there is no mask.
@@ -223,8 +224,8 @@ impl Lattice {
         Some(cut.field(|voxel| mask.get(voxel) == Some(&0.0)))
     }
 
-    fn tuple_size(&self, expected: &'static str) -> IoError {
-        IoError::TupleSize { array: self.array.clone(), components: self.components, expected }
+    fn tuple_size(&self, expected: &'static str) -> VolumeError {
+        VolumeError::TupleSize { array: self.array.clone(), components: self.components, expected }
     }
 }
 
@@ -233,7 +234,7 @@ impl TensorVolume {
     /// direction 90 degrees is up in the picture. Voxels with mask 0 become zero tensors.
     ///
     /// # Errors
-    /// [`IoError::SkewedAxes`], and as [`Lattice::cut`].
+    /// [`VolumeError::SkewedAxes`], and as [`Lattice::cut`].
     pub fn slice(&self, choice: PlaneChoice) -> Result<Slice<Tensor2>, IoError> {
         let cut = self.lattice.cut(choice)?;
         self.check_components(&cut)?;
@@ -270,6 +271,6 @@ impl TensorVolume {
         }
         let [a, b] = shown.map(|axis| Axis::ALL[axis].name());
         let needed = format!("{a}{a},{b}{b},{}", if a < b { format!("{a}{b}") } else { format!("{b}{a}") });
-        Err(IoError::OtherPlane { order: self.order.0.to_string(), needed })
+        Err(VolumeError::OtherPlane { order: self.order.0.to_string(), needed }.into())
     }
 }

@@ -1,18 +1,19 @@
 //! Component orders as people spell them.
 
 use super::convention::Alias;
+use super::error::VolumeError;
 use super::names::entries;
 use super::order::TensorOrder;
-use crate::IoError;
 
 impl TensorOrder {
     /// An alias of [`ALIASES`](super::ALIASES) or the components themselves, `xx,xy,xz,yy,yz,zz`, in any spelling that
     /// files use (`11,12,13,22,23,33`).
     ///
     /// # Errors
-    /// [`IoError::Order`] for anything else, and for an alias or names that do not fit the number of components.
-    pub fn parse(text: &str, components: usize) -> Result<Self, IoError> {
-        let fault = |expected: &'static str| IoError::Order { order: shorten(text), components, expected };
+    /// [`VolumeError::Order`] for anything else, and for an alias or names that do not fit the number of components.
+    pub fn parse(text: &str, components: usize) -> Result<Self, VolumeError> {
+        let fault =
+            |expected: &'static str| VolumeError::Order { order: shorten(text), components, expected };
         if let Some(alias) = Alias::named(text) {
             return alias.order(components).ok_or_else(|| fault(alternatives(components)));
         }
@@ -45,7 +46,7 @@ const fn alternatives(components: usize) -> &'static str {
 
 /// The components in the order of the file: `xx,xy,xz,yy,yz,zz`.
 fn shorten(text: &str) -> String {
-    crate::error::shortened(text.as_bytes())
+    crate::text::shortened(text.as_bytes())
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! Tensors on a lattice: the numbers of a file with what they mean.
 
 use super::convention::Alias;
+use super::error::VolumeError;
 use super::lattice::Lattice;
 use super::matrix3::{IDENTITY, product};
 use super::meaning::{Frame, Known, Shear};
 use super::names::{Naming, names_principal_values, names_strain, naming};
 use super::order::TensorOrder;
-use crate::IoError;
 
 /// What the user says about components.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -34,22 +34,26 @@ impl Lattice {
     /// not state one.
     ///
     /// # Errors
-    /// [`IoError::NoTensor`], [`IoError::Principal`], [`IoError::Order`], [`IoError::NoMeasurementFrame`], and
-    /// [`IoError::NoSharedShear`] for engineering shears where xy and yx are two numbers.
-    pub fn tensors(self, reading: Reading) -> Result<TensorVolume, IoError> {
+    /// [`VolumeError::NoTensor`], [`VolumeError::Principal`], [`VolumeError::Order`],
+    /// [`VolumeError::NoMeasurementFrame`], and [`VolumeError::NoSharedShear`] for engineering shears where xy and yx
+    /// are two numbers.
+    pub fn tensors(self, reading: Reading) -> Result<TensorVolume, VolumeError> {
         let this = self.with_mask_apart();
         this.tensors_of_tuples(reading)
     }
 
-    fn tensors_of_tuples(mut self, reading: Reading) -> Result<TensorVolume, IoError> {
+    fn tensors_of_tuples(mut self, reading: Reading) -> Result<TensorVolume, VolumeError> {
         let order = match (reading.order, self.order) {
             (Some(text), _) => (TensorOrder::parse(text, self.components)?, Known::Given),
             (None, _) if self.holds_principal_values() => {
-                return Err(IoError::Principal { array: self.array, names: self.component_names.join(", ") });
+                return Err(VolumeError::Principal {
+                    array: self.array,
+                    names: self.component_names.join(", "),
+                });
             }
             (None, Some(order)) => order,
             (None, None) => {
-                return Err(IoError::NoTensor { array: self.array, components: self.components });
+                return Err(VolumeError::NoTensor { array: self.array, components: self.components });
             }
         };
         let of_program = reading.order.and_then(Alias::named).and_then(|alias| alias.frame);
@@ -59,7 +63,10 @@ impl Lattice {
             _ => self.frame,
         };
         if frame.0 == Frame::Measurement && self.measurement.is_none() {
-            return Err(IoError::NoMeasurementFrame);
+            return Err(VolumeError::NoMeasurementFrame);
+        }
+        if reading.order.is_none() {
+            self.remarks.append(&mut self.order_remarks);
         }
         if reading.shear == Some(Shear::Engineering) {
             self.halve_shears(order.0)?;
@@ -78,9 +85,9 @@ impl Lattice {
     }
 
     /// Engineering shears to components of the tensor.
-    fn halve_shears(&mut self, order: TensorOrder) -> Result<(), IoError> {
+    fn halve_shears(&mut self, order: TensorOrder) -> Result<(), VolumeError> {
         if !order.has_shared_shears() {
-            return Err(IoError::NoSharedShear { order: order.to_string() });
+            return Err(VolumeError::NoSharedShear { order: order.to_string() });
         }
         for tuple in self.values.chunks_exact_mut(self.components) {
             order.shears().for_each(|at| tuple[at] *= 0.5);
@@ -200,7 +207,7 @@ impl TensorVolume {
     }
 
     /// What turns stored components into components along the world's axes.
-    pub(crate) fn to_world(&self) -> Result<Option<[f64; 9]>, IoError> {
+    pub(crate) fn to_world(&self) -> Result<Option<[f64; 9]>, VolumeError> {
         let turn = match (self.frame.0, self.lattice.measurement) {
             (Frame::World, _) => return Ok(None),
             (Frame::Measurement, Some(m)) => m,

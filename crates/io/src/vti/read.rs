@@ -1,6 +1,7 @@
 //! From bytes to [`ImageData`].
 
 use crate::image::ImageData;
+use crate::limits::LimitError;
 use crate::xml::{ArrayReader, Document, Element, data_set, only_piece, read_arrays, read_field_data};
 use crate::{IoError, Limits};
 
@@ -26,7 +27,7 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<ImageData, IoErr
         match child.name.as_str() {
             "FieldData" => read_field_data(child, &mut arrays, &mut data.field_data)?,
             "Piece" => read_piece(child, &mut arrays, &mut data)?,
-            _ => return Err(child.unexpected("<FieldData> or <Piece>")),
+            _ => return Err(child.unexpected("<FieldData> or <Piece>").into()),
         }
     }
     Ok(data)
@@ -36,15 +37,15 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<ImageData, IoErr
 fn geometry(image: &Element, piece: &Element, limits: Limits) -> Result<ImageData, IoError> {
     let extent = extent(image, "WholeExtent")?;
     if self::extent(piece, "Extent")? != extent {
-        return Err(piece.wrong("Extent", "the WholeExtent"));
+        return Err(piece.wrong("Extent", "the WholeExtent").into());
     }
     let axis = |i: usize| u64::try_from(i128::from(extent[2 * i + 1]) - i128::from(extent[2 * i]) + 1).ok();
     let (Some(nx @ 1..), Some(ny @ 1..), Some(nz @ 1..)) = (axis(0), axis(1), axis(2)) else {
-        return Err(image.wrong("WholeExtent", "at least one point along each axis"));
+        return Err(image.wrong("WholeExtent", "at least one point along each axis").into());
     };
     let points = (u128::from(nx) * u128::from(ny)).saturating_mul(u128::from(nz));
     if points > u128::from(limits.cells) {
-        return Err(IoError::TooManyCells { byte: image.byte, cells: points, limit: limits.cells });
+        return Err(LimitError::Cells { byte: image.byte, cells: points, limit: limits.cells }.into());
     }
     let origin = numbers(image, "Origin", "three finite numbers")?.unwrap_or([0.0; 3]);
     let spacing = numbers(image, "Spacing", "three finite numbers")?.unwrap_or([1.0; 3]);
@@ -74,7 +75,7 @@ fn extent(element: &Element, attribute: &'static str) -> Result<[i64; 6], IoErro
     let words = element.required(attribute, EXPECTED)?.split_ascii_whitespace().take(7);
     let numbers: Option<Vec<i64>> = words.map(|w| w.parse().ok()).collect();
     let exact = numbers.and_then(|n| <[i64; 6]>::try_from(n).ok());
-    exact.ok_or_else(|| element.wrong(attribute, EXPECTED))
+    Ok(exact.ok_or_else(|| element.wrong(attribute, EXPECTED))?)
 }
 
 fn numbers<const N: usize>(
@@ -86,7 +87,7 @@ fn numbers<const N: usize>(
     let words = text.split_ascii_whitespace().take(N + 1);
     let numbers: Option<Vec<f64>> = words.map(|w| w.parse().ok().filter(|v: &f64| v.is_finite())).collect();
     let exact = numbers.and_then(|n| <[f64; N]>::try_from(n).ok());
-    exact.map(Some).ok_or_else(|| element.wrong(attribute, expected))
+    Ok(exact.map(Some).ok_or_else(|| element.wrong(attribute, expected))?)
 }
 
 fn read_piece(piece: &Element, arrays: &mut ArrayReader, data: &mut ImageData) -> Result<(), IoError> {
@@ -101,7 +102,7 @@ fn read_piece(piece: &Element, arrays: &mut ArrayReader, data: &mut ImageData) -
                 let cells = tuples(data.cell_dimensions());
                 (data.cell_active, data.cell_arrays) = read_arrays(child, arrays, cells, &mut data.skipped)?;
             }
-            _ => return Err(child.unexpected("<PointData> or <CellData>")),
+            _ => return Err(child.unexpected("<PointData> or <CellData>").into()),
         }
     }
     Ok(())

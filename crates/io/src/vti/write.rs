@@ -2,16 +2,18 @@
 
 use crate::IoError;
 use crate::image::ImageData;
+use crate::write_error::WriteError;
 use crate::xml::{Kind, Writer, spaced};
 
 /// Writes a file: version 1.0, little-endian, 64-bit headers, zlib blocks, appended raw.
 ///
 /// # Errors
-/// [`IoError::ArraySize`] for an array that does not fill the image, [`IoError::Unwritable`] for names or texts with
-/// control characters, [`IoError::Components`] for an array without components, [`IoError::EmptyImage`].
+/// [`crate::ArrayError::Size`] for an array that does not fill the image, [`WriteError::Unwritable`] for names or texts
+/// with control characters, [`crate::ArrayError::Components`] for an array without components,
+/// [`WriteError::EmptyImage`].
 pub fn write(image: &ImageData) -> Result<Vec<u8>, IoError> {
     let [Some(x), Some(y), Some(z)] = image.dimensions.map(|n| n.checked_sub(1)) else {
-        return Err(IoError::EmptyImage { dimensions: image.dimensions });
+        return Err(WriteError::EmptyImage { dimensions: image.dimensions }.into());
     };
     let extent = format!("0 {x} 0 {y} 0 {z}");
     let direction = image.direction.unwrap_or([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);

@@ -1,8 +1,9 @@
 //! From bytes to [`PolyData`].
 
+use crate::limits::LimitError;
 use crate::polydata::{Cells, PolyData};
 use crate::xml::{
-    ArrayReader, Content, Document, Element, data_set, only_piece, read_arrays, read_field_data,
+    ArrayReader, Content, Document, Element, XmlError, data_set, only_piece, read_arrays, read_field_data,
 };
 use crate::{IoError, Limits};
 
@@ -29,7 +30,7 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<PolyData, IoErro
         match child.name.as_str() {
             "FieldData" => read_field_data(child, &mut arrays, &mut data.field_data)?,
             "Piece" => read_piece(piece, &mut arrays, &mut data, limits)?,
-            _ => return Err(child.unexpected("<FieldData> or <Piece>")),
+            _ => return Err(child.unexpected("<FieldData> or <Piece>").into()),
         }
     }
     Ok(data)
@@ -46,13 +47,13 @@ struct Counts {
 
 impl Counts {
     fn of(piece: &Element, limits: Limits) -> Result<Self, IoError> {
-        let count = |attribute: &'static str| {
+        let count = |attribute: &'static str| -> Result<u64, IoError> {
             let Some(text) = piece.attribute(attribute) else { return Ok(0) };
             let number = text.trim().parse::<u64>();
             let number = number.map_err(|_| piece.wrong(attribute, "a count from 0"))?;
             if number > limits.cells {
                 let (byte, cells, limit) = (piece.byte, u128::from(number), limits.cells);
-                return Err(IoError::TooManyCells { byte, cells, limit });
+                return Err(LimitError::Cells { byte, cells, limit }.into());
             }
             Ok(number)
         };
@@ -90,13 +91,13 @@ fn read_piece(
             "Polys" => data.polys = cells(child, arrays, counts.polys, counts.points)?,
             _ => {
                 let expected = "<PointData>, <CellData>, <Points>, <Verts>, <Lines>, <Strips> or <Polys>";
-                return Err(child.unexpected(expected));
+                return Err(child.unexpected(expected).into());
             }
         }
     }
     if data.points.len() as u64 != counts.points {
         let (byte, parent) = (piece.byte, piece.name.clone());
-        return Err(IoError::XmlMissingElement { byte, parent, element: "Points" });
+        return Err(XmlError::MissingElement { byte, parent, element: "Points" }.into());
     }
     Ok(())
 }
@@ -106,11 +107,11 @@ fn points(section: &Element, arrays: &mut ArrayReader, count: u64) -> Result<Vec
         return Ok(Vec::new());
     }
     let [array] = &section.children[..] else {
-        return Err(section.unexpected("one <DataArray> in <Points>"));
+        return Err(section.unexpected("one <DataArray> in <Points>").into());
     };
     match arrays.read(array, Some(count))? {
         Content::Numbers { components: 3, values, .. } => Ok(values.as_chunks::<3>().0.to_vec()),
-        _ => Err(array.wrong("NumberOfComponents", "3, for points")),
+        _ => Err(array.wrong("NumberOfComponents", "3, for points").into()),
     }
 }
 
@@ -123,14 +124,14 @@ fn cells(section: &Element, arrays: &mut ArrayReader, count: u64, points: u64) -
     let array = |name: &'static str| {
         section.children.iter().find(|c| c.attribute("Name") == Some(name)).ok_or_else(|| {
             let (byte, parent) = (section.byte, section.name.clone());
-            IoError::XmlMissingElement { byte, parent, element: name }
+            XmlError::MissingElement { byte, parent, element: name }
         })
     };
     let (ends, connectivity) = (array("offsets")?, array("connectivity")?);
     let ends_read = indices(arrays, ends, count, u64::MAX)?;
     let total = ends_read.last().copied().unwrap_or_default();
     if !ends_read.is_sorted() {
-        return Err(ends.wrong("Name", "offsets in ascending order"));
+        return Err(ends.wrong("Name", "offsets in ascending order").into());
     }
     let connectivity = indices(arrays, connectivity, total as u64, points)?;
     let mut start = 0;
@@ -147,8 +148,8 @@ fn indices(arrays: &mut ArrayReader, array: &Element, count: u64, limit: u64) ->
     match arrays.read(array, Some(count))? {
         Content::Numbers { components: 1, values, .. } => {
             let index = |v: f64| (v >= 0.0 && v < limit as f64 && v.fract() == 0.0).then_some(v as usize);
-            values.into_iter().map(index).collect::<Option<_>>().ok_or_else(wrong)
+            Ok(values.into_iter().map(index).collect::<Option<_>>().ok_or_else(wrong)?)
         }
-        _ => Err(wrong()),
+        _ => Err(wrong().into()),
     }
 }

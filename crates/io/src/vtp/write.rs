@@ -7,8 +7,9 @@ use crate::{DataArray, IoError, ScalarType};
 /// Writes a file: version 1.0, little-endian, 64-bit headers, zlib blocks, appended raw.
 ///
 /// # Errors
-/// [`IoError::ArraySize`] for an array that does not fill the points or cells, [`IoError::Unwritable`] for names or
-/// texts with control characters, [`IoError::Components`] for an array without components.
+/// [`crate::ArrayError::Size`] for an array that does not fill the points or cells,
+/// [`crate::WriteError::Unwritable`] for names or texts with control characters, [`crate::ArrayError::Components`] for
+/// an array without components.
 pub fn write(data: &PolyData) -> Result<Vec<u8>, IoError> {
     let points = data.points.len();
     let mut writer = Writer::open(Kind::PolyData, "");

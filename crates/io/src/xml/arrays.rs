@@ -3,9 +3,11 @@
 use super::blocks::{Expected, payload};
 use super::compressor::Compressor;
 use super::encoding::{Binary, Stream};
+use super::error::XmlError;
 use super::place::Place;
 use super::tree::{Document, Element};
-use crate::error::shortened;
+use crate::limits::LimitError;
+use crate::text::shortened;
 use crate::{ByteOrder, IoError, Limits, ScalarType};
 use std::borrow::Cow;
 
@@ -42,15 +44,15 @@ impl<'d> ArrayReader<'d> {
         let array = shortened(element.attribute("Name").unwrap_or_default().as_bytes());
         let place = Place { array, byte: element.byte };
         if let Some(step) = element.attribute("TimeStep") {
-            return Err(place.unsupported("TimeStep", step, "data of one time only"));
+            return Err(place.unsupported("TimeStep", step, "data of one time only").into());
         }
         if let Some(byte) = element.markup {
-            return Err(IoError::XmlStructure { byte, expected: "array text without entities or CDATA" });
+            return Err(XmlError::Structure { byte, expected: "array text without entities or CDATA" }.into());
         }
         let kind = element.required("type", SCALARS)?;
         let components = integer(element, "NumberOfComponents", MAX_COMPONENTS)?.unwrap_or(1);
         if components == 0 {
-            return Err(element.wrong("NumberOfComponents", "an integer from 1 to 65536"));
+            return Err(element.wrong("NumberOfComponents", "an integer from 1 to 65536").into());
         }
         let given = integer(element, "NumberOfTuples", u64::MAX)?;
         if matches!(kind, "Bit" | "Variant" | "UnicodeString") || (kind == "String" && tuples.is_some()) {
@@ -62,7 +64,7 @@ impl<'d> ArrayReader<'d> {
         let scalar = ScalarType::from_name(kind).ok_or_else(|| place.unsupported("type", kind, SCALARS))?;
         let tuples = match (tuples, given) {
             (Some(n), Some(m)) if n != m => {
-                return Err(place.size(place.byte, u128::from(m), u128::from(n), "tuples"));
+                return Err(place.size(place.byte, u128::from(m), u128::from(n), "tuples").into());
             }
             (Some(n), _) | (None, Some(n)) => n,
             (None, None) => {
@@ -83,7 +85,7 @@ impl<'d> ArrayReader<'d> {
         count: u128,
     ) -> Result<Vec<f64>, IoError> {
         let left = u64::try_from(count).ok().and_then(|n| self.values_left.checked_sub(n));
-        self.values_left = left.ok_or_else(|| IoError::TooManyValues {
+        self.values_left = left.ok_or_else(|| LimitError::Values {
             array: place.array.clone(),
             byte: place.byte,
             limit: self.limits.values,
@@ -113,7 +115,7 @@ impl<'d> ArrayReader<'d> {
                 values.push(value.ok_or_else(|| place.number(byte, word, scalar.name()))?);
             }
         }
-        if found == count { Ok(values) } else { Err(place.size(place.byte, found, count, "numbers")) }
+        if found == count { Ok(values) } else { Err(place.size(place.byte, found, count, "numbers").into()) }
     }
 
     /// Strings: zero-terminated, in text as the codes of their bytes.
@@ -132,7 +134,7 @@ impl<'d> ArrayReader<'d> {
             for (byte, word) in self.text_words(element) {
                 bytes.push(byte_code(word).ok_or_else(|| place.number(byte, word, "byte (-128 to 255)"))?);
             }
-            return check(&bytes, place.byte);
+            return Ok(check(&bytes, place.byte)?);
         }
         let left = u128::from(self.values_left);
         let (content, length) = self.binary(element, place, Expected::AtMost(left), |bytes, _, byte| {
@@ -175,7 +177,7 @@ impl<'d> ArrayReader<'d> {
                 Stream::new(&inline.0, byte + inline.1, true)
             }
             "appended" => self.appended(element)?,
-            other => return Err(place.unsupported("format", other, FORMATS)),
+            other => return Err(place.unsupported("format", other, FORMATS).into()),
         };
         let byte = stream.byte();
         with(&payload(stream, &binary, expected, place)?, binary.order, byte)
@@ -202,7 +204,7 @@ impl<'d> ArrayReader<'d> {
         let offset: usize = offset.trim().parse().map_err(|_| wrong())?;
         let Some(appended) = &self.document.appended else {
             let (parent, byte) = (self.document.root.name.clone(), self.document.root.byte);
-            return Err(IoError::XmlMissingElement { byte, parent, element: "AppendedData" });
+            return Err(XmlError::MissingElement { byte, parent, element: "AppendedData" }.into());
         };
         let data = &self.document.bytes[appended.range.clone()];
         let data = if appended.base64 { data.trim_ascii_end() } else { data };
@@ -217,13 +219,13 @@ impl<'d> ArrayReader<'d> {
         let order = match root.required("byte_order", orders)? {
             "LittleEndian" => ByteOrder::Little,
             "BigEndian" => ByteOrder::Big,
-            _ => return Err(root.wrong("byte_order", orders)),
+            _ => return Err(root.wrong("byte_order", orders).into()),
         };
         let word = match root.attribute("header_type") {
             // Files from before the attribute existed.
             None | Some("UInt32") => 4,
             Some("UInt64") => 8,
-            Some(_) => return Err(root.wrong("header_type", "UInt32 or UInt64")),
+            Some(_) => return Err(root.wrong("header_type", "UInt32 or UInt64").into()),
         };
         let compressor = match root.attribute("compressor") {
             None | Some("") => Compressor::None,
@@ -231,7 +233,7 @@ impl<'d> ArrayReader<'d> {
             Some("vtkLZ4DataCompressor") => Compressor::Lz4,
             Some(other) => {
                 let expected = "vtkZLibDataCompressor, vtkLZ4DataCompressor or none";
-                return Err(place.unsupported("compressor", other, expected));
+                return Err(place.unsupported("compressor", other, expected).into());
             }
         };
         Ok(Binary { order, word, compressor })
@@ -245,7 +247,7 @@ fn integer(element: &Element, attribute: &str, most: u64) -> Result<Option<u64>,
     let Some(text) = element.attribute(attribute) else { return Ok(None) };
     match text.trim().parse::<u64>() {
         Ok(n) if n <= most => Ok(Some(n)),
-        _ => Err(element.wrong(attribute, "a non-negative integer of sensible size")),
+        _ => Err(element.wrong(attribute, "a non-negative integer of sensible size").into()),
     }
 }
 

@@ -10,7 +10,7 @@
 use super::compressor::Compressor;
 use super::encoding::{Binary, Stream};
 use super::place::Place;
-use crate::IoError;
+use crate::array_error::ArrayError;
 use flate2::read::ZlibDecoder;
 use std::borrow::Cow;
 use std::io::Read as _;
@@ -28,7 +28,7 @@ pub(crate) enum Expected {
 }
 
 impl Expected {
-    fn check(self, found: u128, byte: usize, place: &Place) -> Result<(), IoError> {
+    fn check(self, found: u128, byte: usize, place: &Place) -> Result<(), ArrayError> {
         match self {
             Self::Exactly(expected) if found != expected => Err(place.size(byte, found, expected, "bytes")),
             Self::AtMost(limit) if found > limit => Err(place.size(byte, found, limit, "bytes")),
@@ -43,7 +43,7 @@ pub(crate) fn payload<'a>(
     binary: &Binary,
     expected: Expected,
     place: &Place,
-) -> Result<Cow<'a, [u8]>, IoError> {
+) -> Result<Cow<'a, [u8]>, ArrayError> {
     let start = stream.byte();
     let first = stream.peek_word(binary, place)?;
     if binary.compressor == Compressor::None {
@@ -92,7 +92,7 @@ impl Table {
     }
 
     /// Compares the declared sizes with what is there and with what compression can reach.
-    fn check(&self, stream: &Stream, place: &Place) -> Result<(), IoError> {
+    fn check(&self, stream: &Stream, place: &Place) -> Result<(), ArrayError> {
         let needed: u128 = self.compressed.iter().map(|&c| u128::from(c)).sum();
         if needed > stream.encoded_left() as u128 {
             return Err(place.truncated(stream.byte(), needed, stream.encoded_left()));
@@ -107,7 +107,12 @@ impl Table {
         Ok(())
     }
 
-    fn decompress(&self, mut stream: Stream, method: Compressor, place: &Place) -> Result<Vec<u8>, IoError> {
+    fn decompress(
+        &self,
+        mut stream: Stream,
+        method: Compressor,
+        place: &Place,
+    ) -> Result<Vec<u8>, ArrayError> {
         let start = stream.byte();
         let needed: u128 = self.compressed.iter().map(|&c| u128::from(c)).sum();
         let raw = stream.take(needed, place)?;

@@ -2,7 +2,8 @@
 
 use super::compressor::Compressor;
 use super::place::Place;
-use crate::{ByteOrder, IoError};
+use crate::ByteOrder;
+use crate::array_error::ArrayError;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use std::borrow::Cow;
@@ -56,7 +57,7 @@ impl<'a> Stream<'a> {
 
     /// The next `count` bytes. In base64 they form one run, padded at its end; a run may be continued by another
     /// call if `count` is a multiple of 3.
-    pub(crate) fn take(&mut self, count: u128, place: &Place) -> Result<Cow<'a, [u8]>, IoError> {
+    pub(crate) fn take(&mut self, count: u128, place: &Place) -> Result<Cow<'a, [u8]>, ArrayError> {
         let encoded = if self.base64 { count.div_ceil(3).saturating_mul(4) } else { count };
         let length = match usize::try_from(encoded) {
             Ok(length) if length <= self.rest.len() => length,
@@ -78,7 +79,7 @@ impl<'a> Stream<'a> {
     }
 
     /// The first header number, without moving on.
-    pub(crate) fn peek_word(&self, binary: &Binary, place: &Place) -> Result<u64, IoError> {
+    pub(crate) fn peek_word(&self, binary: &Binary, place: &Place) -> Result<u64, ArrayError> {
         let word = binary.word;
         let length = if self.base64 { 4 * word.div_ceil(3) } else { word };
         let Some(head) = self.rest.get(..length) else {

@@ -1,5 +1,6 @@
 //! What the data sets of VTK XML files have in common: one piece, arrays of points and cells, field data.
 
+use super::error::XmlError;
 use super::{ArrayReader, Content, Element};
 use crate::IoError;
 use crate::image::{ActiveArrays, DataArray, FieldEntry, FieldValues};
@@ -9,14 +10,14 @@ pub(crate) fn data_set<'a>(
     root: &'a Element,
     name: &'static str,
     tag: &'static str,
-) -> Result<&'a Element, IoError> {
+) -> Result<&'a Element, XmlError> {
     if root.name != "VTKFile" {
         return Err(root.unexpected("<VTKFile>"));
     }
     if root.required("type", name)? != name {
         return Err(root.wrong("type", name));
     }
-    let missing = || IoError::XmlMissingElement { byte: root.byte, parent: root.name.clone(), element: name };
+    let missing = || XmlError::MissingElement { byte: root.byte, parent: root.name.clone(), element: name };
     let mut children = root.children.iter();
     let child = children.next().ok_or_else(missing)?;
     if child.name != name {
@@ -29,12 +30,12 @@ pub(crate) fn data_set<'a>(
 }
 
 /// The only `<Piece>` of a data set.
-pub(crate) fn only_piece(set: &Element) -> Result<&Element, IoError> {
+pub(crate) fn only_piece(set: &Element) -> Result<&Element, XmlError> {
     let pieces: Vec<&Element> = set.children.iter().filter(|c| c.name == "Piece").collect();
     match pieces[..] {
         [piece] => Ok(piece),
-        [] => Err(IoError::Pieces { byte: set.byte, pieces: 0 }),
-        [_, second, ..] => Err(IoError::Pieces { byte: second.byte, pieces: pieces.len() }),
+        [] => Err(XmlError::Pieces { byte: set.byte, pieces: 0 }),
+        [_, second, ..] => Err(XmlError::Pieces { byte: second.byte, pieces: pieces.len() }),
     }
 }
 
@@ -53,7 +54,7 @@ pub(crate) fn read_arrays(
     let mut list = Vec::new();
     for child in &element.children {
         if child.name != "DataArray" && child.name != "Array" {
-            return Err(child.unexpected("<DataArray>"));
+            return Err(child.unexpected("<DataArray>").into());
         }
         let name = child.attribute("Name").unwrap_or_default().to_owned();
         match arrays.read(child, Some(tuples))? {
@@ -71,7 +72,7 @@ pub(crate) fn read_arrays(
 
 /// An array that was passed over, for messages.
 pub(crate) fn skipped_words(name: &str, kind: &str) -> String {
-    format!("`{}` ({kind}, no numbers)", crate::error::shortened(name.as_bytes()))
+    format!("`{}` ({kind}, no numbers)", crate::text::shortened(name.as_bytes()))
 }
 
 fn component_names(element: &Element, components: usize) -> Vec<String> {
@@ -94,7 +95,7 @@ pub(crate) fn read_field_data(
 ) -> Result<(), IoError> {
     for child in &element.children {
         if child.name != "DataArray" && child.name != "Array" {
-            return Err(child.unexpected("<DataArray> or <Array>"));
+            return Err(child.unexpected("<DataArray> or <Array>").into());
         }
         let values = match arrays.read(child, None)? {
             Content::Text(strings) => FieldValues::Text(strings),

@@ -3,8 +3,8 @@
 //! Raw appended data may hold any byte, so the XML parser stops at `<AppendedData>`; from there on the file is only
 //! cut, not parsed.
 
-use crate::IoError;
-use crate::error::shortened;
+use super::error::XmlError;
+use crate::text::shortened;
 use quick_xml::XmlVersion;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::reader::Reader;
@@ -48,8 +48,8 @@ impl Element {
         self.attributes.iter().find(|(n, _)| n == name).map(|(_, v)| v.as_str())
     }
 
-    pub(crate) fn required(&self, attribute: &'static str, expected: &'static str) -> Result<&str, IoError> {
-        self.attribute(attribute).ok_or_else(|| IoError::XmlMissingAttribute {
+    pub(crate) fn required(&self, attribute: &'static str, expected: &'static str) -> Result<&str, XmlError> {
+        self.attribute(attribute).ok_or_else(|| XmlError::MissingAttribute {
             byte: self.byte,
             element: self.name.clone(),
             attribute,
@@ -58,8 +58,8 @@ impl Element {
     }
 
     /// The error that an attribute's value is not what it should be.
-    pub(crate) fn wrong(&self, attribute: &str, expected: &'static str) -> IoError {
-        IoError::XmlAttribute {
+    pub(crate) fn wrong(&self, attribute: &str, expected: &'static str) -> XmlError {
+        XmlError::Attribute {
             byte: self.byte,
             element: self.name.clone(),
             attribute: attribute.to_owned(),
@@ -69,19 +69,19 @@ impl Element {
     }
 
     /// The error that this element has no place here.
-    pub(crate) fn unexpected(&self, expected: &'static str) -> IoError {
-        IoError::XmlElement { byte: self.byte, element: self.name.clone(), expected }
+    pub(crate) fn unexpected(&self, expected: &'static str) -> XmlError {
+        XmlError::Element { byte: self.byte, element: self.name.clone(), expected }
     }
 }
 
 impl<'a> Document<'a> {
     /// Parses a file up to its appended data.
-    pub(crate) fn parse(bytes: &'a [u8]) -> Result<Self, IoError> {
+    pub(crate) fn parse(bytes: &'a [u8]) -> Result<Self, XmlError> {
         let mut builder = Builder { open: Vec::new(), root: None, elements: 0 };
         let mut reader = Reader::from_reader(bytes);
         loop {
             let byte = position(&reader);
-            let event = reader.read_event().map_err(|e| IoError::XmlSyntax {
+            let event = reader.read_event().map_err(|e| XmlError::Syntax {
                 byte: usize::try_from(reader.error_position()).unwrap_or(byte),
                 problem: e.to_string(),
             })?;
@@ -102,7 +102,7 @@ impl<'a> Document<'a> {
                 Event::Text(_) => builder.text(byte..after, bytes)?,
                 Event::CData(_) | Event::GeneralRef(_) => builder.markup(byte),
                 Event::DocType(_) => {
-                    return Err(IoError::XmlStructure { byte, expected: "no document type declaration" });
+                    return Err(XmlError::Structure { byte, expected: "no document type declaration" });
                 }
                 Event::Comment(_) | Event::Decl(_) | Event::PI(_) => {}
                 Event::Eof => {
@@ -120,7 +120,7 @@ fn position(reader: &Reader<&[u8]>) -> usize {
 }
 
 /// Finds underscore and closing tag by hand.
-fn cut_appended(bytes: &[u8], element: &Element, after: usize) -> Result<Appended, IoError> {
+fn cut_appended(bytes: &[u8], element: &Element, after: usize) -> Result<Appended, XmlError> {
     let base64 = match element.required("encoding", "raw or base64")? {
         "raw" => false,
         "base64" => true,
@@ -130,10 +130,10 @@ fn cut_appended(bytes: &[u8], element: &Element, after: usize) -> Result<Appende
     let blanks = content.iter().take_while(|b| b.is_ascii_whitespace()).count();
     if content.get(blanks) != Some(&b'_') {
         let expected = "an underscore before the appended data";
-        return Err(IoError::XmlStructure { byte: after + blanks, expected });
+        return Err(XmlError::Structure { byte: after + blanks, expected });
     }
     let start = after + blanks + 1;
-    let end = closing_tag(&bytes[start..]).ok_or(IoError::XmlStructure {
+    let end = closing_tag(&bytes[start..]).ok_or(XmlError::Structure {
         byte: bytes.len(),
         expected: "</AppendedData></VTKFile> at the end of the file",
     })?;
@@ -160,15 +160,15 @@ impl Builder {
         self.open.len() == 1 && tag.name().as_ref() == "AppendedData"
     }
 
-    fn start(&mut self, tag: &BytesStart, byte: usize) -> Result<(), IoError> {
+    fn start(&mut self, tag: &BytesStart, byte: usize) -> Result<(), XmlError> {
         if self.open.is_empty() && self.root.is_some() {
-            return Err(IoError::XmlStructure { byte, expected: "one root element" });
+            return Err(XmlError::Structure { byte, expected: "one root element" });
         }
         if self.open.len() == MAX_DEPTH {
-            return Err(IoError::XmlStructure { byte, expected: "at most 16 nested elements" });
+            return Err(XmlError::Structure { byte, expected: "at most 16 nested elements" });
         }
         if self.elements == MAX_ELEMENTS {
-            return Err(IoError::XmlStructure { byte, expected: "at most 100000 elements" });
+            return Err(XmlError::Structure { byte, expected: "at most 100000 elements" });
         }
         self.elements += 1;
         let element = self.element(tag, byte)?;
@@ -176,9 +176,9 @@ impl Builder {
         Ok(())
     }
 
-    fn element(&self, tag: &BytesStart, byte: usize) -> Result<Element, IoError> {
+    fn element(&self, tag: &BytesStart, byte: usize) -> Result<Element, XmlError> {
         if tag.len() > MAX_TAG_BYTES {
-            return Err(IoError::XmlStructure { byte, expected: "tags of at most 1 MiB" });
+            return Err(XmlError::Structure { byte, expected: "tags of at most 1 MiB" });
         }
         Ok(Element {
             name: tag.name().as_ref().to_owned(),
@@ -200,7 +200,7 @@ impl Builder {
         }
     }
 
-    fn text(&mut self, range: Range<usize>, bytes: &[u8]) -> Result<(), IoError> {
+    fn text(&mut self, range: Range<usize>, bytes: &[u8]) -> Result<(), XmlError> {
         let blank = bytes[range.clone()].trim_ascii().is_empty();
         match self.open.last_mut() {
             Some(_) if blank => Ok(()),
@@ -210,7 +210,7 @@ impl Builder {
             }
             // A byte order mark is part of the first text.
             None if blank || range.start == 0 && &bytes[range.clone()] == b"\xef\xbb\xbf" => Ok(()),
-            None => Err(IoError::XmlStructure { byte: range.start, expected: "an XML element" }),
+            None => Err(XmlError::Structure { byte: range.start, expected: "an XML element" }),
         }
     }
 
@@ -221,19 +221,19 @@ impl Builder {
     }
 
     /// The root; with appended data it is still open.
-    fn finish(mut self, byte: usize, root_open: bool) -> Result<Element, IoError> {
+    fn finish(mut self, byte: usize, root_open: bool) -> Result<Element, XmlError> {
         if root_open {
             self.end();
         }
         match self.root {
             Some(root) if self.open.is_empty() => Ok(root),
-            _ => Err(IoError::XmlStructure { byte, expected: "closed elements at the end of the file" }),
+            _ => Err(XmlError::Structure { byte, expected: "closed elements at the end of the file" }),
         }
     }
 }
 
-fn attributes(tag: &BytesStart, byte: usize) -> Result<Vec<(String, String)>, IoError> {
-    let syntax = |problem: String| IoError::XmlSyntax { byte, problem };
+fn attributes(tag: &BytesStart, byte: usize) -> Result<Vec<(String, String)>, XmlError> {
+    let syntax = |problem: String| XmlError::Syntax { byte, problem };
     let mut list: Vec<(String, String)> = Vec::new();
     // The reader's own check for duplicates takes quadratic time.
     for attribute in tag.attributes().with_checks(false) {
@@ -241,13 +241,13 @@ fn attributes(tag: &BytesStart, byte: usize) -> Result<Vec<(String, String)>, Io
         let value = attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|e| syntax(e.to_string()))?;
         list.push((attribute.key.as_ref().to_owned(), value.into_owned()));
         if list.len() > MAX_ATTRIBUTES {
-            return Err(IoError::XmlStructure { byte, expected: "at most 16384 attributes of an element" });
+            return Err(XmlError::Structure { byte, expected: "at most 16384 attributes of an element" });
         }
     }
     let mut names: Vec<&str> = list.iter().map(|(name, _)| name.as_str()).collect();
     names.sort_unstable();
     if names.windows(2).any(|w| w[0] == w[1]) {
-        return Err(IoError::XmlStructure { byte, expected: "each attribute once" });
+        return Err(XmlError::Structure { byte, expected: "each attribute once" });
     }
     Ok(list)
 }

@@ -1,7 +1,9 @@
 //! VTK XML files: version 1.0, little-endian, 64-bit headers, zlib blocks, appended raw.
 
-use crate::error::shortened;
+use crate::array_error::ArrayError;
 use crate::image::{ActiveArrays, DataArray, FieldEntry, FieldValues};
+use crate::text::shortened;
+use crate::write_error::WriteError;
 use crate::{IoError, ScalarType};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
@@ -124,7 +126,7 @@ impl Writer {
         let expected = tuples.saturating_mul(array.components as u128);
         if found != expected {
             let (array, unit) = (array.name.clone(), "numbers");
-            return Err(IoError::ArraySize { array, byte: self.xml.len(), found, expected, unit });
+            return Err(ArrayError::Size { array, byte: self.xml.len(), found, expected, unit }.into());
         }
         check_components(&array.name, array.components, array.values.len())?;
         let mut names = String::new();
@@ -193,14 +195,14 @@ impl Writer {
 fn check_components(name: &str, components: usize, values: usize) -> Result<usize, IoError> {
     match values.checked_rem(components) {
         Some(0) => Ok(values / components),
-        _ => Err(IoError::Components { array: name.to_owned(), components }),
+        _ => Err(ArrayError::Components { array: name.to_owned(), components }.into()),
     }
 }
 
 /// Strings, each ended by a zero byte.
 fn terminated(name: &str, strings: &[String]) -> Result<Vec<u8>, IoError> {
     if strings.iter().any(|s| s.contains('\0')) {
-        return Err(IoError::Unwritable { name: shortened(name.as_bytes()) });
+        return Err(WriteError::Unwritable { name: shortened(name.as_bytes()) }.into());
     }
     Ok(strings.iter().flat_map(|s| s.bytes().chain([0])).collect())
 }
@@ -208,7 +210,7 @@ fn terminated(name: &str, strings: &[String]) -> Result<Vec<u8>, IoError> {
 /// An attribute's value with what XML reserves escaped.
 fn attribute(text: &str) -> Result<String, IoError> {
     if text.chars().any(char::is_control) {
-        return Err(IoError::Unwritable { name: shortened(text.as_bytes()) });
+        return Err(WriteError::Unwritable { name: shortened(text.as_bytes()) }.into());
     }
     Ok(quick_xml::escape::escape(text).into_owned())
 }

@@ -2,7 +2,8 @@
 
 use std::io::Write as _;
 use tigereye_core::Tensor2;
-use tigereye_io::volume::{Axis, Frame, Known, Lattice, PlaneChoice, Reading, TensorOrder};
+use tigereye_io::picture::PictureError;
+use tigereye_io::volume::{Axis, Frame, Known, Lattice, PlaneChoice, Reading, TensorOrder, VolumeError};
 use tigereye_io::{IoError, Wanted, npy, picture};
 use zip::write::SimpleFileOptions;
 
@@ -91,7 +92,10 @@ fn numbers_and_vectors_are_read_where_they_are_wanted() {
         assert!(message.contains("components first") && message.contains("moveaxis"), "{message}");
     }
     let no_scalar = lattice(&[2, 2, 2], Wanted::Vectors).unwrap();
-    assert!(matches!(no_scalar.scalars(PlaneChoice::default()), Err(IoError::TupleSize { .. })));
+    assert!(matches!(
+        no_scalar.scalars(PlaneChoice::default()),
+        Err(IoError::Volume(VolumeError::TupleSize { .. }))
+    ));
 }
 
 fn archive(files: &[(&str, Vec<u8>)], stored: bool) -> Vec<u8> {
@@ -172,10 +176,34 @@ fn pictures_become_brightness() {
     assert_eq!(picture::size_of_png(&clear).unwrap(), [3, 1]);
     assert!(picture::size_of_png(&clear[..20]).is_err());
     for end in 0..grey.len() - 12 {
-        assert!(matches!(picture::read_png(&grey[..end]), Err(IoError::Png { .. })), "cut at {end}");
+        assert!(
+            matches!(picture::read_png(&grey[..end]), Err(IoError::Picture(PictureError::Png { .. }))),
+            "cut at {end}"
+        );
     }
     // A header that declares more than there is.
     let mut lie = grey.clone();
     lie[16..20].copy_from_slice(&0x7fff_ffff_u32.to_be_bytes());
     assert!(picture::read_png(&lie).is_err());
+}
+
+/// Pixels are taken as stored, so that masks of the same pixels fit; EXIF data that would turn them are said.
+#[test]
+fn orientations_of_pictures_are_said() {
+    let warnings = |orientation: u8| {
+        let mut info = png::Info::with_size(2, 1);
+        let exif = [
+            b"MM\x00\x2a\x00\x00\x00\x08\x00\x01\x01\x12\x00\x03\x00\x00\x00\x01\x00",
+            &[orientation, 0, 0][..],
+        ];
+        info.exif_metadata = Some(exif.concat().into());
+        let mut bytes = Vec::new();
+        let encoder = png::Encoder::with_info(&mut bytes, info).unwrap();
+        encoder.write_header().unwrap().write_image_data(&[0, 255]).unwrap();
+        let lattice = picture::read_png(&bytes).unwrap();
+        assert_eq!(lattice.values, [0.0, 1.0]);
+        lattice.warnings
+    };
+    assert!(warnings(1).is_empty() && warnings(0).is_empty());
+    assert!(warnings(6)[0].contains("orientation 6"), "{:?}", warnings(6));
 }

@@ -2,11 +2,16 @@
 
 use std::io::Write as _;
 use tigereye_core::{Cell, Svd, Tensor2};
+use tigereye_io::npy::NpyError;
+use tigereye_io::nrrd::NrrdError;
 use tigereye_io::volume::{
     ALIASES, Axis, CONVENTIONS, ComponentArrays, Frame, Known, Lattice, Plane, PlaneChoice, Reading, Shear,
-    TensorOrder, documentation, lattice_from_image, lattice_from_points,
+    TensorOrder, VolumeError, documentation, lattice_from_image, lattice_from_points,
 };
-use tigereye_io::{ArrayChoice, DataArray, ImageData, IoError, ScalarType, Wanted, legacy, nifti, npy, nrrd};
+use tigereye_io::{
+    ArrayChoice, ArrayError, ChoiceError, DataArray, ImageData, IoError, ScalarType, Wanted, legacy, nifti,
+    npy, nrrd,
+};
 
 /// Components of one symmetric tensor by their names; no two alike.
 const ENTRIES: [(&str, f64); 6] =
@@ -128,7 +133,7 @@ fn unnamed_numbers_are_assumed_or_said() {
     let by = |order| plane(strain(), Reading { order: Some(order), ..Reading::default() });
     assert_eq!(by("xx,yy,zz,xy"), Ok(EXPECTED));
     assert_eq!(by("abaqus"), Ok(EXPECTED));
-    assert!(matches!(by("vtk"), Err(IoError::Order { .. })));
+    assert!(matches!(by("vtk"), Err(IoError::Volume(VolumeError::Order { .. }))));
 }
 
 #[test]
@@ -141,7 +146,10 @@ fn principal_values_are_no_tensor() {
         for array in [None, Some(name)] {
             let found =
                 lattice_from_image(&image, array, Wanted::Tensors).and_then(|l| plane(l, Reading::default()));
-            assert!(matches!(found, Err(IoError::Principal { .. })), "{name}: {found:?}");
+            assert!(
+                matches!(found, Err(IoError::Volume(VolumeError::Principal { .. }))),
+                "{name}: {found:?}"
+            );
         }
     }
 }
@@ -164,7 +172,10 @@ fn the_tensor_is_taken_before_vectors_and_ids() {
     assert_eq!(lattice_from_image(&cells, None, Wanted::Tensors).unwrap().array, "S_XX, S_YY, S_XY");
     image.point_arrays.push(DataArray::new("strain", 6, vec![0.0; 36]));
     let several = lattice_from_image(&image, None, Wanted::Tensors).unwrap_err();
-    assert!(matches!(&several, IoError::AmbiguousArray { candidates } if candidates.len() == 2), "{several}");
+    assert!(
+        matches!(&several, IoError::Choice(ChoiceError::Ambiguous { candidates }) if candidates.len() == 2),
+        "{several}"
+    );
 }
 
 /// Colours and normals are no tensors, and a tensor beside the active one is said to be left aside.
@@ -177,7 +188,7 @@ fn what_is_beside_the_tensor_is_known() {
     image.point_arrays.push(DataArray::new("N", 3, vec![1.0; 6]));
     image.point_active.marks.push("N".to_owned());
     let refused = lattice_from_image(&image, None, Wanted::Tensors).unwrap_err();
-    assert!(matches!(refused, IoError::NoArray { .. }), "{refused}");
+    assert!(matches!(refused, IoError::Choice(ChoiceError::NoArray { .. })), "{refused}");
     for name in ["a", "b"] {
         image.point_arrays.push(DataArray::new(name, 9, vec![1.0; 18]));
     }
@@ -206,7 +217,7 @@ fn separate_arrays_are_one_tensor() {
         add(&mut parts, name, &[v]);
     }
     let ambiguous = lattice_from_image(&parts, None, Wanted::Tensors);
-    assert!(matches!(ambiguous, Err(IoError::AmbiguousArray { .. })));
+    assert!(matches!(ambiguous, Err(IoError::Choice(ChoiceError::Ambiguous { .. }))));
     // By the words of the message.
     for name in ["S_YY, S_XX, S_XY", "points:S_YY,S_XX,S_XY"] {
         let found = lattice_from_image(&parts, ArrayChoice::Named(name), Wanted::Tensors).unwrap();
@@ -314,7 +325,7 @@ fn positions_of_archives_place_their_cells() {
     let mut uneven = archives[0].clone();
     uneven[0] = member("x", &[3], vec![10.0, 10.5, 12.0]);
     let fault = npy::lattice_of_members(&uneven, ArrayChoice::Usual, Wanted::Tensors);
-    assert!(matches!(fault, Err(IoError::NpzPositions { .. })), "{fault:?}");
+    assert!(matches!(fault, Err(IoError::Npy(NpyError::Positions { .. }))), "{fault:?}");
     // Positions of another size place nothing, and that is said.
     let mut other = archives[0].clone();
     other[0] = member("x", &[4], vec![0.0; 4]);
@@ -394,7 +405,7 @@ fn arrays_that_could_have_their_components_first_are_said() {
     };
     assert_eq!(read(&[3, 40, 4]), Ok(1));
     assert_eq!(read(&[20, 40, 4]), Ok(0));
-    assert!(matches!(read(&[3, 6, 7]), Err(IoError::NpyComponentsFirst { .. })));
+    assert!(matches!(read(&[3, 6, 7]), Err(IoError::Npy(NpyError::ComponentsFirst { .. }))));
     assert_eq!(read(&[20, 6, 7]), Ok(0));
 }
 
@@ -443,7 +454,7 @@ fn engineering_shears_are_halved_once() {
     let open = lattice_from_image(&strain, None, Wanted::Tensors).unwrap();
     assert!(open.tensors(Reading::default()).unwrap().suggests_engineering_shears());
     let nine = lattice_from_image(&image("strain", &[1.0; 9], &[]), None, Wanted::Tensors).unwrap();
-    assert!(matches!(nine.tensors(order("vtk")), Err(IoError::NoSharedShear { .. })));
+    assert!(matches!(nine.tensors(order("vtk")), Err(VolumeError::NoSharedShear { .. })));
 }
 
 fn legacy_bytes(kind: &str, body: &[u8]) -> Vec<u8> {
@@ -502,7 +513,7 @@ fn legacy_files_may_hold_what_nobody_asked_for() {
     );
     // More strings than bytes are refused before anything is counted.
     let huge = legacy_bytes("ASCII", b"FIELD f 1\ns 1 99999999999 string\nx\n");
-    assert!(matches!(legacy::read(&huge), Err(IoError::ArrayTruncated { .. })));
+    assert!(matches!(legacy::read(&huge), Err(IoError::Array(ArrayError::Truncated { .. }))));
 }
 
 fn nrrd_text(fields: &str) -> Result<Lattice, IoError> {
@@ -537,7 +548,7 @@ fn nrrd_axes_that_are_none_are_refused() {
 fn nrrd_of_diffusion_weighted_images_is_refused() {
     for key in ["modality:=DWMRI", "DWMRI_gradient_0000:=1 0 0"] {
         let fault = nrrd_text(&format!("kinds: list domain domain domain\n{key}")).unwrap_err();
-        assert!(matches!(fault, IoError::NrrdWeighted { .. }), "{fault}");
+        assert!(matches!(fault, IoError::Nrrd(NrrdError::Weighted { .. })), "{fault}");
         assert!(nrrd_text(&format!("kinds: 3D-symmetric-matrix domain domain domain\n{key}")).is_ok());
     }
 }
@@ -677,7 +688,10 @@ fn files_are_written_in_the_precision_they_had() {
     }
     let skew = image("t", &[1.0, 2.0, 3.0, 4.0], &[]);
     let skew = lattice_from_image(&skew, None, Wanted::Tensors).unwrap().tensors(Reading::default()).unwrap();
-    assert_eq!(nifti::write(&skew, nifti::WrittenAs::Fsl, ""), Err(IoError::NotSymmetric));
+    assert_eq!(
+        nifti::write(&skew, nifti::WrittenAs::Fsl, ""),
+        Err(IoError::Volume(VolumeError::NotSymmetric))
+    );
 }
 
 /// A points file hides points like an image does.

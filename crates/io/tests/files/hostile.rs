@@ -9,7 +9,8 @@ use tigereye_io::volume::{
     points_from_image,
 };
 use tigereye_io::{
-    DataArray, ImageData, IoError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd, table, vti, vtp,
+    DataArray, DataError, ImageData, IoError, LimitError, Limits, Wanted, legacy, matrices, nifti, npy, nrrd,
+    table, vti, vtp,
 };
 
 #[test]
@@ -61,10 +62,10 @@ fn many_components_do_not_get_around_the_limits() {
     let file = declaring(4, "", &ARRAY.repeat(3), &words(&[32, 0, 0, 0, 0]));
     assert!(vti::read_with_limits(&file, Limits { cells: 4, values: 12 }).is_ok());
     let result = vti::read_with_limits(&file, Limits { cells: 4, values: 11 });
-    assert!(matches!(result, Err(IoError::TooManyValues { limit: 11, .. })));
+    assert!(matches!(result, Err(IoError::Limit(LimitError::Values { limit: 11, .. }))));
     assert!(matches!(
         vti::read_with_limits(&file, Limits { cells: 3, values: 12 }),
-        Err(IoError::TooManyCells { cells: 4, limit: 3, .. })
+        Err(IoError::Limit(LimitError::Cells { cells: 4, limit: 3, .. }))
     ));
 }
 
@@ -310,7 +311,10 @@ fn small_volumes_with_many_voxels_are_refused() {
     let nifti_large = nifti_file(false, &[32767, 32767, 32767, 6], 64, 64, 0, 0.0, &[0; 40]);
     let message = nifti::read(&nifti_large).unwrap_err().to_string();
     assert!(message.contains("cells are declared, the limit is"), "{message}");
-    assert!(matches!(nifti::read_with_limits(&nifti_large, limits), Err(IoError::DataTruncated { .. })));
+    assert!(matches!(
+        nifti::read_with_limits(&nifti_large, limits),
+        Err(IoError::Data(DataError::Truncated { .. }))
+    ));
 }
 
 /// Headers that ask for files elsewhere, or for what is not read.

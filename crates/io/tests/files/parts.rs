@@ -1,7 +1,8 @@
 //! Parts come back as they were written, and no byte of them can be lost or changed unnoticed.
 
 use proptest::prelude::*;
-use tigereye_io::{IoError, part};
+use tigereye_io::part;
+use tigereye_io::part::PartError;
 
 fn small() -> Vec<u8> {
     part::write(
@@ -63,16 +64,16 @@ fn lies_with_a_right_checksum_are_refused_where_they_stand() {
         bytes[at] = byte;
         part::read(&signed(bytes))
     };
-    assert_eq!(with(8, 2), Err(IoError::PartVersion { byte: 8, found: 2, expected: 1 }));
-    assert_eq!(with(12, 1), Err(IoError::PartField { byte: 12, expected: "four zero bytes" }));
-    assert!(matches!(with(50, 0xff), Err(IoError::PartField { byte: 50, .. })));
-    assert!(matches!(with(76, 3), Err(IoError::PartField { byte: 76, .. })));
+    assert_eq!(with(8, 2), Err(PartError::Version { byte: 8, found: 2, expected: 1 }));
+    assert_eq!(with(12, 1), Err(PartError::Field { byte: 12, expected: "four zero bytes" }));
+    assert!(matches!(with(50, 0xff), Err(PartError::Field { byte: 50, .. })));
+    assert!(matches!(with(76, 3), Err(PartError::Field { byte: 76, .. })));
     assert!(with(60, 7).is_ok());
     // Sizes up to 2^64 that the file cannot hold.
     for at in 16..40 {
         for byte in [0, 0x7f, 0xff] {
             if small()[at] != byte {
-                assert!(matches!(with(at, byte), Err(IoError::PartLength { .. })), "byte {at} = {byte}");
+                assert!(matches!(with(at, byte), Err(PartError::Length { .. })), "byte {at} = {byte}");
             }
         }
     }

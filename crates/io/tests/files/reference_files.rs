@@ -4,7 +4,8 @@ use crate::support::{bytes, json};
 use serde_json::Value;
 use tigereye_core::{Cell, Field, Tensor2};
 use tigereye_io::volume::{
-    Frame, Lattice, Plane, PlaneChoice, Reading, TensorVolume, lattice_from_image, lattice_from_points,
+    Frame, Lattice, Plane, PlaneChoice, PlaneError, Reading, TensorVolume, lattice_from_image,
+    lattice_from_points,
 };
 use tigereye_io::{
     DataArray, ImageData, Wanted, legacy, ltg_from_image, matrices, nifti, npy, nrrd, vti, vtp,
@@ -245,7 +246,7 @@ fn layers_need_a_plane() {
     let Some(data) = data_folder(".") else { return };
     let image = vti::read(&bytes(&data, "pointload_ascii.vti")).unwrap();
     let error = crate::support::field_of(&image, None).unwrap_err();
-    assert_eq!(error, tigereye_io::IoError::PlaneNeeded { size: [20; 3] });
+    assert_eq!(error, tigereye_io::IoError::Plane(PlaneError::Needed { size: [20; 3] }));
 }
 
 #[test]

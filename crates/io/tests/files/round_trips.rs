@@ -3,10 +3,11 @@
 use crate::support::{field_of, image_of};
 use proptest::prelude::*;
 use tigereye_core::{Cell, Directions, Field, Grid, LightDistribution, LtgVolume, Tensor2};
-use tigereye_io::volume::PlaneGeometry;
+use tigereye_io::npy::NpyError;
+use tigereye_io::volume::{PlaneGeometry, VolumeError};
 use tigereye_io::{
-    ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData, IoError, Rows, ScalarType, image_from_light,
-    image_from_ltg, ltg_from_image, matrices, npy, vti,
+    ActiveArrays, ArrayError, ChoiceError, DataArray, FieldEntry, FieldValues, ImageData, IoError, Rows,
+    ScalarType, WriteError, image_from_light, image_from_ltg, ltg_from_image, matrices, npy, vti,
 };
 
 fn sample_field(width: usize, height: usize) -> Field<Tensor2> {
@@ -135,10 +136,13 @@ fn the_tensor_array_is_never_guessed() {
     assert!(field_of(&image, None).is_ok_and(|read| read.field.values()[0].is_zero()), "the other one");
     image.point_active.vectors = Some("v".into());
     image.point_arrays.pop();
-    assert!(matches!(field_of(&image, None), Err(IoError::NoArray { .. })));
+    assert!(matches!(field_of(&image, None), Err(IoError::Choice(ChoiceError::NoArray { .. }))));
     image.point_arrays = vec![DataArray::new("five", 5, vec![0.0; 20])];
     let components = field_of(&image, Some("five")).map(drop);
-    assert_eq!(components, Err(IoError::NoTensor { array: "five".into(), components: 5 }));
+    assert_eq!(
+        components,
+        Err(IoError::Volume(VolumeError::NoTensor { array: "five".into(), components: 5 }))
+    );
 }
 
 fn sample_volume(slices: Vec<usize>) -> LtgVolume {
@@ -228,11 +232,11 @@ fn impossible_slices_are_refused() {
         [vec![4.0, 1.0], vec![1.0], vec![1.0, 1.5], vec![-1.0, 2.0], vec![f64::NAN, 2.0], vec![0.0, 1e30]]
     {
         set(&mut image, wrong);
-        assert!(matches!(ltg_from_image(&image), Err(IoError::Slices { .. })));
+        assert!(matches!(ltg_from_image(&image), Err(IoError::Choice(ChoiceError::Slices { .. }))));
     }
     set(&mut image, vec![1.0, 8.0]);
     let volume = ltg_from_image(&image).unwrap().into_volume(Directions::new(8).unwrap());
-    assert!(matches!(volume, Err(IoError::Slices { limit: 8, .. })));
+    assert!(matches!(volume, Err(IoError::Choice(ChoiceError::Slices { limit: 8, .. }))));
 }
 
 fn sample_light() -> LightDistribution {
@@ -288,13 +292,19 @@ fn results_become_arrays_of_the_stated_shapes() {
 fn inconsistent_images_are_not_written() {
     let mut image = ImageData::empty([2, 2, 1]);
     image.point_arrays.push(DataArray::new("short", 1, vec![0.0; 3]));
-    assert!(matches!(vti::write(&image), Err(IoError::ArraySize { found: 3, expected: 4, .. })));
+    assert!(matches!(
+        vti::write(&image),
+        Err(IoError::Array(ArrayError::Size { found: 3, expected: 4, .. }))
+    ));
     image.point_arrays = vec![DataArray::new("none", 0, vec![])];
-    assert!(matches!(vti::write(&image), Err(IoError::Components { .. })));
+    assert!(matches!(vti::write(&image), Err(IoError::Array(ArrayError::Components { .. }))));
     image.point_arrays = vec![DataArray::new("line\nfeed", 1, vec![0.0; 4])];
-    assert!(matches!(vti::write(&image), Err(IoError::Unwritable { .. })));
-    assert!(matches!(vti::write(&ImageData::empty([2, 0, 1])), Err(IoError::EmptyImage { .. })));
-    assert!(matches!(npy::write_array(&[2, 2], &[0.0; 3]), Err(IoError::NpyShape { .. })));
+    assert!(matches!(vti::write(&image), Err(IoError::Write(WriteError::Unwritable { .. }))));
+    assert!(matches!(
+        vti::write(&ImageData::empty([2, 0, 1])),
+        Err(IoError::Write(WriteError::EmptyImage { .. }))
+    ));
+    assert!(matches!(npy::write_array(&[2, 2], &[0.0; 3]), Err(IoError::Npy(NpyError::Shape { .. }))));
 }
 
 proptest! {

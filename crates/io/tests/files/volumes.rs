@@ -3,9 +3,10 @@
 use crate::support::nifti_file;
 use std::io::Write as _;
 use tigereye_core::{Cell, Tensor2};
+use tigereye_io::nifti::NiftiError;
 use tigereye_io::volume::{
-    Axis, Crop, Frame, Known, Lattice, Plane, PlaneChoice, Reading, TensorOrder, TensorVolume, World,
-    image_from_volume, lattice_from_image,
+    Axis, Crop, Frame, Known, Lattice, Plane, PlaneChoice, PlaneError, Reading, TensorOrder, TensorVolume,
+    VolumeError, World, image_from_volume, lattice_from_image,
 };
 use tigereye_io::{IoError, ScalarType, Wanted, legacy, nifti, nrrd, vti};
 
@@ -134,10 +135,13 @@ fn measurement_frames_turn_tensors() {
     // Voxel axis x points up, and y to the left.
     assert_eq!(slice(Some(Frame::Voxel)), Tensor2::symmetric(4.0, -2.0, 1.0));
     let none = nrrd_one_voxel("").tensors(Reading { frame: Some(Frame::Measurement), ..Reading::default() });
-    assert_eq!(none.unwrap_err(), IoError::NoMeasurementFrame);
+    assert_eq!(none.unwrap_err(), VolumeError::NoMeasurementFrame);
     let skewed = nrrd_one_voxel("space directions: none (1,0,0) (0.5,1,0) (0,0,1)");
     let volume = skewed.tensors(Reading::default()).unwrap();
-    assert!(matches!(volume.slice(PlaneChoice::default()), Err(IoError::SkewedAxes { .. })));
+    assert!(matches!(
+        volume.slice(PlaneChoice::default()),
+        Err(IoError::Volume(VolumeError::SkewedAxes { .. }))
+    ));
 }
 
 #[test]
@@ -192,7 +196,10 @@ fn nifti_intents_state_the_order() {
         (&[1, 1, 1, 2, 3], 0, 0.0),
         (&[1, 1, 1, 1, 1, 6], 0, 0.0),
     ] {
-        assert!(matches!(order(shape, intent, p1), Err(IoError::NiftiField { .. })), "{shape:?} {intent}");
+        assert!(
+            matches!(order(shape, intent, p1), Err(IoError::Nifti(NiftiError::Field { .. }))),
+            "{shape:?} {intent}"
+        );
     }
 }
 
@@ -294,8 +301,8 @@ fn legacy_grids_must_be_lattices() {
     let turned = grid("0 0 0 0 2 0 -3 0 0 -3 2 0").unwrap();
     assert_eq!(turned.direction, Some([0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]));
     let fault = grid("0 0 0 2 0 0 0 3 0 2 3.5 0").unwrap_err();
-    assert!(matches!(fault, IoError::NoLattice { .. }), "{fault}");
-    assert!(matches!(grid("0 0 0 0 0 0 0 3 0 0 3 0"), Err(IoError::NoLattice { .. })));
+    assert!(matches!(fault, IoError::Volume(VolumeError::NoLattice { .. })), "{fault}");
+    assert!(matches!(grid("0 0 0 0 0 0 0 3 0 0 3 0"), Err(IoError::Volume(VolumeError::NoLattice { .. }))));
     let rectilinear = |y: &str| {
         let body = format!(
             "DATASET RECTILINEAR_GRID\nDIMENSIONS 2 2 1\nX_COORDINATES 2 float\n0 1\nY_COORDINATES 2 float\n{y}\n\
@@ -304,7 +311,7 @@ fn legacy_grids_must_be_lattices() {
         legacy::read(&legacy_text(&body))
     };
     assert_eq!(rectilinear("1 -2").unwrap().spacing, [1.0, -3.0, 1.0]);
-    assert!(matches!(rectilinear("1 1"), Err(IoError::NoLattice { .. })));
+    assert!(matches!(rectilinear("1 1"), Err(IoError::Volume(VolumeError::NoLattice { .. }))));
 }
 
 #[test]
@@ -349,6 +356,7 @@ fn volume() -> TensorVolume {
         component_names: Vec::new(),
         notes: Vec::new(),
         remarks: Vec::new(),
+        order_remarks: Vec::new(),
         warnings: Vec::new(),
     };
     lattice.tensors(Reading::default()).unwrap()
@@ -377,10 +385,19 @@ fn slices_show_the_last_voxel_on_top() {
 fn planes_that_do_not_fit_are_refused() {
     let volume = volume();
     let choose = |plane, slice| volume.slice(PlaneChoice { plane, slice }).map(|s| s.cut.plane);
-    assert_eq!(choose(None, None), Err(IoError::PlaneNeeded { size: [2, 3, 4] }));
-    assert!(matches!(choose(Some(Plane::Xy), None), Err(IoError::SliceNeeded { last: 3, .. })));
-    assert!(matches!(choose(Some(Plane::Xy), Some((Axis::X, 0))), Err(IoError::PlaneConflict { .. })));
-    assert!(matches!(choose(None, Some((Axis::X, 2))), Err(IoError::SliceRange { last: 1, .. })));
+    assert_eq!(choose(None, None), Err(IoError::Plane(PlaneError::Needed { size: [2, 3, 4] })));
+    assert!(matches!(
+        choose(Some(Plane::Xy), None),
+        Err(IoError::Plane(PlaneError::SliceNeeded { last: 3, .. }))
+    ));
+    assert!(matches!(
+        choose(Some(Plane::Xy), Some((Axis::X, 0))),
+        Err(IoError::Plane(PlaneError::Conflict { .. }))
+    ));
+    assert!(matches!(
+        choose(None, Some((Axis::X, 2))),
+        Err(IoError::Plane(PlaneError::SliceRange { last: 1, .. }))
+    ));
     assert_eq!(choose(Some(Plane::Xz), Some((Axis::Y, 2))), Ok(Plane::Xz));
     let flat = [([5, 1, 4], Plane::Xz), ([1, 5, 4], Plane::Yz), ([5, 1, 1], Plane::Xy)];
     for (size, plane) in flat {
@@ -395,7 +412,7 @@ fn crops_count_from_the_top_left() {
     assert_eq!((part.grid().width(), part.grid().height()), (1, 2));
     assert_eq!(part.at(Cell::new(0, 0)), field.at(Cell::new(1, 0)));
     for (x, y) in [([0, 3], [0, 1]), ([1, 1], [0, 1]), ([2, 1], [0, 1]), ([0, 1], [0, 4])] {
-        assert!(matches!(Crop { x, y }.of(&field), Err(IoError::CropRange { .. })));
+        assert!(matches!(Crop { x, y }.of(&field), Err(IoError::Plane(PlaneError::CropRange { .. }))));
     }
 }
 
@@ -437,6 +454,7 @@ fn scalars(size: [usize; 3], axes: [[f64; 3]; 3], origin: [f64; 3], world: &str)
         component_names: Vec::new(),
         notes: Vec::new(),
         remarks: Vec::new(),
+        order_remarks: Vec::new(),
         warnings: Vec::new(),
     }
 }

@@ -7,7 +7,9 @@ use tigereye_io::volume::{
     Frame, PlaneChoice, PlaneGeometry, Reading, TensorVolume, image_from_volume, lattice_from_image,
     lattice_from_points,
 };
-use tigereye_io::{Cells, DataArray, ImageData, IoError, PolyData, Wanted, legacy, nifti, nrrd, vtp};
+use tigereye_io::{
+    ArrayError, Cells, DataArray, ImageData, IoError, PolyData, Wanted, WriteError, legacy, nifti, nrrd, vtp,
+};
 
 fn field(symmetric: bool) -> Field<Tensor2> {
     Field::from_fn(Grid::new(5, 4).unwrap(), |c| {
@@ -148,14 +150,20 @@ fn what_formats_cannot_hold_is_refused() {
     let message = nifti::write(&long, nifti::WrittenAs::Matrices, "").unwrap_err().to_string();
     assert!(message.contains("40000 x 3 x 1") && message.contains("32767"), "{message}");
     let mut image = ImageData::empty([2, 1, 1]);
-    assert!(matches!(legacy::write(&image, &"t".repeat(256)), Err(IoError::Unwritable { .. })));
-    assert!(matches!(legacy::write(&image, "two\nlines"), Err(IoError::Unwritable { .. })));
+    assert!(matches!(
+        legacy::write(&image, &"t".repeat(256)),
+        Err(IoError::Write(WriteError::Unwritable { .. }))
+    ));
+    assert!(matches!(
+        legacy::write(&image, "two\nlines"),
+        Err(IoError::Write(WriteError::Unwritable { .. }))
+    ));
     image.point_arrays.push(DataArray::new("a b", 1, vec![1.0, 2.0]));
-    assert!(matches!(legacy::write(&image, ""), Err(IoError::Unwritable { .. })));
+    assert!(matches!(legacy::write(&image, ""), Err(IoError::Write(WriteError::Unwritable { .. }))));
     image.point_arrays[0] = DataArray::new("a", 1, vec![1.0]);
-    assert!(matches!(legacy::write(&image, ""), Err(IoError::ArraySize { .. })));
+    assert!(matches!(legacy::write(&image, ""), Err(IoError::Array(ArrayError::Size { .. }))));
     image.dimensions = [0, 1, 1];
-    assert!(matches!(legacy::write(&image, ""), Err(IoError::EmptyImage { .. })));
+    assert!(matches!(legacy::write(&image, ""), Err(IoError::Write(WriteError::EmptyImage { .. }))));
 }
 
 /// Poly data with all kinds of cells, and arrays on points and cells.

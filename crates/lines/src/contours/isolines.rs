@@ -2,16 +2,16 @@
 
 use crate::Polylines;
 use crate::chains::{chained, without_repetitions};
-use tigereye_core::{Cell, Field};
+use tigereye_core::{Cell, Field, Point};
 
-/// Places this near to each other, in cells, are one.
+/// Points closer to each other than this, in cells, are merged.
 const SAME: f64 = 1e-9;
 
-/// The lines where values, linear along the edges between centres of cells, reach `level` (marching squares, Lorensen
-/// and Cline 1987). Where both pairs of opposite corners lie on different sides, the bilinear value decides which are
-/// connected (the asymptotic decider, Nielson and Hamann 1991). Values equal to the level count as above it. Lines
-/// end at the border and beside cells that are not finite; those that lie in one point are left out. None for a level
-/// that is not finite.
+/// The lines on which values, linear along the edges between centres of cells, equal `level` (marching squares,
+/// Lorensen and Cline 1987). In an ambiguous square, with opposite corners on the same side, the bilinear value at its
+/// saddle decides which corners are connected (the asymptotic decider, Nielson and Hamann 1991). Values equal to the
+/// level count as above it. Lines end at the border and beside non-finite cells; lines that shrink to a point are
+/// omitted. A level that is not finite has no lines.
 #[must_use]
 pub fn isolines(field: &Field<f64>, level: f64) -> Polylines {
     let grid = field.grid();
@@ -31,7 +31,7 @@ pub fn isolines(field: &Field<f64>, level: f64) -> Polylines {
                     && let Some(t) = crossing(at(x, y), at(x + dx, y + dy), level)
                 {
                     on_edges[y * width + x][d] = shape.points.len() as u32;
-                    shape.points.push([x as f64 + t * dx as f64, y as f64 + t * dy as f64]);
+                    shape.points.push(Point::new(x as f64 + t * dx as f64, y as f64 + t * dy as f64));
                 }
             }
         }
@@ -52,7 +52,7 @@ pub fn isolines(field: &Field<f64>, level: f64) -> Polylines {
     compact(shape)
 }
 
-/// Where between two values the level is reached, if they are finite and lie on different sides.
+/// The fraction between two values at which the level is reached, if they are finite and lie on different sides of it.
 pub(crate) fn crossing(a: f64, b: f64, level: f64) -> Option<f64> {
     if !(a.is_finite() && b.is_finite()) || (a >= level) == (b >= level) {
         return None;
@@ -61,7 +61,7 @@ pub(crate) fn crossing(a: f64, b: f64, level: f64) -> Option<f64> {
     Some(((0.5 * level - 0.5 * a) / (0.5 * b - 0.5 * a)).clamp(0.0, 1.0))
 }
 
-/// The segments in a square: corners in turn, edge i from corner i to the next.
+/// The segments in a square: corners in order, edge i from corner i to the next.
 fn in_square(corners: [f64; 4], edges: [u32; 4], level: f64) -> impl Iterator<Item = [u32; 2]> {
     let crossed: Vec<u32> = edges.into_iter().filter(|&e| e != u32::MAX).collect();
     let pairs = match crossed[..] {
@@ -83,7 +83,7 @@ fn in_square(corners: [f64; 4], edges: [u32; 4], level: f64) -> impl Iterator<It
     pairs.into_iter().flatten()
 }
 
-/// Without the points that no line needs.
+/// Drops the points that belong to no line.
 fn compact(shape: Polylines) -> Polylines {
     let mut found = Polylines::default();
     for mut line in shape.lines {

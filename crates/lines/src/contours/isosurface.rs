@@ -4,11 +4,11 @@ use super::isolines::crossing;
 use crate::tetrahedra::{Crossing, Edges, march};
 use crate::{Surface, Volume};
 
-/// The surface where values, linear on tetrahedra between samples, reach `level` (marching tetrahedra). Periodic axes
-/// close; see [`Surface`] for the seam. The normals of the triangles, by the right-hand rule in x, y and the third
+/// The surface on which values, linear on tetrahedra between samples, equal `level` (marching tetrahedra). Periodic
+/// axes close; see [`Surface`] for the seam. The normals of the triangles, by the right-hand rule in x, y and the third
 /// axis, point to lower values. Values equal to the level count as above it. The surface ends at open borders and
-/// beside samples that are not finite. None for a level that is not finite, nor for a volume with fewer than two
-/// samples along an axis.
+/// beside non-finite samples. It is empty for a level that is not finite, and for a volume with fewer than two samples
+/// along an axis.
 #[must_use]
 pub fn isosurface(volume: &Volume<'_>, level: f64) -> Surface {
     if !level.is_finite() || volume.size().iter().any(|&s| s < 2) {

@@ -4,22 +4,22 @@ use crate::shapes::{cross, dot};
 use crate::spline::Jet;
 use tigereye_core::math;
 
-/// What a jet says about the crest through its point, in scaled lengths.
+/// The crest through a point, from the jet there, in scaled lengths.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crest {
     pub(crate) value: f64,
-    /// Unit eigenvector of the smallest eigenvalue of the Hessian; its sign means nothing.
+    /// Unit eigenvector of the smallest eigenvalue of the Hessian; its sign is arbitrary.
     pub(crate) across: [f64; 3],
     /// Derivative along it.
     pub(crate) slope: f64,
     /// Minus the smallest eigenvalue: how fast the value falls off to both sides.
     pub(crate) strength: f64,
-    /// How far the next eigenvalue is from the smallest.
+    /// Distance of the next eigenvalue from the smallest.
     pub(crate) gap: f64,
 }
 
 impl Crest {
-    /// Of a jet per sample, where samples are `unit` long. A planar one knows nothing of the third axis.
+    /// From a jet in samples, where samples are `unit` long. If `planar`, the third axis is ignored.
     pub(crate) fn of(jet: &Jet, unit: [f64; 3], planar: bool) -> Self {
         let g = [0, 1, 2].map(|d| jet.gradient[d] / unit[d]);
         let [xx, xy, xz, yy, yz, zz] = jet.hessian;
@@ -29,7 +29,7 @@ impl Crest {
         Self { value: jet.value, across, slope: dot(across, g), strength: -smallest, gap }
     }
 
-    /// Turned so that it points to the same side as `side`.
+    /// The same crest with the sign of its eigenvector that agrees with `side`.
     pub(crate) fn towards(self, side: [f64; 3]) -> Self {
         if dot(self.across, side) < 0.0 {
             Self { across: self.across.map(|v| -v), slope: -self.slope, ..self }
@@ -44,16 +44,16 @@ impl Crest {
 fn smallest2(a: f64, b: f64, c: f64) -> (f64, f64, [f64; 3]) {
     let half = 0.5 * (a - c);
     let radius = (half * half + b * b).sqrt();
-    // The longer of two ways to write the same direction: nothing cancels.
+    // The longer of two representations of the same direction: without cancellation.
     let v = if half >= 0.0 { [-b, half + radius, 0.0] } else { [radius - half, -b, 0.0] };
     let size = (v[0] * v[0] + v[1] * v[1]).sqrt();
     let v = if size > 0.0 { v.map(|x| x / size) } else { [1.0, 0.0, 0.0] };
     (0.5 * (a + c) - radius, 2.0 * radius, v)
 }
 
-/// Smallest eigenvalue, its distance to the next and its eigenvector, of a symmetric 3x3 matrix `[xx, xy, xz, yy, yz,
-/// zz]`: the root of the characteristic polynomial by its angle (Smith 1961), the vector as the longest product of
-/// two rows of what is left. Where the two smallest eigenvalues are equal, it is any direction.
+/// Smallest eigenvalue, its distance to the next and its eigenvector, of a symmetric 3x3 matrix (xx, xy, xz, yy, yz,
+/// zz): the root of the characteristic polynomial by its angle (Smith 1961), the vector as the longest cross product of
+/// two rows of the matrix minus the eigenvalue. If the two smallest eigenvalues are equal, its direction is arbitrary.
 fn smallest3(h: [f64; 6]) -> (f64, f64, [f64; 3]) {
     const ALONG_X: [f64; 3] = [1.0, 0.0, 0.0];
     let largest = h.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
@@ -72,7 +72,7 @@ fn smallest3(h: [f64; 6]) -> (f64, f64, [f64; 3]) {
     let r = (0.5 * determinant / (p * p * p)).clamp(-1.0, 1.0);
     let off_mean = 2.0 * p * math::cos((math::acos(r) + math::TAU) / 3.0);
     let smallest = mean + off_mean;
-    // The other two from their sum and the sum of squares.
+    // The other two follow from the trace and the sum of squares.
     let gap = -1.5 * off_mean - 0.5 * (12.0 * p * p - 3.0 * off_mean * off_mean).max(0.0).sqrt();
     let rows = [[xx - smallest, xy, xz], [xy, yy - smallest, yz], [xz, yz, zz - smallest]];
     let mut best = (0.0, ALONG_X);
@@ -91,8 +91,7 @@ fn smallest3(h: [f64; 6]) -> (f64, f64, [f64; 3]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tigereye_core::symmetric_eigenvalues3;
-    use tigereye_test_support::Random;
+    use tigereye_core::{SplitMix64, symmetric_eigenvalues3};
 
     fn residual(h: [f64; 6], l: f64, v: [f64; 3]) -> f64 {
         let [xx, xy, xz, yy, yz, zz] = h;
@@ -102,16 +101,16 @@ mod tests {
 
     #[test]
     fn eigenvectors_are_eigenvectors() {
-        let mut numbers = Random::seeded(7);
+        let mut numbers = SplitMix64::new(7);
         let mut random = move || numbers.unit() - 0.5;
         for _ in 0..2000 {
             let h: [f64; 6] = core::array::from_fn(|_| random());
             let (l, gap, v) = smallest3(h);
             let [_, next, expected] =
                 symmetric_eigenvalues3(&[h[0], h[1], h[2], h[1], h[3], h[4], h[2], h[4], h[5]]);
-            // Roots of rounding, where the two other eigenvalues are near each other.
+            // The square root of rounding, if the two other eigenvalues are close to each other.
             assert!((gap - (next - expected)).abs() < 1e-7, "{h:?}");
-            // A product of rows loses digits where two eigenvalues are near each other: at random, three of them.
+            // A cross product of rows loses digits if two eigenvalues are close: among random ones, three.
             assert!((l - expected).abs() < 1e-13 && residual(h, l, v) < 1e-11, "{h:?}");
             let (l, gap, v) = smallest2(h[0], h[1], h[3]);
             assert!(residual([h[0], h[1], 0.0, h[3], 0.0, 0.0], l, v) < 1e-15 && v[2] == 0.0, "{h:?}");
@@ -120,7 +119,7 @@ mod tests {
         }
     }
 
-    /// A crest has one strong curvature and two weak ones: the case that matters is as exact as rounding allows.
+    /// A crest has one strong curvature and two weak ones: the case that matters is accurate to rounding.
     #[test]
     fn the_direction_across_a_crest_is_exact() {
         for v in [
@@ -139,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn matrices_without_directions_have_some() {
+    fn isotropic_and_broken_matrices_have_a_unit_vector() {
         for h in [[0.0; 6], [2.0, 0.0, 0.0, 2.0, 0.0, 2.0], [f64::NAN; 6], [f64::INFINITY; 6]] {
             let (_, _, v) = smallest3(h);
             assert_eq!(dot(v, v), 1.0);

@@ -6,7 +6,7 @@ use crate::chains::{chained, without_repetitions};
 use crate::tetrahedra::{Crossing, Edges};
 use crate::{ExtractionError, Polyline, Polylines, RidgeOptions, Volume};
 use rayon::prelude::*;
-use tigereye_core::Field;
+use tigereye_core::{Field, Point};
 
 /// Ridge lines of a field, the longest first.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,22 +23,21 @@ pub struct RidgeLines {
     pub bounds: RidgeBounds,
 }
 
-/// Places this near to each other, in cells, are one.
+/// Points closer to each other than this, in cells, are merged.
 const SAME: f64 = 1e-6;
 
 /// The height ridges of a field: points where the slope along the eigenvector of the smallest eigenvalue of the
 /// Hessian is zero and that eigenvalue is negative (Eberly, Ridges in Image and Data Analysis, 1996). The field is
-/// interpolated by a quintic spline; ridges are searched on a mesh of `samples_per_cell` steps a cell and their
+/// interpolated by a quintic spline; ridges are searched on a mesh of `samples_per_cell` steps per cell and their
 /// points refined along its edges until the slope vanishes.
 ///
-/// Cells that are not finite are missing: rows and columns at the border without any value are cut off, and where one
-/// of the six by six cells around a point is missing there are no ridges. Nor are there any in the margin
-/// ([`RidgeOptions::margin`]). Constant fields and fields thinner than two cells have no ridges. What is narrower
-/// than a cell makes the spline swing beside it, by a fifth or so: such crests have weak companions, which
-/// [`RidgeOptions::least_value`] and `least_strength` take away.
+/// Non-finite cells are missing: rows and columns at the border without any value are cut off, and there are no ridges
+/// where one of the six by six cells around a point is missing, nor in the margin ([`RidgeOptions::margin`]). Constant
+/// fields and fields thinner than two cells have no ridges. Beside crests narrower than a cell the spline oscillates by
+/// about a fifth, which produces weak companions; [`RidgeOptions::least_value`] and `least_strength` remove them.
 ///
 /// # Errors
-/// [`ExtractionError::Option`] for an option out of range, [`ExtractionError::MeshSize`] where the mesh has too many
+/// [`ExtractionError::Option`] for an option out of range, [`ExtractionError::MeshSize`] if the mesh has too many
 /// nodes.
 pub fn ridge_lines(field: &Field<f64>, options: &RidgeOptions) -> Result<RidgeLines, ExtractionError> {
     let options = RidgeOptions { cell: [options.cell[0], options.cell[1], 1.0], ..*options };
@@ -49,11 +48,12 @@ pub fn ridge_lines(field: &Field<f64>, options: &RidgeOptions) -> Result<RidgeLi
     let nodes = mesh.layer(0);
     let row = |j: usize| row_of_edges(&mesh, &nodes, j);
     let rows: Vec<Vec<[Mark; 3]>> = (0..ny).into_par_iter().map(row).collect();
+    // Number the points by the edge they lie on, in the order of nodes, whatever thread found them.
     let mut found = RidgeLines::default();
     let mut on_edges = vec![[NONE; 3]; nodes.len()];
     for (i, marks) in rows.into_iter().flatten().enumerate() {
         for (d, mark) in marks.into_iter().enumerate() {
-            if let Mark::Point { position, value, strength } = mark {
+            if let Mark::At { position, value, strength } = mark {
                 on_edges[i][d] = found.value.len() as u32;
                 found.shape.points.push(position);
                 found.value.push(value);
@@ -64,27 +64,28 @@ pub fn ridge_lines(field: &Field<f64>, options: &RidgeOptions) -> Result<RidgeLi
         }
     }
     found.bounds = mesh.bounds();
+    // Join the crossings within each triangle, and the segments to lines.
     let segments = segments(&on_edges, [nx, ny]);
     let mut lines = chained(found.value.len(), &segments);
     without_repetitions(&mut lines, &found.shape.points, SAME);
     Ok(found.with(lines, &options))
 }
 
-/// In place of a point: there is none.
+/// Stands for an edge without a point.
 const NONE: u32 = u32::MAX;
-/// In place of a point: rejected.
+/// Stands for an edge whose point was rejected.
 const REJECTED: u32 = u32::MAX - 1;
 
-/// What is on an edge.
+/// The crossing of an edge.
 enum Mark {
     None,
     Rejected,
-    Point { position: [f64; 2], value: f64, strength: f64 },
+    At { position: Point, value: f64, strength: f64 },
 }
 
-/// Whether the square right of and below a node is cut from its upper left to its lower right corner, instead of from
-/// the upper right to the lower left one. Neighbours take turns: of an even number of squares the mesh is its own
-/// mirror image, so that no direction of ridges is favoured.
+/// Whether the square to the lower right of a node is cut from its upper left to its lower right corner, rather than
+/// from the upper right to the lower left one. Neighbouring squares alternate, so that a mesh of an even number of
+/// squares is its own mirror image and no direction of ridges is favoured.
 const fn falls(i: usize, j: usize) -> bool {
     (i + j).is_multiple_of(2)
 }
@@ -109,7 +110,7 @@ fn row_of_edges(mesh: &RidgeMesh, nodes: &[Node], j: usize) -> Vec<[Mark; 3]> {
                 let [i, j] = [0, 1].map(|d| from[d] as f64 + at * (to[d] as f64 - from[d] as f64));
                 let [x, y, _] = mesh.in_volume([i, j, 0.0]);
                 let [value, strength] = [value, strength].map(|v| mesh.unscaled(v));
-                Mark::Point { position: [x, y], value, strength }
+                Mark::At { position: Point::new(x, y), value, strength }
             }
         }
     };
@@ -124,7 +125,7 @@ fn segments(on_edges: &[[u32; 3]], [nx, ny]: [usize; 2]) -> Vec<[u32; 2]> {
             let node = j * nx + i;
             let [top, left, across] = on_edges[node];
             let (right, bottom) = (on_edges[node + 1][1], on_edges[node + nx][0]);
-            // Which sides meet at the corners that the cut leaves.
+            // The sides that meet at the two corners off the diagonal.
             let corners =
                 if falls(i, j) { [[top, right], [left, bottom]] } else { [[top, left], [right, bottom]] };
             for [a, b] in corners {
@@ -143,7 +144,7 @@ fn segments(on_edges: &[[u32; 3]], [nx, ny]: [usize; 2]) -> Vec<[u32; 2]> {
 }
 
 impl RidgeLines {
-    /// With those of `lines` that are long enough, longest first, and the points they need.
+    /// Keeps those of `lines` that are long enough, longest first, with their points only.
     fn with(self, lines: Vec<Polyline>, options: &RidgeOptions) -> Self {
         let cell = [options.cell[0], options.cell[1]];
         let mut measured: Vec<(f64, Polyline)> =

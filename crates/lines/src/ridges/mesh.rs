@@ -16,38 +16,38 @@ pub(crate) struct RidgeMesh {
     known: Known,
     /// Nodes along each axis.
     nodes: [usize; 3],
-    /// Steps a sample.
+    /// Steps per sample.
     steps: f64,
     /// Length of a sample along each axis.
     unit: [f64; 3],
     bounds: RidgeBounds,
-    /// Weaker crests are rejected: the bound, or what rounding makes.
+    /// Weaker crests are rejected: the larger of the bound and the rounding error.
     weakest: f64,
     least_sharpness: f64,
-    /// First and last place, in samples, where ridges are taken.
+    /// First and last position, in samples, at which ridges are accepted.
     inner: [[f64; 2]; 3],
     taps: [Vec<Taps>; 2],
 }
 
-/// A node: its crest, of no strength (not a number) where values are missing.
+/// The crest at a node; its strength is NaN if values around it are missing.
 pub(crate) type Node = Crest;
 
-/// Most evaluations along an edge. False position gains digits nearly as fast as the secant method: six reach
-/// rounding where the slope is smooth.
+/// Largest number of evaluations along an edge. Regula falsi converges nearly as fast as the secant method: six reach
+/// rounding if the slope is smooth.
 const EVALUATIONS: usize = 12;
-/// The slope that is left at a crossing, relative to the slope at the ends. More is left where the eigenvector jumps.
+/// Largest slope accepted at a crossing, relative to the slope at the ends; more remains if the eigenvector jumps.
 const LEFT: f64 = 1e-3;
-/// Slopes that vanish within this distance (in samples) are zero.
+/// Slopes that would vanish within this distance (in samples) count as zero.
 const FLAT: f64 = 1e-6;
-/// Crossings are closed in on to this distance, in samples.
+/// Accuracy of crossings, in samples.
 const ENOUGH: f64 = 1e-9;
 /// Axes with fewer samples have no margin.
 const SHORT: usize = 6;
-/// How far aside, in samples, the values on a crest are compared with.
+/// Distance on either side, in samples, at which values are compared with that on a crest.
 const ASIDE: f64 = 0.75;
 
 impl RidgeMesh {
-    /// `None` where no value is finite.
+    /// `None` if no value is finite.
     pub(crate) fn new(volume: &Volume<'_>, options: &RidgeOptions) -> Result<Option<Self>, ExtractionError> {
         options.check()?;
         let Some(known) = Known::new(volume) else { return Ok(None) };
@@ -89,14 +89,14 @@ impl RidgeMesh {
         Crest::of(&self.known.spline.jet(sample), self.unit, self.planar())
     }
 
-    /// The place of a point in nodes, in samples of the spline.
-    fn sample(&self, place: [f64; 3]) -> [f64; 3] {
-        place.map(|v| v / self.steps)
+    /// From nodes to samples of the spline.
+    fn sample(&self, nodes: [f64; 3]) -> [f64; 3] {
+        nodes.map(|v| v / self.steps)
     }
 
-    /// The place of a point in nodes, in samples of the volume.
-    pub(crate) fn in_volume(&self, place: [f64; 3]) -> [f64; 3] {
-        let sample = self.sample(place);
+    /// From nodes to samples of the volume.
+    pub(crate) fn in_volume(&self, nodes: [f64; 3]) -> [f64; 3] {
+        let sample = self.sample(nodes);
         [0, 1, 2].map(|d| sample[d] + self.known.first[d] as f64)
     }
 
@@ -113,13 +113,13 @@ impl RidgeMesh {
         self.bounds
     }
 
-    /// Whether a point in samples is away from missing samples and open borders.
+    /// Whether a point in samples is far enough from missing samples and open borders.
     fn counts(&self, sample: [f64; 3]) -> bool {
         (0..3).all(|d| self.inner[d][0] <= sample[d] && sample[d] <= self.inner[d][1])
             && self.known.is_known(sample)
     }
 
-    /// The largest strength at a sample with all others around it, 0 where there is none.
+    /// The largest strength of a sample with complete surroundings, 0 if no sample has them.
     fn strongest(&self) -> f64 {
         let axes = self.known.spline.axes();
         let [x, y] = [0, 1].map(|d| (0..axes[d].samples).map(|i| axes[d].taps(i as f64)).collect::<Vec<_>>());
@@ -131,15 +131,16 @@ impl RidgeMesh {
             });
             strengths.into_iter().fold(0.0, f64::max)
         };
-        // The largest of numbers does not depend on their order.
+        // A maximum does not depend on the order.
         (0..axes[2].samples).into_par_iter().map(in_plane).reduce(|| 0.0, f64::max)
     }
 
-    /// The crossing of an edge whose ends have slopes of different sign, `b` turned like `a`: where, and the crest
-    /// there.
-    fn bisected(&self, a: (&Crest, [f64; 3]), b: (&Crest, [f64; 3])) -> (f64, [f64; 3], Crest) {
+    /// The crossing of an edge whose ends have slopes of different sign, `b` aligned with `a`: its fraction of the
+    /// edge, its position in samples, and the crest there.
+    fn refined(&self, a: (&Crest, [f64; 3]), b: (&Crest, [f64; 3])) -> (f64, [f64; 3], Crest) {
         let on = |t: f64| self.sample([0, 1, 2].map(|d| a.1[d] + t * (b.1[d] - a.1[d])));
         let side = |t: f64| [0, 1, 2].map(|d| (1.0 - t) * a.0.across[d] + t * b.0.across[d]);
+        // Regula falsi: the bracket always holds a change of sign, whatever the eigenvectors do between its ends.
         let (mut low, mut high) = ((0.0, a.0.slope), (1.0, b.0.slope));
         let mut best = if low.1.abs() <= high.1.abs() { (0.0, *a.0) } else { (1.0, *b.0) };
         let shortest = self.shortest();
@@ -153,7 +154,7 @@ impl RidgeMesh {
             if crest.slope.abs() <= best.1.slope.abs() {
                 best = (t, crest);
             }
-            // An end that stays for the second time counts half (the Illinois rule).
+            // The slope of an end kept twice in a row is halved (the Illinois rule).
             let lower = (crest.slope >= 0.0) == (a.0.slope >= 0.0);
             let share = if moved == Some(lower) { 0.5 } else { 1.0 };
             if lower {
@@ -166,23 +167,23 @@ impl RidgeMesh {
         (best.0, on(best.0), best.1)
     }
 
-    /// How far the value falls to both sides along the eigenvectors, as a part of what the strength alone would make
-    /// of it. Values are known to a higher order than slopes and curvatures, so this is what tells crests from errors
-    /// of the interpolation.
+    /// The fall of the value to both sides along the eigenvectors, relative to the fall that the strength alone
+    /// predicts. Values are accurate to a higher order than slopes and curvatures, so this separates crests from
+    /// artefacts of the interpolation.
     fn sharpness(&self, sample: [f64; 3], crest: &Crest) -> f64 {
         let step = [0, 1, 2].map(|d| crest.across[d] / self.unit[d]);
         let reach = ASIDE / dot(step, step).sqrt();
-        let gone = |across: [f64; 3], s: f64| [0, 1, 2].map(|d| sample[d] + s * across[d] / self.unit[d]);
+        let beyond = |across: [f64; 3], s: f64| [0, 1, 2].map(|d| sample[d] + s * across[d] / self.unit[d]);
         // The midpoint rule follows the eigenvectors where they turn.
         let beside = |s: f64| {
-            let halfway = self.crest(gone(crest.across, 0.5 * s)).towards(crest.across);
-            self.known.spline.value(gone(halfway.across, s))
+            let halfway = self.crest(beyond(crest.across, 0.5 * s)).towards(crest.across);
+            self.known.spline.value(beyond(halfway.across, s))
         };
         (2.0 * crest.value - beside(reach) - beside(-reach)) / (reach * reach * crest.strength)
     }
 }
 
-/// What is left of an axis without the margin of its open ends.
+/// The range of an axis without the margin at its open ends.
 fn inner(axis: Axis, margin: usize) -> [f64; 2] {
     if axis.periodic || axis.samples < SHORT {
         return [f64::NEG_INFINITY, f64::INFINITY];
@@ -207,21 +208,23 @@ impl Edges for RidgeMesh {
         })
     }
 
-    /// Sides are told by the slopes, after the eigenvectors are turned alike; a slope of zero counts as uphill along
-    /// its node's own vector, so that every triangle of edges agrees.
+    /// An edge is crossed if the slopes of its ends differ in sign once their eigenvectors are aligned. A slope of zero
+    /// counts as positive along its node's own vector, so that the three edges of a triangle are consistent.
     fn crossing(&self, a: (&Node, [f64; 3]), b: (&Node, [f64; 3])) -> Crossing {
         if a.0.strength.is_nan() || b.0.strength.is_nan() {
             return Crossing::None;
         }
-        let alike = dot(a.0.across, b.0.across) >= 0.0;
-        if (a.0.slope >= 0.0) == ((b.0.slope >= 0.0) == alike) {
+        let aligned = dot(a.0.across, b.0.across) >= 0.0;
+        if (a.0.slope >= 0.0) == ((b.0.slope >= 0.0) == aligned) {
             return Crossing::None;
         }
+        // Refining is costly: give up early if both ends are far too weak.
         if a.0.strength.max(b.0.strength) <= 0.5 * self.weakest {
             return Crossing::Rejected;
         }
-        let turned = b.0.towards(a.0.across);
-        let (at, sample, crest) = self.bisected(a, (&turned, b.1));
+        let other = b.0.towards(a.0.across);
+        let (at, sample, crest) = self.refined(a, (&other, b.1));
+        // A jump of the eigenvector also changes the sign of the slope; there the refined slope does not vanish.
         let steepest = a.0.slope.abs().max(b.0.slope.abs());
         let left = LEFT * steepest + FLAT * crest.strength * self.shortest();
         if !(crest.strength >= self.weakest

@@ -1,51 +1,51 @@
-//! What ridges are looked for.
+//! Options of ridge extraction.
 
 use crate::ExtractionError;
 
-/// A bound in the unit of what it bounds, or as a part of what is found.
+/// A bound, absolute or relative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Threshold {
-    /// In the unit itself.
+    /// In the unit of the bounded quantity.
     Absolute(f64),
-    /// From 0 to 1; of what, the option says.
+    /// A fraction from 0 to 1 of a reference that the option defines.
     Part(f64),
 }
 
 /// Options of [`crate::ridge_lines`] and [`crate::ridge_surface`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RidgeOptions {
-    /// Steps of the mesh per sample. Ridges nearer to each other than a step are missed.
+    /// Steps of the mesh per sample. Ridges closer to each other than a step are missed.
     pub samples_per_cell: usize,
-    /// What one cell along x and y and one unit of the third coordinate count for. Curvatures, and so the direction
-    /// across a crest, depend on it wherever axes are not lengths of one kind: with a larger third number a direction
-    /// is further away, and crests between directions are weaker. Lines ignore the third number.
+    /// Length of a cell along x and y and of a unit of the third coordinate. Curvatures, and with them the direction
+    /// across a crest, depend on it unless all axes are lengths in the same unit: with a larger third number directions
+    /// are further apart, and crests between them weaker. Lines ignore the third number.
     pub cell: [f64; 3],
-    /// Least value. A part is one of the range of finite values: 0 is the least, 1 the largest.
+    /// Least value. A fraction refers to the range of finite values: 0 is the smallest, 1 the largest.
     pub least_value: Threshold,
-    /// Least strength: minus the smallest eigenvalue of the Hessian, in values over squared (scaled) cells. A part is
-    /// one of the largest that a sample has.
+    /// Least strength: minus the smallest eigenvalue of the Hessian, in values over squared (scaled) cells. A fraction
+    /// refers to the largest strength of a sample.
     pub least_strength: Threshold,
     /// Least length of a line or area of a piece of a surface, in (scaled) cells or squared cells.
     pub least_extent: f64,
-    /// How sharp a crest has to be, as a part of its strength, in two respects. Followed along the eigenvectors to
-    /// both sides for three quarters of a sample, values fall by this part or more of what the strength alone would
-    /// make them fall: nearly 1 on a crest, but 0 where the eigenvectors run along rings of equal values, as outside
-    /// of a round crest or around a peak; there the slope is zero everywhere, and lines would only be errors of the
-    /// interpolation. And the next eigenvalue is this far away or more: where two are equal, eigenvectors have no
-    /// direction. 0 takes every point where the slope changes its sign.
+    /// Least sharpness of a crest, relative to its strength, in two respects. Along the eigenvectors to both sides,
+    /// over three quarters of a sample, values must fall by at least this fraction of the fall that the strength alone
+    /// predicts: it is nearly 1 on a crest, but 0 where the eigenvectors run along rings of equal values, as outside a
+    /// round crest or around a peak; there the slope is zero everywhere, and lines would be mere interpolation errors.
+    /// And the next eigenvalue must be at least this fraction of the strength away: if two are equal, eigenvectors have
+    /// no direction. 0 accepts every point at which the slope changes sign.
     pub least_sharpness: f64,
-    /// Samples at open borders between which no ridges are taken, as derivatives are known from one side only. Axes
-    /// of fewer than six samples keep all.
+    /// Number of samples at open borders within which ridges are ignored, as derivatives are one-sided there. Axes of
+    /// fewer than six samples have no margin.
     pub margin: usize,
-    /// Relative precision of the values: curvatures below this part of the largest magnitude (per squared sample) are
-    /// rounding.
+    /// Relative precision of the values: curvatures below this fraction of the largest magnitude (per squared sample)
+    /// are rounding errors.
     pub rounding: f64,
-    /// Most nodes of the mesh.
+    /// Largest number of nodes of the mesh.
     pub most_nodes: usize,
 }
 
 impl RidgeOptions {
-    /// The default.
+    /// The defaults.
     pub const USUAL: Self = Self {
         samples_per_cell: 2,
         cell: [1.0; 3],
@@ -65,7 +65,7 @@ impl Default for RidgeOptions {
     }
 }
 
-/// Indices of vertices have 32 bits, and a node begins seven edges.
+/// Indices of vertices have 32 bits, and seven edges start at each node.
 const MAX_NODES: usize = 1 << 28;
 
 impl RidgeOptions {
@@ -102,7 +102,7 @@ impl RidgeOptions {
         Ok(())
     }
 
-    /// Nodes of a mesh along axes of samples, if it is not too large.
+    /// Number of nodes of a mesh along each axis, if it is not too large.
     pub(crate) fn nodes(&self, axes: &[crate::spline::Axis; 3]) -> Result<[usize; 3], ExtractionError> {
         let n = self.samples_per_cell as u128;
         // A periodic axis has as many cells as samples; its last node is its first.
@@ -127,7 +127,7 @@ pub struct RidgeBounds {
     pub value: f64,
     /// Least strength.
     pub strength: f64,
-    /// Largest strength of a sample, on a ridge or not; 0 where none is positive.
+    /// Largest strength of a sample, on a ridge or not; 0 if none is positive.
     pub strongest: f64,
 }
 
@@ -136,7 +136,7 @@ impl RidgeBounds {
     pub(crate) fn new(options: &RidgeOptions, [low, high]: [f64; 2], strongest: f64) -> Self {
         let value = match options.least_value {
             Threshold::Absolute(v) => v,
-            // A part of 0 is no bound: splines swing a little below the least sample.
+            // A fraction of 0 is no bound: splines may fall a little below the smallest sample.
             Threshold::Part(0.0) => f64::NEG_INFINITY,
             // Halves do not overflow.
             Threshold::Part(p) => low + 2.0 * p * (0.5 * high - 0.5 * low),

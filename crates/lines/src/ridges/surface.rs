@@ -8,14 +8,14 @@ use crate::{ExtractionError, RidgeOptions, Surface, Volume};
 /// Ridge surfaces of a volume.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RidgeSurface {
-    /// The triangles. Their orientation means nothing: ridges have two like sides.
+    /// The triangles. Their orientation is arbitrary: both sides of a ridge are alike.
     pub shape: Surface,
     /// Value at each point.
     pub value: Vec<f64>,
     /// Strength at each point, in values over squared (scaled) cells.
     pub strength: Vec<f64>,
-    /// Connected piece of each triangle, 0 the largest. Triangles that share a point are connected, through the seam
-    /// of a periodic axis as well.
+    /// Connected component of each triangle, 0 the largest. Triangles that share a point are connected, also across the
+    /// seam of a periodic axis.
     pub piece: Vec<u32>,
     /// Area of each piece, in squared (scaled) cells.
     pub area: Vec<f64>,
@@ -25,14 +25,14 @@ pub struct RidgeSurface {
 
 /// The height ridges of codimension 1 of a volume, as [`crate::ridge_lines`] finds those of a field: where the slope
 /// along the eigenvector of the smallest eigenvalue of the Hessian is zero and that eigenvalue is negative (Eberly
-/// 1996). The cubes of the mesh are cut into tetrahedra, in each of which the eigenvectors are turned alike; where
-/// that is impossible, the surface has a hole. Volumes with one sample along an axis have no surfaces. Time grows
-/// with the third power of `samples_per_cell`: a step a sample is enough for crests that are a few samples apart.
+/// 1996). The cubes of the mesh are cut into tetrahedra, within each of which the eigenvectors are aligned; if that is
+/// impossible, the surface has a hole. Volumes with one sample along an axis have no surfaces. Time grows with the
+/// third power of `samples_per_cell`: one step per sample suffices for crests a few samples apart.
 ///
-/// What the third axis counts for ([`RidgeOptions::cell`]) is part of the question.
+/// The result depends on the scale of the third axis ([`RidgeOptions::cell`]), which the caller has to choose.
 ///
 /// # Errors
-/// [`ExtractionError::Option`] for an option out of range, [`ExtractionError::MeshSize`] where the mesh has too many
+/// [`ExtractionError::Option`] for an option out of range, [`ExtractionError::MeshSize`] if the mesh has too many
 /// nodes.
 pub fn ridge_surface(volume: &Volume<'_>, options: &RidgeOptions) -> Result<RidgeSurface, ExtractionError> {
     let Some(edges) = RidgeMesh::new(volume, options)? else {
@@ -65,10 +65,10 @@ pub fn ridge_surface(volume: &Volume<'_>, options: &RidgeOptions) -> Result<Ridg
     Ok(found)
 }
 
-/// For each triangle the lowest vertex it is connected with.
+/// The lowest connected vertex of each triangle, which identifies its component.
 fn pieces(mesh: &Mesh, triangles: &[[u32; 3]], nodes: [usize; 3], periodic: [bool; 3]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..mesh.vertices.len() as u32).collect();
-    // Vertices on the far side of a seam, under the key of the near side.
+    // Join vertices on both sides of a seam: those at its far end get the key of the near end.
     let mut near: Vec<(u64, u32)> =
         mesh.vertices.iter().zip(0..).map(|(v, i)| (at_seam(v.key, nodes, periodic), i)).collect();
     near.sort_unstable();
@@ -82,7 +82,7 @@ fn pieces(mesh: &Mesh, triangles: &[[u32; 3]], nodes: [usize; 3], periodic: [boo
     triangles.iter().map(|t| root(&mut parent, t[0])).collect()
 }
 
-/// The key with nodes at the far end of periodic axes replaced by those at the near end.
+/// The key of a vertex with nodes at the far end of periodic axes replaced by those at the near end.
 fn at_seam(key: u64, nodes: [usize; 3], periodic: [bool; 3]) -> u64 {
     let (node, direction) = ((key / 8) as usize, key % 8);
     let at = [node % nodes[0], node / nodes[0] % nodes[1], node / (nodes[0] * nodes[1])];
@@ -103,7 +103,7 @@ fn join(parent: &mut [u32], a: u32, b: u32) {
     parent[a.max(b) as usize] = a.min(b);
 }
 
-/// Pieces large enough, by their area.
+/// The components of sufficient area.
 struct Pieces {
     of_triangle: Vec<Option<u32>>,
     area: Vec<f64>,

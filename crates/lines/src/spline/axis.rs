@@ -2,18 +2,18 @@
 
 /// Poles of the interpolating filter of degree 5 (Unser 1999, table 1).
 const POLES: [f64; 2] = [-0.430_575_347_099_973_8, -0.043_096_288_203_264_65];
-/// Samples that a point takes from.
+/// Number of samples in the support of a point.
 pub(crate) const REACH: usize = 6;
 
-/// Samples at 0, 1, 2, ... along an axis; a periodic one goes on with sample 0 after the last.
+/// Samples at 0, 1, 2, ... along an axis; on a periodic one, sample 0 follows the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Axis {
     pub(crate) samples: usize,
     pub(crate) periodic: bool,
 }
 
-/// What a position takes from the coefficients: six of them, or one where the axis has one sample; the others then
-/// weigh nothing.
+/// The coefficients that contribute at a position, with their weights: six, or one if the axis has one sample (the
+/// other weights are then zero).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Taps {
     pub(crate) count: usize,
@@ -23,7 +23,7 @@ pub(crate) struct Taps {
 }
 
 impl Axis {
-    /// Number of coefficients: two more at either end that is open.
+    /// Number of coefficients: two more at either open end.
     pub(crate) const fn coefficients(self) -> usize {
         match (self.samples, self.periodic) {
             (1, _) => 1,
@@ -33,9 +33,9 @@ impl Axis {
     }
 
     /// Coefficients of the spline through `f`. A periodic axis is closed exactly (Unser 1999). At open ends the
-    /// coefficients go on as parabolas: quadratics are reproduced, so that ramps and parabolas get no crests at the
-    /// border. Conditions of higher order, such as "not a knot", overshoot where samples are rough: single samples by
-    /// seven times at order 6.
+    /// coefficients continue as parabolas: quadratics are reproduced, so ramps and parabolas get no crests at the
+    /// border. Conditions of higher order, such as "not a knot", overshoot for rough samples: by a factor of seven at
+    /// order 6 for a single sample.
     pub(crate) fn filter(self, f: &[f64], out: &mut [f64]) {
         match (self.samples, self.periodic) {
             (1, _) => out[0] = f[0],
@@ -44,7 +44,7 @@ impl Axis {
         }
     }
 
-    /// The taps at position `x` in samples. Beyond open ends the last polynomial goes on.
+    /// The taps at position `x` in samples. Beyond open ends the last polynomial is extrapolated.
     pub(crate) fn taps(self, x: f64) -> Taps {
         let n = self.samples;
         let cell = self.cell(x);
@@ -61,7 +61,7 @@ impl Axis {
         Taps { count: REACH, index, weight: weights(x - before) }
     }
 
-    /// The cell that a position lies in: the sample before it.
+    /// The interval of a position: the index of the sample before it.
     pub(crate) fn cell(self, x: f64) -> usize {
         match (self.samples, self.periodic) {
             (1, _) => 0,
@@ -71,7 +71,7 @@ impl Axis {
     }
 }
 
-/// Weights of the uniform quintic B-spline at `t` of a cell, and their derivatives.
+/// Weights of the uniform quintic B-spline at the fraction `t` of an interval, and their derivatives.
 fn weights(t: f64) -> [[f64; REACH]; 3] {
     let near = |x: f64| {
         let (x2, x3) = (x * x, x * x * x);
@@ -105,7 +105,7 @@ fn weights(t: f64) -> [[f64; REACH]; 3] {
     [0, 1, 2].map(|d| all.map(|w| w[d] / 120.0))
 }
 
-/// For each pole the causal and the anticausal half of the filter, each begun with the sum over all turns.
+/// The causal and the anticausal filter of each pole, both initialised with the sum over all periods.
 fn closed(f: &[f64], c: &mut [f64]) {
     let n = f.len();
     c.copy_from_slice(f);
@@ -135,9 +135,9 @@ fn closed(f: &[f64], c: &mut [f64]) {
     }
 }
 
-/// Begins with the coefficients of the closed axis and adds what changes no sample, powers of the poles from either
-/// end, so that the third differences of coefficients vanish at two places at each end. Two samples have a line
-/// instead.
+/// Starts from the coefficients of the periodic axis and adds homogeneous solutions, which change no sample: powers of
+/// the poles from either end, such that two third differences of the coefficients vanish at each end. Two samples are
+/// joined by a straight line instead.
 fn open(f: &[f64], out: &mut [f64]) {
     let n = f.len();
     let mut round = vec![0.0; n];
@@ -148,7 +148,7 @@ fn open(f: &[f64], out: &mut [f64]) {
     let count = n + 4;
     let order = n.min(3);
     let places = [0, 1, count - order - 2, count - order - 1];
-    // What fades is zero before it is needed at the other end.
+    // The powers have decayed to zero before the other end.
     let fading = |pole: f64, from: usize| {
         (0..from).try_fold(1.0, |p: f64, _| (p != 0.0).then_some(p * pole)).unwrap_or(0.0)
     };
@@ -175,7 +175,7 @@ fn open(f: &[f64], out: &mut [f64]) {
     }
 }
 
-/// Solution of four linear equations, right sides last, with pivots.
+/// Solves four linear equations, right-hand sides last, with pivoting.
 fn solved(mut rows: [[f64; 5]; 4]) -> [f64; 4] {
     for p in 0..4 {
         let best = (p..4).max_by(|&a, &b| rows[a][p].abs().total_cmp(&rows[b][p].abs())).unwrap_or(p);

@@ -1,9 +1,9 @@
 //! Splines through volumes with missing values.
 //!
-//! A spline needs all samples and its coefficients depend on all of them, falling by 0.43 a sample. So open axes are
-//! first cut to the box that holds all finite values (the border ring that a light transport gradient lacks is
-//! outside it), and what is missing inside is filled from its surroundings. Nothing is asked of the spline closer to
-//! a missing sample than the six by six (by six) samples around a point reach.
+//! A spline needs all samples: its coefficients depend on every one, with weights that decay by 0.43 per sample. Open
+//! axes are therefore first cut to the bounding box of the finite values (which excludes the outermost ring, where a
+//! light transport gradient is undefined), and missing samples inside it are filled from their surroundings. The spline
+//! is never evaluated at a point with a missing sample among the six by six (by six) samples around it.
 
 use super::{Axis, Spline};
 use crate::Volume;
@@ -18,12 +18,12 @@ pub(crate) struct Known {
     pub(crate) exponent: i32,
     /// Least and largest value, scaled alike.
     pub(crate) range: [f64; 2],
-    /// For each cell whether a sample around it is missing; empty where none is.
+    /// For each cell whether a sample around it is missing; empty if none is.
     blocked: Vec<bool>,
 }
 
 impl Known {
-    /// `None` where no value is finite.
+    /// `None` if no value is finite.
     pub(crate) fn new(volume: &Volume<'_>) -> Option<Self> {
         let (first, size) = finite_box(volume)?;
         let mut values = Vec::with_capacity(size.iter().product());
@@ -50,7 +50,7 @@ impl Known {
         Some(Self { spline: Spline::new(axes, &values), first, exponent, range, blocked })
     }
 
-    /// Whether all samples around the cell of a point (in samples of the spline) are there.
+    /// Whether all samples around the cell of a point (in samples of the spline) are known.
     pub(crate) fn is_known(&self, p: [f64; 3]) -> bool {
         let axes = self.spline.axes();
         let [i, j, k] = [0, 1, 2].map(|d| axes[d].cell(p[d]));
@@ -58,7 +58,7 @@ impl Known {
     }
 }
 
-/// First sample and size of the box of finite values; all of a periodic axis.
+/// First sample and size of the bounding box of the finite values; periodic axes are kept whole.
 fn finite_box(volume: &Volume<'_>) -> Option<([usize; 3], [usize; 3])> {
     let size = volume.size();
     let (mut low, mut high) = (size, [0; 3]);
@@ -74,7 +74,7 @@ fn finite_box(volume: &Volume<'_>) -> Option<([usize; 3], [usize; 3])> {
     volume.values().iter().any(|v| v.is_finite()).then(|| (low, [0, 1, 2].map(|d| high[d] + 1 - low[d])))
 }
 
-/// The sample `steps` further along axis `d`, if there is one.
+/// The sample `steps` further along axis `d`, if it exists.
 fn neighbour(axes: [Axis; 3], index: usize, d: usize, steps: isize) -> Option<usize> {
     let stride: usize = axes[..d].iter().map(|a| a.samples).product();
     let (n, at) = (axes[d].samples as isize, (index / stride % axes[d].samples) as isize);
@@ -82,10 +82,10 @@ fn neighbour(axes: [Axis; 3], index: usize, d: usize, steps: isize) -> Option<us
     (0..n).contains(&to).then(|| (index as isize + (to - at) * stride as isize) as usize)
 }
 
-/// Layers beside known values that go on straight; further ones take the mean of what is before them.
+/// Number of layers beside known values that are extrapolated linearly; later ones repeat the mean of the previous.
 const STRAIGHT_LAYERS: usize = 2;
 
-/// Fills missing samples layer by layer, each by the mean of what its neighbours suggest.
+/// Fills missing samples layer by layer, each with the mean of the extrapolations from its neighbours.
 fn fill(values: &mut [f64], missing: &[bool], axes: [Axis; 3]) {
     let mut known: Vec<bool> = missing.iter().map(|m| !m).collect();
     let sides = || (0..3).flat_map(|d| [(d, -1), (d, 1)]);
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn holes_are_filled_straight_and_kept_away_from() {
+    fn holes_are_filled_linearly_and_avoided() {
         let value = |i: usize| {
             let (x, y) = (i % 20, i / 20);
             if (8..11).contains(&x) && y == 10 { f64::NAN } else { 2.0 * x as f64 - y as f64 }
@@ -167,12 +167,12 @@ mod tests {
             assert_eq!(known.is_known([p[0], p[1], 0.0]), is, "{p:?}");
         }
         let jet = known.spline.jet([4.5, 9.2, 0.0]);
-        // A ramp goes on through the hole; rounding of numbers up to 1.
+        // A ramp continues through the hole; rounding of numbers up to 1.
         assert!((math::scale_by_power_of_two(jet.value, known.exponent) + 0.2).abs() < 1e-13);
     }
 
     #[test]
-    fn nothing_is_known_of_nothing() {
+    fn a_volume_without_values_has_no_spline() {
         for bad in [f64::NAN, f64::INFINITY] {
             let volume_values = [bad; 4];
             let volume = Volume::new(&volume_values, [2, 2, 1], [true; 3]).expect("a volume");

@@ -20,7 +20,7 @@ fn a_circle_is_closed_and_round() {
         let found = isolines(&field(31, 31, |x, y| -r(x, y)), -radius);
         assert_eq!((found.lines.len(), found.lines[0].closed), (1, true));
         // On an edge the distance is off from linear by at most 1 / (8 r).
-        let off = found.points.iter().map(|p| (r(p[0], p[1]) - radius).abs()).fold(0.0, f64::max);
+        let off = found.points.iter().map(|p| (r(p.x, p.y) - radius).abs()).fold(0.0, f64::max);
         assert!(off < 1.0 / (8.0 * (radius - 1.0)), "{off}");
         let length = found.length(&found.lines[0], [1.0, 1.0]);
         assert!((length / (math::TAU * radius) - 1.0).abs() < 0.02, "{length}");
@@ -31,35 +31,35 @@ fn a_circle_is_closed_and_round() {
 fn lines_of_linear_values_are_exact() {
     let found = isolines(&field(20, 15, |x, y| 2.0 * x + y), 21.0);
     assert_eq!((found.lines.len(), found.lines[0].closed), (1, false));
-    assert!(found.points.iter().all(|p| (2.0 * p[0] + p[1] - 21.0).abs() < 1e-12));
+    assert!(found.points.iter().all(|p| (2.0 * p.x + p.y - 21.0).abs() < 1e-12));
     assert!((found.length(&found.lines[0], [1.0, 1.0]) - 14.0 * 1.25_f64.sqrt()).abs() < 1e-12);
 }
 
 #[test]
-fn levels_at_samples_give_each_place_once() {
+fn levels_at_samples_give_each_point_once() {
     let found = isolines(&field(9, 9, |x, y| -((x - 4.0).abs() + (y - 4.0).abs())), -3.0);
     assert_eq!((found.lines.len(), found.lines[0].closed), (1, true));
     assert!((found.length(&found.lines[0], [1.0, 1.0]) - 12.0 * 2.0_f64.sqrt()).abs() < 1e-12);
-    let mut places: Vec<[u64; 2]> = found.points.iter().map(|p| p.map(f64::to_bits)).collect();
+    let mut places: Vec<[u64; 2]> = found.points.iter().map(|p| p.to_array().map(f64::to_bits)).collect();
     places.sort_unstable();
     places.dedup();
     assert_eq!(places.len(), found.points.len());
 }
 
-/// In a square with two opposite high corners the value at the saddle tells which corners belong together: the
+/// In a square with two opposite high corners, the value at the saddle decides which corners are connected: the
 /// contours of the bilinear function never leave their branch of the hyperbola.
 #[test]
-fn saddles_are_parted_as_the_bilinear_function_parts_them() {
+fn ambiguous_squares_follow_the_bilinear_function() {
     for (corners, joined) in [([3.0, 0.0, 0.0, 3.0], true), ([1.2, -3.0, -3.0, 1.2], false)] {
         // Corners in rows; high on the diagonal from the upper left.
         let found = isolines(&field(2, 2, |x, y| corners[(2.0 * y + x) as usize]), 1.0);
         assert_eq!(found.lines.len(), 2);
         for line in &found.lines {
             let sums: Vec<f64> =
-                line.points.iter().map(|&p| found.points[p as usize]).map(|p| p[0] + p[1]).collect();
+                line.points.iter().map(|&p| found.points[p as usize]).map(|p| p.x + p.y).collect();
             // Joined high corners leave lines around the low ones, on either side of the diagonal x = y.
             let sides: Vec<bool> =
-                line.points.iter().map(|&p| found.points[p as usize]).map(|p| p[0] > p[1]).collect();
+                line.points.iter().map(|&p| found.points[p as usize]).map(|p| p.x > p.y).collect();
             let around_low = sides[0] == sides[1];
             let around_high = (sums[0] < 1.0) == (sums[1] < 1.0);
             assert_eq!((around_low, around_high), (joined, !joined), "{corners:?}");
@@ -74,7 +74,7 @@ fn missing_cells_end_lines() {
     f.values_mut()[i] = f64::NAN;
     let found = isolines(&f, 4.5);
     assert_eq!(found.lines.len(), 2);
-    assert!(found.points.iter().all(|p| p[0] <= 9.0 || p[0] >= 11.0));
+    assert!(found.points.iter().all(|p| p.x <= 9.0 || p.x >= 11.0));
     for (w, h) in [(1, 1), (1, 7), (7, 1)] {
         assert!(isolines(&field(w, h, |x, y| x + y), 2.5).lines.is_empty());
     }
@@ -86,10 +86,10 @@ fn missing_cells_end_lines() {
 #[test]
 fn extreme_values_do_not_overflow() {
     let found = isolines(&field(3, 3, |x, _| (x - 1.0) * f64::MAX), 0.5 * f64::MAX);
-    assert!(found.points.iter().all(|p| p[0] == 1.5), "{found:?}");
+    assert!(found.points.iter().all(|p| p.x == 1.5), "{found:?}");
 }
 
-/// Edges with anything but two triangles.
+/// Edges that do not belong to exactly two triangles.
 fn open_edges(surface: &Surface) -> usize {
     let mut edges = Vec::new();
     for t in &surface.triangles {
@@ -137,7 +137,7 @@ fn periodic_axes_close() {
     assert!(found.points.iter().flatten().all(|v| (0.0..=16.0).contains(v)));
     let area = 2.0 * math::TAU * 25.3;
     assert!((found.area([1.0; 3]) / area - 1.0).abs() < 0.03);
-    // Laid upon each other, the two sides of each seam are closed.
+    // With the two sides of each seam joined, the surface is closed.
     let mut places: Vec<([u64; 3], usize)> = Vec::new();
     for (i, p) in found.points.iter().enumerate() {
         places.push((p.map(|v| if v == 16.0 { 0.0_f64 } else { v }.to_bits()), i));
@@ -154,7 +154,7 @@ fn periodic_axes_close() {
 }
 
 #[test]
-fn planes_through_samples_are_there_once() {
+fn planes_through_samples_appear_once() {
     for level in [3.0, 3.5] {
         let found = surface([6, 7, 8], [false; 3], level, |p| p[2]);
         assert!((found.area([1.0; 3]) - 30.0).abs() < 1e-12, "{level}");

@@ -1,12 +1,16 @@
 //! Exponents of lines and flows that are known.
 
+use euclid::Vector2D;
 use rayon::prelude::*;
-use tigereye_core::{Cell, Field, Grid, Tensor2, math};
+use tigereye_core::{Cell, Cells, Field, Grid, Point, Tensor2, length, math};
 use tigereye_lines::{
     Axes, Family, Ftle, FtleOptions, Interpolated, NearestSegment, Polyline, Polylines, RidgeOptions,
     SamplingError, Threshold, advected, ellipse_tensors, exponents, ftle, ridge_lines,
 };
 use tigereye_test_support::field;
+
+/// A displacement in cells, or in the units of a flow.
+type Displacement = Vector2D<f64, Cells>;
 
 fn of(field: &Field<Tensor2>, family: Family, length: f64, samples: usize) -> Ftle {
     let options = FtleOptions { length, samples, step: 0.1, ..FtleOptions::default() };
@@ -19,18 +23,18 @@ fn of_shear(s: f64) -> f64 {
 }
 
 #[test]
-fn parallel_lines_part_nowhere() {
+fn parallel_lines_have_exponent_zero() {
     let straight = Field::from_fn(Grid::new(12, 9).expect("a size"), |_| Tensor2::from_axes(0.4, 3.0, 1.0));
     let found = of(&straight, Family::Major, 2.0, 3);
     assert_eq!((found.larger.grid().width(), found.larger.grid().height()), (34, 25));
-    // Lines that leave the field say nothing.
+    // Lines that leave the field have no exponent.
     let known = found.larger.values().iter().filter(|v| v.is_finite());
     assert!(known.clone().count() > 400 && known.into_iter().all(|v| v.abs() < 1e-9));
     assert!(found.left > 0.1 && found.left < 0.4, "{}", found.left);
 }
 
-/// Rays part as the circles they cross grow: outwards by (r + L) / r. Circles do not part, but those inside go further
-/// round: a shear by L / r.
+/// Rays diverge like the circles they cross: outwards by (r + L) / r. Circles keep their distance, but inner ones
+/// advance by a larger angle: a shear by L / r.
 #[test]
 fn rays_and_circles_have_their_formulas() {
     let field = ellipse_tensors(&field("star:size=61"));
@@ -42,7 +46,7 @@ fn rays_and_circles_have_their_formulas() {
         if !(12.0..22.0).contains(&r) {
             continue;
         }
-        // Differences over a cell's width of functions that bend over r cells, and axes that are interpolated.
+        // Error of differences over a cell of functions that vary over r cells, and of the interpolated axes.
         let bend = 1.0 / (r * r);
         let outwards = math::ln(1.0 + length / r) / length;
         let ray = rays.larger.at(cell);
@@ -54,15 +58,15 @@ fn rays_and_circles_have_their_formulas() {
     }
 }
 
-/// The same formula wherever rays do not leave, the diagonals included, on which lines inwards meet the middle: none
-/// leads across.
+/// The same formula wherever rays do not leave the field, including the diagonals, on which lines run inwards to the
+/// middle: none crosses it.
 #[test]
 fn rays_end_in_the_middle_of_a_star() {
     let length = 10.0;
-    // In a cell and between cells. Elsewhere interpolation makes two wedges of the middle, and lines lead between them.
-    for middle in [[30.0, 30.0], [29.5, 30.5]] {
+    // At a cell and between cells. Elsewhere interpolation splits the middle into two wedges, and lines pass between.
+    for middle in [Point::new(30.0, 30.0), Point::new(29.5, 30.5)] {
         let field = Field::from_fn(Grid::new(61, 61).expect("a size"), |c| {
-            let (x, y) = (c.x as f64 - middle[0], middle[1] - c.y as f64);
+            let (x, y) = (c.x as f64 - middle.x, middle.y - c.y as f64);
             let is_round = x == 0.0 && y == 0.0;
             if is_round { Tensor2::IDENTITY } else { Tensor2::from_eigen(math::atan2(y, x), 2.0, 0.5) }
         });
@@ -70,7 +74,7 @@ fn rays_end_in_the_middle_of_a_star() {
         let found = ftle(&Interpolated::new(&field), Family::Major, &options).expect("samples").larger;
         let mut worst = (0.0, 0.0);
         for (cell, value) in found.iter() {
-            let r = math::hypot(0.5 * cell.x as f64 - middle[0], 0.5 * cell.y as f64 - middle[1]);
+            let r = tigereye_core::length(Point::new(0.5 * cell.x as f64, 0.5 * cell.y as f64) - middle);
             if (3.0..18.0).contains(&r) {
                 // Differences over half a cell to either side are off by their square over that of the distance.
                 let off = (value - math::ln(1.0 + length / r) / length).abs() * r * r;
@@ -84,25 +88,23 @@ fn rays_end_in_the_middle_of_a_star() {
 /// The axis along (x, -y): hyperbolas. A map along them by arc length has no formula; its gradient is taken of the
 /// formula of the axis, in steps and differences so small that they are exact.
 #[test]
-fn hyperbolas_part_as_their_formula_says() {
+fn exponents_of_hyperbolas_follow_their_formula() {
     let size = 61;
-    let place = |p: [f64; 2]| (p[0] - 30.0, 30.0 - p[1]);
-    let axis = |p: [f64; 2]| {
-        let (x, y) = place(p);
-        let r = math::hypot(x, y);
-        // Along (x, -y), y upwards; in cells y points downwards.
-        [x / r, y / r]
+    let axis = |p: Point| {
+        let (x, y) = (p.x - 30.0, 30.0 - p.y);
+        // Along (x, -y) with y upwards, which is (x, y) with y downwards.
+        Displacement::new(x, y) / math::hypot(x, y)
     };
     let field = Field::from_fn(Grid::new(size, size).expect("a size"), |c| {
-        let [x, y] = axis([c.x as f64, c.y as f64]);
-        Tensor2::from_eigen(math::atan2(-y, x), 3.0, 1.0)
+        let along = axis(Point::new(c.x as f64, c.y as f64));
+        Tensor2::from_eigen(math::atan2(-along.y, along.x), 3.0, 1.0)
     });
     let length = 6.0;
     let found = of(&field, Family::Major, length, 2);
-    let velocity = |_: f64, p: [f64; 2]| axis(p);
-    for at in [[40.0, 20.0], [44.5, 18.0], [22.0, 41.5], [38.0, 37.0]] {
+    let velocity = |_: f64, p: Point| axis(p);
+    for at in [(40.0, 20.0), (44.5, 18.0), (22.0, 41.5), (38.0, 37.0)].map(Point::from) {
         let end = |dx: f64, dy: f64, sign: f64| {
-            advected(&velocity, [at[0] + dx, at[1] + dy], [0.0, sign * length], 400)
+            advected(&velocity, at + Displacement::new(dx, dy), [0.0, sign * length], 400)
         };
         let exact = [1.0, -1.0].map(|sign| {
             let h = 1e-4;
@@ -112,13 +114,13 @@ fn hyperbolas_part_as_their_formula_says() {
             *exponents(&ends, [h; 2], length).at(Cell::new(1, 1))
         });
         let expected = exact[0].max(exact[1]);
-        let cell = Cell::new((2.0 * at[0]) as usize, (2.0 * at[1]) as usize);
+        let cell = Cell::new((2.0 * at.x) as usize, (2.0 * at.y) as usize);
         let value = found.larger.at(cell);
         assert!((value - expected).abs() < 0.02 * expected, "{at:?}: {value} {expected}");
     }
 }
 
-/// The same axes with other signs, the field turned: the same exponents.
+/// The rotated field has the same axes with other signs, and the same exponents.
 #[test]
 fn exponents_turn_with_the_field() {
     let field = ellipse_tensors(&field("bow:size=25"));
@@ -147,16 +149,16 @@ impl Gyre {
         [a * x * x + (1.0 - 2.0 * a) * x, 2.0 * a * x + 1.0 - 2.0 * a, 2.0 * a]
     }
 
-    fn velocity(&self, t: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+    fn velocity(&self, t: f64, Point { x, y, .. }: Point) -> Displacement {
         let ([f, fx, _], pi) = (Self::parts(t, x), math::PI);
-        [
+        Displacement::new(
             -0.1 * pi * math::sin(pi * f) * math::cos(pi * y) + self.shear * y,
             0.1 * pi * math::cos(pi * f) * math::sin(pi * y) * fx,
-        ]
+        )
     }
 
     /// Derivatives of the velocity, `[[ux, uy], [vx, vy]]`.
-    fn gradient(&self, t: f64, [x, y]: [f64; 2]) -> [[f64; 2]; 2] {
+    fn gradient(&self, t: f64, Point { x, y, .. }: Point) -> [[f64; 2]; 2] {
         let ([f, fx, fxx], pi) = (Self::parts(t, x), math::PI);
         let (sf, cf, sy, cy) = (math::sin(pi * f), math::cos(pi * f), math::sin(pi * y), math::cos(pi * y));
         [
@@ -166,15 +168,15 @@ impl Gyre {
     }
 
     /// The exponent by the variational equation `F' = grad v F`, followed together with the particle.
-    fn exponent(&self, start: [f64; 2], duration: f64) -> f64 {
+    fn exponent(&self, start: Point, duration: f64) -> f64 {
         type State = [f64; 6];
         let slope = |t: f64, s: State| -> State {
-            let p = [s[0], s[1]];
+            let p = Point::new(s[0], s[1]);
             let (v, g) = (self.velocity(t, p), self.gradient(t, p));
             let row = |i: usize, j: usize| g[i][0] * s[2 + j] + g[i][1] * s[4 + j];
-            [v[0], v[1], row(0, 0), row(0, 1), row(1, 0), row(1, 1)]
+            [v.x, v.y, row(0, 0), row(0, 1), row(1, 0), row(1, 1)]
         };
-        let (mut s, steps) = ([start[0], start[1], 1.0, 0.0, 0.0, 1.0], 4000);
+        let (mut s, steps) = ([start.x, start.y, 1.0, 0.0, 0.0, 1.0], 4000);
         let h = duration / f64::from(steps);
         for i in 0..steps {
             let t = f64::from(i) * h;
@@ -192,16 +194,16 @@ impl Gyre {
 }
 
 /// At the published setting (A = 0.1, epsilon = 0.25, omega = 2 pi / 10, T = 15) the exponent of the flow map is that
-/// of the variational equation, and with a shear, which has no symmetry to hide behind.
+/// of the variational equation, and with a shear, which breaks the symmetry.
 #[test]
 fn double_gyre_has_the_exponents_of_its_variational_equation() {
     let duration = 15.0;
     for shear in [0.0, 0.03] {
         let gyre = Gyre { shear };
-        for start in [[0.3, 0.4], [1.0, 0.5], [1.62, 0.27], [0.85, 0.91]] {
+        for start in [(0.3, 0.4), (1.0, 0.5), (1.62, 0.27), (0.85, 0.91)].map(Point::from) {
             let h = 1e-5;
             let ends = Field::from_fn(Grid::new(3, 3).expect("a size"), |c| {
-                let p = [start[0] + h * (c.x as f64 - 1.0), start[1] + h * (c.y as f64 - 1.0)];
+                let p = start + Displacement::new(c.x as f64 - 1.0, c.y as f64 - 1.0) * h;
                 Some(advected(&|t, p| gyre.velocity(t, p), p, [0.0, duration], 1500))
             });
             let found = *exponents(&ends, [h; 2], duration).at(Cell::new(1, 1));
@@ -216,15 +218,16 @@ fn double_gyre_has_the_exponents_of_its_variational_equation() {
 fn gyre_ridges(gyre: &Gyre, across: usize) -> Polylines {
     let grid = Grid::new(across, across / 2 + 1).expect("a size");
     let h = 2.0 / (across - 1) as f64;
-    let ends: Vec<[f64; 2]> = (0..grid.cells())
+    let ends: Vec<Point> = (0..grid.cells())
         .into_par_iter()
         .map(|i| {
             let c = grid.cell(i);
-            advected(&|t, p| gyre.velocity(t, p), [h * c.x as f64, h * c.y as f64], [0.0, 15.0], 150)
+            let start = Point::new(h * c.x as f64, h * c.y as f64);
+            advected(&|t, p| gyre.velocity(t, p), start, [0.0, 15.0], 150)
         })
         .collect();
     let found = exponents(&Field::from_fn(grid, |c| Some(ends[grid.index(c)])), [h; 2], 15.0);
-    // The sharp crest that parts the gyres, and not its folds, which finer samples only resolve.
+    // The sharp crest that separates the gyres, without its folds, which only finer samples resolve.
     let options = RidgeOptions {
         least_value: Threshold::Part(0.8),
         least_strength: Threshold::Part(0.2),
@@ -232,28 +235,28 @@ fn gyre_ridges(gyre: &Gyre, across: usize) -> Polylines {
         ..RidgeOptions::default()
     };
     let mut ridges = ridge_lines(&found, &options).expect("a mesh").shape;
-    ridges.points.iter_mut().for_each(|p| *p = p.map(|v| h * v));
+    ridges.points.iter_mut().for_each(|p| *p *= h);
     ridges
 }
 
-/// The curves at time 0 on which particles run into the saddles that wander along the walls: their stable manifolds,
-/// from a short way off each saddle at time `late` backwards, with points at most `spacing` apart.
+/// The stable manifolds at time 0 of the saddles that move along the walls: short segments across each saddle at time
+/// `late`, advected backwards, with points at most `spacing` apart.
 fn stable_manifolds(gyre: &Gyre, late: f64, spacing: f64) -> Polylines {
-    let back = |p: [f64; 2], from: f64, to: f64| {
+    let back = |p: Point, from: f64, to: f64| {
         advected(&|t, p| gyre.velocity(t, p), p, [from, to], (40.0 * (from - to)) as usize)
     };
     let mut all = Polylines::default();
-    // Between the gyres, and at the upper corners, where it is the side walls as long as there is no shear.
-    for wall in [[1.0, 0.0], [0.0, 1.0], [2.0, 1.0]] {
-        // Along the wall a saddle attracts backwards.
+    // Between the gyres and at the upper corners, where the manifolds are the side walls unless there is shear.
+    for wall in [(1.0, 0.0), (0.0, 1.0), (2.0, 1.0)].map(Point::from) {
+        // Backwards in time a saddle attracts along the wall.
         let saddle = back(wall, late + 40.0, late);
-        let inwards = if wall[1] == 0.0 { 0.05 } else { -0.05 };
-        let end = |share: f64| back([saddle[0], wall[1] + inwards * share], late, 0.0);
+        let inwards = if wall.y == 0.0 { 0.05 } else { -0.05 };
+        let end = |share: f64| back(Point::new(saddle.x, wall.y + inwards * share), late, 0.0);
         let first = all.points.len() as u32;
         all.points.push(end(0.0));
         let mut open = vec![(0.0, end(0.0), 1.0, end(1.0))];
         while let Some((a, p, b, q)) = open.pop() {
-            if math::hypot(p[0] - q[0], p[1] - q[1]) <= spacing {
+            if length(p - q) <= spacing {
                 all.points.push(q);
                 continue;
             }
@@ -268,7 +271,7 @@ fn stable_manifolds(gyre: &Gyre, late: f64, spacing: f64) -> Polylines {
 
 /// The crest of the exponent is the stable manifold (Haller 2001; Shadden, Lekien and Marsden 2005), which is known
 /// without an exponent: nine tenths of it lie within half a cell of 121 samples. The rest are folds thinner than a
-/// cell. Twice the samples bring it no nearer, since the crest of a finite time lies beside the manifold.
+/// cell. Doubling the samples does not reduce the distance, since the crest for a finite time lies beside the manifold.
 #[test]
 fn double_gyre_has_its_ridge_on_the_stable_manifold() {
     for shear in [0.0, 0.03] {
@@ -288,7 +291,7 @@ fn double_gyre_has_its_ridge_on_the_stable_manifold() {
 }
 
 #[test]
-fn what_has_no_lines_has_no_exponent() {
+fn degenerate_fields_have_no_exponent() {
     for t in [Tensor2::ZERO, Tensor2::IDENTITY, Tensor2::isotropic(f64::NAN)] {
         for (width, height) in [(1, 1), (1, 6), (7, 5)] {
             let field = Field::from_fn(Grid::new(width, height).expect("a size"), |_| t);

@@ -1,26 +1,25 @@
 //! Which axis is major, by value and by magnitude.
 
-use tigereye_core::{Field, Grid, Tensor2};
+use tigereye_core::{Field, Grid, Point, SplitMix64, Tensor2, Vector};
 use tigereye_lines::{
     Axes, Family, Interpolated, LineEnd, LineOptions, Major, Topology, signed_ellipse_tensors, tensor_line,
 };
-use tigereye_test_support::Random;
 
 /// Rounding of unit vectors.
 const ROUNDING: f64 = 1e-12;
 
-fn same(a: [f64; 2], b: [f64; 2]) -> bool {
-    (a[0] * b[1] - a[1] * b[0]).abs() < ROUNDING
+fn same(a: Vector, b: Vector) -> bool {
+    a.cross(b).abs() < ROUNDING
 }
 
-fn along(t: &Tensor2, [x, y]: [f64; 2]) -> f64 {
+fn along(t: &Tensor2, Vector { x, y, .. }: Vector) -> f64 {
     x * (t.xx() * x + t.xy() * y) + y * (t.yx() * x + t.yy() * y)
 }
 
 /// Tensors of all kinds, from a fixed sequence.
 fn tensors() -> impl Iterator<Item = Tensor2> {
-    let mut numbers = Random::seeded(11);
-    let mut random = move || numbers.signed();
+    let mut numbers = SplitMix64::new(11);
+    let mut random = move || numbers.symmetric_unit();
     (0..500).map(move |i| {
         let (xx, xy, yx, yy) = (random(), random(), random(), random());
         Tensor2::new(xx, xy, if i % 2 == 0 { xy } else { yx }, yy)
@@ -65,10 +64,10 @@ fn pure_shear_has_axes_by_value_only() {
     let t = Tensor2::symmetric(2.0, 0.0, -2.0);
     for axes in [Axes::HalfAxes, Axes::Eigenvectors] {
         let frame = axes.by(Major::Value).of(&t, 1e-3).expect("axes");
-        assert!(same(frame.axes[0], [1.0, 0.0]) && frame.contrast == 4.0, "{axes:?}");
+        assert!(same(frame.axes[0], Vector::new(1.0, 0.0)) && frame.contrast == 4.0, "{axes:?}");
         assert_eq!(axes.by(Major::Magnitude).of(&t, 1e-3), None, "{axes:?}");
     }
-    // A trisector whose trace changes its sign along a line through the field: by value nothing happens there.
+    // A trisector whose trace changes its sign along a line through the field: by value it has no effect.
     let field = Field::from_fn(Grid::new(21, 21).expect("a size"), |c| {
         let (x, y) = (c.x as f64 - 10.3, 10.2 - c.y as f64);
         Tensor2::symmetric(x + 0.5 * y, -y, -x + 0.5 * y)
@@ -86,17 +85,18 @@ fn pure_shear_has_axes_by_value_only() {
     // Minor lines run across the line of zero trace, major ones along it.
     let line = |axes: Axes, major| {
         let between = Interpolated::new(&field).with_axes(axes.by(major));
-        let line = tensor_line(&between, [14.0, 6.0], Family::Minor, &LineOptions::default(), &mut |_| true);
+        let seed = Point::new(14.0, 6.0);
+        let line = tensor_line(&between, seed, Family::Minor, &LineOptions::default(), &mut |_| true);
         line.ends
     };
     assert_eq!(line(Axes::HalfAxes, Major::Value), [LineEnd::Border; 2]);
     assert_eq!(line(Axes::Eigenvectors, Major::Value), [LineEnd::Border; 2]);
-    // By magnitude the two change places there.
+    // By magnitude the two axes swap there.
     assert!(line(Axes::Eigenvectors, Major::Magnitude).contains(&LineEnd::Degenerate));
     assert!(line(Axes::HalfAxes, Major::Magnitude).contains(&LineEnd::Degenerate));
 }
 
-/// What decides is continuous: a little turning moves the axes a little, but for the places where the order names none.
+/// The axes are continuous: a slight rotation in the tensor moves them slightly, except where they are degenerate.
 #[test]
 fn a_little_asymmetry_moves_axes_a_little() {
     for t in tensors().step_by(2) {
@@ -109,8 +109,8 @@ fn a_little_asymmetry_moves_axes_a_little() {
         ] {
             let Some(frame) = ordered.of(&t, 1e-3) else { continue };
             let other = ordered.of(&turned, 0.0).expect("axes");
-            let sine = frame.axes[0][0] * other.axes[0][1] - frame.axes[0][1] * other.axes[0][0];
-            // A turn of 1e-9 over the least contrast.
+            let sine = frame.axes[0].cross(other.axes[0]);
+            // A rotation of 1e-9 over the least contrast.
             assert!(sine.abs() < 1e-5, "{ordered:?} {t:?}: {sine}");
         }
     }

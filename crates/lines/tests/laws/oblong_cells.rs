@@ -1,6 +1,6 @@
-//! Cells that are not square: the same field, sampled otherwise, has the same lines, points and exponents.
+//! Cells that are not square: a field has the same lines, points and exponents whatever cells sample it.
 
-use tigereye_core::{Cell, CellShape, Field, Grid, Tensor2, math};
+use tigereye_core::{Cell, CellShape, Field, Grid, PhysicalPoint, Point, Tensor2, length, math};
 use tigereye_lines::{
     Axes, ConvolutionOptions, Family, Ftle, FtleOptions, Interpolated, LineOptions, Method, TensorLine,
     Topology, convolved, evenly_spaced, ftle, tensor_line,
@@ -11,7 +11,7 @@ const HALF: f64 = 12.0;
 /// Square, wide and high cells; the smaller side is 1.
 const SHAPES: [[f64; 2]; 3] = [[1.0, 1.0], [2.0, 1.0], [1.0, 3.0]];
 
-/// A field of the place (x, y), y up, in cells of a shape.
+/// A field of the position (x, y), y up, sampled in cells of a shape.
 fn sampled(sides: [f64; 2], tensor: impl Fn(f64, f64) -> Tensor2) -> Field<Tensor2> {
     let [width, height] = sides.map(|s| (2.0 * HALF / s) as usize + 1);
     Field::from_fn(Grid::new(width, height).expect("a size"), |c| {
@@ -23,13 +23,14 @@ fn over(field: &Field<Tensor2>, sides: [f64; 2]) -> Interpolated<'_> {
     Interpolated::new(field).with_axes(Axes::Eigenvectors).with_cell(CellShape::of(sides))
 }
 
-/// From cells to the place.
-fn place(p: [f64; 2], sides: [f64; 2]) -> [f64; 2] {
-    [p[0] * sides[0] - HALF, HALF - p[1] * sides[1]]
+/// The position, with its origin in the middle, of a point in cells.
+fn place(p: Point, sides: [f64; 2]) -> PhysicalPoint {
+    PhysicalPoint::new(p.x * sides[0] - HALF, HALF - p.y * sides[1])
 }
 
-fn cells([x, y]: [f64; 2], sides: [f64; 2]) -> [f64; 2] {
-    [(x + HALF) / sides[0], (HALF - y) / sides[1]]
+/// The point in cells of a position with its origin in the middle.
+fn cells((x, y): (f64, f64), sides: [f64; 2]) -> Point {
+    Point::new((x + HALF) / sides[0], (HALF - y) / sides[1])
 }
 
 /// Components are linear: bilinear interpolation is exact whatever the cells. A trisector at (0.6, -0.4).
@@ -38,15 +39,12 @@ fn trisector(x: f64, y: f64) -> Tensor2 {
     Tensor2::symmetric(2.0 + x, -y + 0.2 * x, 2.0 - x)
 }
 
-/// What the rounding of some hundred steps adds up to.
+/// Accumulated rounding of some hundred steps.
 const ROUNDING: f64 = 1e-9;
 
 fn farthest(a: &TensorLine, b: &TensorLine, sides: [f64; 2]) -> f64 {
     assert_eq!((a.points.len(), a.ends), (b.points.len(), b.ends));
-    let off = |(p, q): (&[f64; 2], &[f64; 2])| {
-        let (p, q) = (place(*p, [1.0; 2]), place(*q, sides));
-        math::hypot(p[0] - q[0], p[1] - q[1])
-    };
+    let off = |(p, q): (&Point, &Point)| length(place(*p, [1.0; 2]) - place(*q, sides));
     a.points.iter().zip(&b.points).map(off).fold(0.0, f64::max)
 }
 
@@ -58,7 +56,7 @@ fn lines_are_those_of_square_cells() {
         for family in [Family::Major, Family::Minor] {
             for method in [Method::RungeKutta4, Method::DormandPrince { tolerance: 1e-8 }] {
                 let options = LineOptions { method, length: 6.0, ..LineOptions::default() };
-                for seed in [[5.0, 3.0], [-4.0, 6.5], [1.5, -7.0]] {
+                for seed in [(5.0, 3.0), (-4.0, 6.5), (1.5, -7.0)] {
                     let line = |field, sides| {
                         tensor_line(&over(field, sides), cells(seed, sides), family, &options, &mut |_| true)
                     };
@@ -72,8 +70,8 @@ fn lines_are_those_of_square_cells() {
     }
 }
 
-/// Where components bend, lines differ by what interpolation does to their direction: of components of size 2 that bend
-/// by b, h^2 b / 8 / 2 rad in cells of h, over a length of 8.
+/// For curved components, lines differ by the interpolation error of their direction: h^2 b / 8 / 2 rad for components
+/// of size 2 with second derivative b in cells of size h, over a length of 8.
 #[test]
 fn lines_of_bent_components_differ_by_the_interpolation() {
     let bent = |x: f64, y: f64| Tensor2::from_eigen(0.08 * x - 0.05 * y, 3.0, 1.0);
@@ -82,7 +80,7 @@ fn lines_of_bent_components_differ_by_the_interpolation() {
         let field = sampled(sides, bent);
         let options = LineOptions { length: 4.0, ..LineOptions::default() };
         let line = |field, sides| {
-            tensor_line(&over(field, sides), cells([0.3, 0.2], sides), Family::Major, &options, &mut |_| true)
+            tensor_line(&over(field, sides), cells((0.3, 0.2), sides), Family::Major, &options, &mut |_| true)
         };
         let h = sides[0].max(sides[1]);
         let bend = 4.0 * 0.08 * 0.08;
@@ -102,7 +100,7 @@ fn cells_of_any_unit_that_are_square_give_the_same_bits() {
         assert_eq!(evenly_spaced(&other, Family::Major, 1.5, &options), lines);
         let exponents =
             |of: &Interpolated<'_>| ftle(of, Family::Major, &FtleOptions::default()).expect("samples");
-        // Compared as text: not a number equals itself there.
+        // Compared as text, in which NaN equals NaN.
         assert_eq!(format!("{:?}", exponents(&other)), format!("{:?}", exponents(&plain)));
         let texture = |of: &Interpolated<'_>| {
             convolved(of, Family::Major, &ConvolutionOptions::default()).expect("samples")
@@ -124,7 +122,7 @@ fn points_and_separatrices_are_those_of_square_cells() {
             .iter()
             .map(|s| {
                 let (a, b) = (place(s.line.points[0], sides), place(s.line.points[1], sides));
-                math::degrees(math::atan2(b[1] - a[1], b[0] - a[0]))
+                math::degrees(math::atan2(b.y - a.y, b.x - a.x))
             })
             .collect();
         (points, angles)
@@ -135,7 +133,7 @@ fn points_and_separatrices_are_those_of_square_cells() {
         let (found, turned) = skeleton(sides);
         assert_eq!((found.len(), turned.len(), found[0].1), (1, 6, -1), "{sides:?}");
         for (p, q) in points.iter().zip(&found) {
-            assert!(math::hypot(p.0[0] - q.0[0], p.0[1] - q.0[1]) < ROUNDING, "{sides:?}");
+            assert!(length(p.0 - q.0) < ROUNDING, "{sides:?}");
         }
         // Angles are found between directions a degree apart, linearly.
         assert!(
@@ -153,8 +151,8 @@ fn exponents_are_those_of_square_cells() {
         let field = sampled(sides, trisector);
         ftle(&over(&field, sides), Family::Major, &options).expect("samples")
     };
-    let at = |found: &Ftle, [x, y]: [f64; 2], sides: [f64; 2]| {
-        let [i, j] = cells([x, y], sides).map(|v| (v * found.samples as f64).round() as usize);
+    let at = |found: &Ftle, p: (f64, f64), sides: [f64; 2]| {
+        let [i, j] = cells(p, sides).to_array().map(|v| (v * found.samples as f64).round() as usize);
         *found.larger.at(Cell::new(i, j))
     };
     let square = exponents([1.0; 2], 6);
@@ -163,11 +161,10 @@ fn exponents_are_those_of_square_cells() {
         let (mut compared, mut largest) = (0, 0.0_f64);
         for x in -6..=6 {
             for y in -6..=6 {
-                let p = [f64::from(x), f64::from(y)];
+                let p = (f64::from(x), f64::from(y));
                 let (a, b) = (at(&square, p, [1.0; 2]), at(&oblong, p, sides));
-                // Near the point and its separatrices neighbours part without end, and differences depend on their
-                // distance.
-                if a.is_nan() || b.is_nan() || a > 0.15 || math::hypot(p[0] - 0.6, p[1] + 0.4) < 2.0 {
+                // Near the point and its separatrices the exponent diverges, and differences depend on their distance.
+                if a.is_nan() || b.is_nan() || a > 0.15 || math::hypot(p.0 - 0.6, p.1 + 0.4) < 2.0 {
                     continue;
                 }
                 assert!((a - b).abs() < 2e-3, "{sides:?} {p:?}: {a} {b}");
@@ -192,12 +189,12 @@ fn lines_keep_their_distance_in_the_unit_of_the_smaller_side() {
             for (i, a) in lines.iter().enumerate() {
                 let others = lines[i + 1..].iter().flat_map(|l| &l.points);
                 let nearest = others.flat_map(|q| a.points.iter().map(|p| cell.distance(*p, *q)));
-                // Straight lines beside each other, but for the grain of the points compared.
+                // Parallel lines, up to the spacing of the compared points.
                 assert!(nearest.fold(f64::INFINITY, f64::min) > 0.45 * separation, "{sides:?} {phi}");
             }
             for x in -10..=10 {
                 for y in -10..=10 {
-                    let p = cells([f64::from(x), f64::from(y)], sides);
+                    let p = cells((f64::from(x), f64::from(y)), sides);
                     let near = lines.iter().flat_map(|l| &l.points).map(|q| cell.distance(p, *q));
                     assert!(near.fold(f64::INFINITY, f64::min) < 1.5 * separation, "{sides:?} {phi} {p:?}");
                 }

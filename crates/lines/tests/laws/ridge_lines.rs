@@ -1,8 +1,7 @@
-//! Laws of ridge lines: exactly known crests, symmetries, and fields that have none.
+//! Laws of ridge lines: exactly known crests, symmetries, and fields without ridges.
 
-use tigereye_core::{Cell, Field, Grid, math};
+use tigereye_core::{Cell, Field, Grid, Point, SplitMix64, math};
 use tigereye_lines::{ExtractionError, NearestSegment, RidgeLines, RidgeOptions, Threshold, ridge_lines};
-use tigereye_test_support::Random;
 
 fn field(width: usize, height: usize, f: impl Fn(f64, f64) -> f64) -> Field<f64> {
     Field::from_fn(Grid::new(width, height).expect("a size"), |c| f(c.x as f64, c.y as f64))
@@ -23,11 +22,11 @@ fn gauss(d: f64, width: f64) -> f64 {
 }
 
 /// Largest deviation of points from where they should be, in cells.
-fn worst(found: &RidgeLines, deviation: impl Fn([f64; 2]) -> f64) -> f64 {
+fn worst(found: &RidgeLines, deviation: impl Fn(Point) -> f64) -> f64 {
     found.shape.points.iter().map(|p| deviation(*p).abs()).fold(0.0, f64::max)
 }
 
-/// What the interpolation of a crest two cells wide (standard deviation) may miss its place by, in cells.
+/// Position error of the interpolation for a crest two cells wide (standard deviation), in cells.
 const CREST: f64 = 0.01;
 
 /// The slope across a straight crest is zero on it by symmetry, whatever the profile.
@@ -38,7 +37,7 @@ fn straight_crests_are_found_at_any_angle() {
         let across = |x: f64, y: f64| -s * (x - 20.3) + c * (y - 19.8);
         let found = ridges(&field(41, 41, |x, y| 3.0 * gauss(across(x, y), 2.0)));
         assert_eq!(found.length.len(), 1, "{degrees}: {:?}", found.length);
-        assert!(worst(&found, |p| across(p[0], p[1])) < CREST, "{degrees}");
+        assert!(worst(&found, |p| across(p.x, p.y)) < CREST, "{degrees}");
         assert!(found.length[0] > 37.0, "{degrees}: {}", found.length[0]);
         // The second derivative of the profile on the crest, 3 / w^2; splines know it to second order.
         assert!(found.strength.iter().all(|v| (v - 0.75).abs() < 0.03), "{degrees}");
@@ -51,7 +50,7 @@ fn crests_through_samples_are_one_line() {
     let found = ridges(&field(30, 21, |_, y| -(y - 10.0) * (y - 10.0)));
     assert_eq!((found.length.len(), found.shape.lines[0].closed), (1, false));
     // Rounding: a parabola is reproduced.
-    assert!(worst(&found, |p| p[1] - 10.0) < 1e-12);
+    assert!(worst(&found, |p| p.y - 10.0) < 1e-12);
     assert!((found.length[0] - 27.0).abs() < 1e-9);
 }
 
@@ -66,7 +65,7 @@ fn round_crests_close() {
             let found = ridges(&field(47, 47, f));
             assert_eq!(found.length.len(), 1, "{radius}: {:?}", found.length);
             assert!(found.shape.lines[0].closed);
-            assert!(worst(&found, |p| r(p[0], p[1]) - radius) < CREST, "{radius}");
+            assert!(worst(&found, |p| r(p.x, p.y) - radius) < CREST, "{radius}");
             // A polygon with sides below one cell is shorter by less than 1/(24 r^2) of the circle.
             let circle = math::TAU * radius;
             assert!((found.length[0] / circle - 1.0).abs() < 2e-3, "{radius}: {}", found.length[0] / circle);
@@ -89,7 +88,7 @@ impl SineCrest {
     fn value(&self, x: f64, y: f64) -> f64 {
         gauss(y - self.middle(x), self.width)
     }
-    /// Slope along the eigenvector of the smallest eigenvalue, which is turned to point to larger y.
+    /// Slope along the eigenvector of the smallest eigenvalue, oriented towards larger y.
     fn slope(&self, x: f64, y: f64) -> f64 {
         let (a, k, w) = (self.amplitude, self.wave, self.width);
         let d = y - self.middle(x);
@@ -121,7 +120,7 @@ fn a_sine_crest_has_its_analytic_ridge() {
     let crest = SineCrest { amplitude: 5.0, wave: math::TAU / 40.0, width: 2.5 };
     let found = strong_ridges(&field(61, 41, |x, y| crest.value(x, y)));
     assert_eq!(found.length.len(), 1, "{:?}", found.length);
-    let error = worst(&found, |p| p[1] - crest.ridge(p[0]));
+    let error = worst(&found, |p| p.y - crest.ridge(p.x));
     assert!(error < CREST, "{error}");
     assert!(found.length[0] > 58.0);
 }
@@ -132,7 +131,7 @@ fn errors_fall_at_least_with_the_square_of_the_cell() {
         let crest = SineCrest { amplitude: 5.0 * n, wave: math::TAU / (40.0 * n), width: 2.0 * n };
         let side = |v: f64| (v * n) as usize + 1;
         let found = strong_ridges(&field(side(60.0), side(40.0), |x, y| crest.value(x, y + 20.0 - 20.0 * n)));
-        worst(&found, |p| p[1] - 20.0 * n + 20.0 - crest.ridge(p[0])) / n
+        worst(&found, |p| p.y - 20.0 * n + 20.0 - crest.ridge(p.x)) / n
     };
     let (coarse, fine) = (error(1.0), error(2.0));
     assert!(coarse / fine > 4.0, "{coarse} {fine}");
@@ -143,13 +142,13 @@ fn a_saddle_has_the_crest_through_it() {
     let found = ridges(&field(21, 21, |x, y| (x - 9.7) * (x - 9.7) - (y - 10.4) * (y - 10.4)));
     assert_eq!(found.length.len(), 1);
     // Rounding: a parabola is reproduced.
-    assert!(worst(&found, |p| p[1] - 10.4) < 1e-10);
+    assert!(worst(&found, |p| p.y - 10.4) < 1e-10);
     assert!((found.length[0] - 18.0).abs() < 1e-9);
 }
 
 #[test]
-fn valleys_ramps_constants_and_noise_have_none() {
-    let mut numbers = Random::seeded(5);
+fn valleys_ramps_constants_and_noise_have_no_ridges() {
+    let mut numbers = SplitMix64::new(5);
     let mut noise = move || numbers.unit() - 0.5;
     let noisy = Field::from_fn(Grid::new(30, 30).expect("a size"), |_| 1.0 + 1e-15 * noise());
     let fields = [
@@ -163,13 +162,13 @@ fn valleys_ramps_constants_and_noise_have_none() {
     for (i, f) in fields.iter().enumerate() {
         assert_eq!(ridges(f).length, [0.0; 0], "field {i}");
     }
-    // A peak of equal slopes all around has no crest but the peak.
+    // A rotationally symmetric peak has no crest except the peak itself.
     let peak = ridges(&field(41, 41, |x, y| gauss(math::hypot(x - 20.3, y - 19.6), 4.0)));
     assert!(peak.length.iter().all(|l| *l < 1.0), "{:?}", peak.length);
 }
 
 #[test]
-fn thin_and_empty_fields_have_none() {
+fn thin_and_empty_fields_have_no_ridges() {
     for (w, h) in [(1, 1), (1, 9), (9, 1), (2, 2), (3, 1)] {
         for bad in [0.0, f64::NAN, f64::INFINITY] {
             assert_eq!(ridges(&field(w, h, |_, _| bad)).length, [0.0; 0]);
@@ -189,7 +188,7 @@ fn ridges_turn_with_the_field() {
     assert_eq!(plain.length.len(), turned.length.len());
     let nearest = NearestSegment::new(&turned.shape);
     // Points lie on the same curve; between them it is a chord, off by an eighth of a squared step times the curvature.
-    let away = |p: [f64; 2]| nearest.distance([p[1], 49.0 - p[0]]).expect("a line");
+    let away = |p: Point| nearest.distance(Point::new(p.y, 49.0 - p.x)).expect("a line");
     assert!(worst(&plain, away) < 0.01);
 }
 
@@ -211,7 +210,7 @@ fn mirrored_fields_have_mirrored_ridges() {
         assert_eq!(plain.length.len(), mirrored.length.len());
         for found in [&plain, &mirrored] {
             let nearest = NearestSegment::new(&found.shape);
-            let away = |p: [f64; 2]| nearest.distance([40.0 - p[0], p[1]]).expect("a line");
+            let away = |p: Point| nearest.distance(Point::new(40.0 - p.x, p.y)).expect("a line");
             assert!(worst(found, away) < 1e-6, "its own mirror image");
         }
     }
@@ -229,19 +228,17 @@ fn missing_cells_keep_ridges_away_and_elsewhere_unchanged() {
     }
     let found = ridges(&masked);
     assert_eq!(found.length.len(), 2, "{:?}", found.length);
-    assert!(found.shape.points.iter().all(|p| p[0] < 13.0 || p[0] > 22.0));
-    assert!(found.shape.points.iter().any(|p| p[0] > 11.0 && p[0] < 13.0));
-    assert!(worst(&found, |p| p[1] - 20.0 - 0.2 * (p[0] - 20.0)) < CREST);
-    // A missing border is cut off and changes nothing.
+    assert!(found.shape.points.iter().all(|p| p.x < 13.0 || p.x > 22.0));
+    assert!(found.shape.points.iter().any(|p| p.x > 11.0 && p.x < 13.0));
+    assert!(worst(&found, |p| p.y - 20.0 - 0.2 * (p.x - 20.0)) < CREST);
+    // A missing border is cut off without effect.
     let inner = field(43, 43, |x, y| {
         let border = x == 0.0 || y == 0.0 || x == 42.0 || y == 42.0;
         if border { f64::NAN } else { gauss(y - 21.0 - 0.2 * (x - 21.0), 2.0) }
     });
     let (a, b) = (ridges(&whole), ridges(&inner));
     assert_eq!(a.value, b.value);
-    assert!(
-        a.shape.points.iter().zip(&b.shape.points).all(|(p, q)| q[0] == p[0] + 1.0 && q[1] == p[1] + 1.0)
-    );
+    assert!(a.shape.points.iter().zip(&b.shape.points).all(|(p, q)| q.x == p.x + 1.0 && q.y == p.y + 1.0));
 }
 
 #[test]
@@ -250,7 +247,7 @@ fn filters_keep_what_is_strong_high_and_long() {
     let height = |x: f64| 0.15 - 0.05 * math::tanh((x - 29.5) / 2.0);
     let two = field(60, 60, |x, y| gauss(y - 15.2, 2.0) + height(x) * gauss(y - 44.7, 2.0));
     let with = |options: RidgeOptions| ridge_lines(&two, &options).expect("good options");
-    let count = |options| with(options).shape.points.iter().filter(|p| p[1] > 30.0).count();
+    let count = |options| with(options).shape.points.iter().filter(|p| p.y > 30.0).count();
     let plain = RidgeOptions::default();
     assert!(count(plain) > 100);
     assert_eq!(count(RidgeOptions { least_value: Threshold::Part(0.3), ..plain }), 0);
@@ -282,7 +279,7 @@ fn scaled_axes_are_those_of_the_scaled_field() {
     let f = |x: f64, y: f64| gauss(0.6 * (x - 20.0) + 0.8 * (y - 20.0), 3.0);
     let options = RidgeOptions { cell: [1.0, 2.0, 1.0], ..RidgeOptions::default() };
     let found = ridge_lines(&field(41, 21, |x, y| f(x, 2.0 * y)), &options).expect("good options");
-    assert!(worst(&found, |p| 0.6 * (p[0] - 20.0) + 0.8 * (2.0 * p[1] - 20.0)) < CREST);
+    assert!(worst(&found, |p| 0.6 * (p.x - 20.0) + 0.8 * (2.0 * p.y - 20.0)) < CREST);
     assert!(found.strength.iter().all(|v| (v * 9.0 - 1.0).abs() < 0.05), "{:?}", &found.strength[..5]);
     // From column 1 to 39, and in y three quarters of it.
     assert!((found.length[0] - 47.5).abs() < 0.5, "{}", found.length[0]);

@@ -26,8 +26,8 @@ fn worst(found: &RidgeSurface, deviation: impl Fn([f64; 3]) -> f64) -> f64 {
     found.shape.points.iter().map(|p| deviation(*p).abs()).fold(0.0, f64::max)
 }
 
-/// How often each edge is in a triangle, after the far side of the seam is laid on the near side. `inside` says which
-/// points are away from the border.
+/// Number of triangles of each edge, with the two sides of the seam identified. `inside` tells which points are away
+/// from the border.
 fn edges_by_use(found: &RidgeSurface, period: f64, inside: impl Fn([f64; 3]) -> bool) -> [usize; 4] {
     let mut places: Vec<([u64; 3], usize)> = Vec::new();
     for (i, p) in found.shape.points.iter().enumerate() {
@@ -56,7 +56,7 @@ fn edges_by_use(found: &RidgeSurface, period: f64, inside: impl Fn([f64; 3]) -> 
     counts
 }
 
-/// What the interpolation of a crest two samples wide (standard deviation) may miss its place by.
+/// Position error of the interpolation for a crest two samples wide (standard deviation).
 const CREST: f64 = 0.01;
 
 #[test]
@@ -97,8 +97,8 @@ fn a_cylinder_closes_around_and_over_the_seam() {
     assert!(found.shape.points.iter().all(|p| (0.0..=8.0).contains(&p[2])));
 }
 
-/// A crest along direction phi(z) through the middle: as z goes round once, it turns by half a circle and is itself
-/// again. Its value is 1 and nowhere larger, so the gradient on it is zero.
+/// A crest along direction phi(z) through the middle: over one period of z it rotates by half a turn and returns
+/// to itself. Its value is 1 and nowhere larger, so the gradient on it is zero.
 struct Helicoid {
     samples: usize,
 }
@@ -144,7 +144,7 @@ fn shifting_the_direction_shifts_the_surface() {
         ridges_with(&helicoid.values(0), size, true, &strong()),
         ridges_with(&helicoid.values(5), size, true, &strong()),
     );
-    // Points of the shifted surface are those of the other, in other places only by rounding of the periodic filter.
+    // Points of the shifted surface are those of the original up to rounding of the periodic filter.
     let places = |found: &RidgeSurface, shift: f64| {
         let mut places: Vec<[i64; 3]> = Vec::new();
         for p in &found.shape.points {
@@ -207,7 +207,7 @@ fn a_crest_in_one_direction_lies_flat_wherever_the_direction() {
         let around = |z: f64| math::cos(math::TAU * (z - f64::from(peak)) / 16.0);
         let found = ridges(&values(size, |_, _, z| around(z)), size, true);
         let pieces = if peak == 0 { 2 } else { 1 };
-        // On the seam the surface has points on either side, and is one piece; nothing is there twice.
+        // At the seam the surface has points on both sides and is one piece, without duplicates.
         let at_seam = found.shape.points.iter().filter(|p| p[2] > 15.5).count();
         assert_eq!(found.area.len(), 1, "{peak}: {:?}", found.area);
         assert!(
@@ -221,15 +221,15 @@ fn a_crest_in_one_direction_lies_flat_wherever_the_direction() {
 }
 
 #[test]
-fn the_length_of_a_direction_is_part_of_the_question() {
-    // In samples the crest along x - z is at 45 degrees; where directions count little, the strongest curvature is
+fn ridges_depend_on_the_scale_of_directions() {
+    // In samples the crest along x - z is at 45 degrees; if directions have a small scale, the strongest curvature is
     // along z.
     let size = [20, 5, 20];
     let f = values(size, |x, _, z| gauss((x - z) / 2.0_f64.sqrt(), 2.0) + 0.0 * x);
     for third in [0.5, 1.0, 2.0] {
         let options = RidgeOptions { cell: [1.0, 1.0, third], ..RidgeOptions::default() };
         let found = ridges_with(&f, size, false, &options);
-        // The plane stays where it is; its strength is the curvature along the scaled normal.
+        // The plane does not move; its strength is the curvature along the scaled normal.
         assert!(worst(&found, |p| p[0] - p[2]) < CREST, "{third}");
         let strength = 0.25 * 0.5 * (1.0 + 1.0 / (third * third));
         assert!(found.strength.iter().all(|s| (s / strength - 1.0).abs() < 0.05), "{third}");
@@ -239,7 +239,7 @@ fn the_length_of_a_direction_is_part_of_the_question() {
 }
 
 #[test]
-fn constants_ramps_and_thin_volumes_have_none() {
+fn constants_ramps_and_thin_volumes_have_no_ridges() {
     let options = RidgeOptions::default();
     for size in [[1, 1, 1], [9, 1, 9], [9, 9, 1], [1, 9, 9], [2, 2, 2], [7, 6, 5]] {
         for round in [false, true] {
@@ -270,7 +270,7 @@ fn missing_values_keep_surfaces_away() {
         (p[0] - 9.5).abs() > 2.0 || z > 2.0
     };
     assert!(found.shape.points.iter().all(away));
-    // The rest of the 15 by 8 is there.
+    // The rest of the 15 by 8 cells is complete.
     assert!(found.area[0] > 15.0 * 8.0 - 60.0 && found.area[0] < 15.0 * 8.0, "{:?}", found.area);
     assert!(
         found.shape.points.iter().any(|p| p[0] == 2.0) && found.shape.points.iter().any(|p| p[0] == 17.0)

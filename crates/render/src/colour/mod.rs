@@ -33,7 +33,7 @@ impl Rgba {
     pub const LIGHT: Self = Self::hex(0x1f5fbf);
     /// Cells without light, and values at or below the bottom of a logarithmic scale.
     pub const NO_LIGHT: Self = Self::hex(0xefece6);
-    /// Cells whose value is not finite; drawn hatched where cells are large enough.
+    /// Cells whose value is not finite; hatched if cells are large enough.
     pub const NOT_FINITE: Self = Self::hex(0xa8a8a8);
 
     /// Opaque colour from `0xrrggbb`.
@@ -108,7 +108,7 @@ impl ColourMap {
         }
     }
 
-    /// The nearest entry at `t`; outside [0, 1] the end colour, the first one where `t` is not a number.
+    /// The nearest entry at `t`; outside [0, 1] the end colour, the first one for NaN.
     #[must_use]
     pub fn sample(self, t: f64) -> Rgba {
         let index = if t.is_nan() { 0 } else { (t.clamp(0.0, 1.0) * 255.0).round() as usize };

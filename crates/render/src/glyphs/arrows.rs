@@ -4,15 +4,16 @@ use super::layers::{Layer, Layers, Tone};
 use super::note::Note;
 use super::scaling::{Scaling, towards};
 use super::signed::NEGLIGIBLE;
-use tigereye_core::{PrincipalAxes, Tensor2};
+use crate::scene::PagePoint;
+use tigereye_core::{PrincipalAxes, Tensor2, Vector, quarter_turned};
 
-/// Length of a head: this part of what fills a cell, but not more than [`MOST_OF_AXIS`] of its axis.
+/// Length of a head as a fraction of the length that fills a cell, limited to [`MOST_OF_AXIS`] of its axis.
 const HEAD: f64 = 0.36;
 const MOST_OF_AXIS: f64 = 0.7;
 /// Half width of a head by its length.
 const SLENDER: f64 = 0.5;
 
-pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &Scaling) {
+pub(super) fn add(layers: &mut Layers, centre: PagePoint, t: &Tensor2, scaling: &Scaling) {
     let axes = PrincipalAxes::of(t);
     let size = axes.values[0].abs().max(axes.values[1].abs());
     for (value, axis) in axes.values.into_iter().zip([axes.first, axes.second()]) {
@@ -34,14 +35,14 @@ pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &
 /// A line with two heads that reaches `length` pixels from `centre` to both sides.
 pub(super) fn add_axis(
     layer: &mut Layer,
-    centre: [f64; 2],
-    axis: [f64; 2],
+    centre: PagePoint,
+    axis: Vector,
     length: f64,
     head: f64,
     inwards: bool,
 ) {
     layer.segments.line(towards(centre, axis, head - length), towards(centre, axis, length - head));
-    let across = [-axis[1], axis[0]];
+    let across = quarter_turned(axis);
     for sign in [-1.0, 1.0] {
         let (outer, inner) = (sign * length, sign * (length - head));
         let (tip, base) = if inwards { (inner, outer) } else { (outer, inner) };

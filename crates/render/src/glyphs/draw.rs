@@ -7,17 +7,18 @@ use super::scaling::Scaling;
 use super::{arrows, quadric, signed, turned};
 use crate::colour::{ColourMap, Rgba};
 use crate::legend::Entry;
-use crate::scene::Scene;
+use crate::scene::{PagePoint, PageVector, Scene};
 use crate::shapes;
 use tigereye_core::{Symmetry, Tensor2};
 
 impl Layers {
-    pub(super) fn add(&mut self, centre: [f64; 2], t: &Tensor2, scaling: &Scaling) {
+    pub(super) fn add(&mut self, centre: PagePoint, t: &Tensor2, scaling: &Scaling) {
         let size = self.kind.size(t);
         if !size.is_finite() {
             let r = (0.25 * scaling.radius).clamp(1.5, 4.0);
-            self.broken.line([centre[0] - r, centre[1] - r], [centre[0] + r, centre[1] + r]);
-            self.broken.line([centre[0] - r, centre[1] + r], [centre[0] + r, centre[1] - r]);
+            for diagonal in [PageVector::new(r, r), PageVector::new(r, -r)] {
+                self.broken.line(centre - diagonal, centre + diagonal);
+            }
             self.notes.insert(Note::Broken);
             return;
         }
@@ -27,7 +28,7 @@ impl Layers {
         }
         if size == 0.0 {
             self.zeros.circle(centre, (0.16 * scaling.radius).clamp(1.2, 2.5));
-            // Both are drawn alike, so one entry must name both.
+            // Both look the same, so one entry must name both.
             if !t.is_zero() {
                 self.notes.remove(&Note::Zero);
                 self.notes.insert(Note::NoSymmetricPart);
@@ -46,7 +47,7 @@ impl Layers {
         }
     }
 
-    /// Paints everything and returns the legend of what there was.
+    /// Paints all layers and returns the legend of the marks that occur.
     pub(super) fn draw(self, scene: &mut Scene) -> Vec<Entry> {
         for (layer, colour) in self.tones.into_iter().zip([TENSION, COMPRESSION, MIXED, PLAIN]) {
             layer.draw(scene, colour);

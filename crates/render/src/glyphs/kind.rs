@@ -1,9 +1,9 @@
-//! What stands for a tensor, how large, and in which colour.
+//! Kinds, scales and colours of glyphs.
 
 use tigereye_core::{PrincipalAxes, Svd, Tensor2, choice};
 
-/// What stands for a tensor. Zero tensors are small hollow dots and tensors that are not finite small crosses in every
-/// kind; semi-axes are the singular values unless something else is said.
+/// The glyph of a tensor. In every kind, zero tensors are small hollow dots and non-finite tensors small crosses;
+/// semi-axes are the singular values unless stated otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum GlyphKind {
     /// The ellipse the tensor makes of the unit circle, with its major axis as a thin line. Totally anisotropic tensors
@@ -13,11 +13,11 @@ pub enum GlyphKind {
     /// The rectangle with the semi-axes as half-sides; segments as for ellipses.
     Box,
     /// The superellipse `|x / s1|^(2/e) + |y / s2|^(2/e) = 1` along the semi-axes with `e = (1 - c_l)^gamma` and
-    /// `c_l = (s1 - s2) / (s1 + s2)`: a circle where isotropic, boxier the more anisotropic, a segment in the end.
+    /// `c_l = (s1 - s2) / (s1 + s2)`: a circle where isotropic, boxier the more anisotropic, a segment in the limit.
     ///
-    /// Kindlmann ("Superquadric tensor glyphs", VisSym 2004) has two exponents, `(1 - c_p)^gamma` and `(1 -
-    /// c_l)^gamma`. A tensor of the plane has no planar part: with `c_p = 0` this is the section of his glyph through
-    /// its longest axis, with the `c_l` of two axes instead of three.
+    /// Kindlmann ("Superquadric tensor glyphs", VisSym 2004) has two exponents, `(1 - c_p)^gamma` and
+    /// `(1 - c_l)^gamma`. A tensor of the plane has no planar part: with `c_p = 0` this is the section of his glyph
+    /// through its longest axis, with the `c_l` of two axes instead of three.
     Superquadric {
         /// Sharpness of edges, 0 (always an ellipse) to 100; [`GlyphKind::GAMMA`] is usual, and taken for a value that
         /// is not a number.
@@ -31,14 +31,14 @@ pub enum GlyphKind {
     /// The axes of the symmetric part as a cross of arrows, as long as its eigenvalues: heads outwards for tension,
     /// inwards for compression.
     Arrows,
-    /// The ellipse `U S` of `A = U S V^T`, and what the tensor does apart from stretching, `Q = U V^T`.
+    /// The ellipse `U S` of `A = U S V^T` together with the orthogonal factor `Q = U V^T`.
     ///
     /// For `det A >= 0` that is a rotation ([`tigereye_core::OrthogonalFactor`]): two opposite sectors open from the
     /// line `v1`, which becomes the major axis, to the major axis `u1`; their angle is that of the rotation, true
     /// whatever the ellipse, their radius 0.6 of the larger semi-axis. They are filled where it is counter-clockwise,
-    /// hollow where it is clockwise; half a turn counts as counter-clockwise. Where both semi-axes are equal, +x takes
-    /// the place of `u1`. Symmetric tensors that are nowhere negative have no sectors. For `det A < 0`, a reflection, a
-    /// dashed line shows the direction that it keeps.
+    /// hollow where it is clockwise; half a turn counts as counter-clockwise. If both semi-axes are equal, +x replaces
+    /// `u1`. Positive semidefinite symmetric tensors have no sectors. For `det A < 0`, a reflection, a dashed line
+    /// shows its invariant direction.
     Asymmetric,
 }
 
@@ -68,7 +68,7 @@ impl GlyphKind {
         }
     }
 
-    /// Pixels between the smallest glyphs whose parts can be told apart.
+    /// Least distance of glyphs, in pixels, at which their parts can be distinguished.
     pub(super) fn pitch_px(self) -> f64 {
         match self {
             Self::Ellipse | Self::Box | Self::Superquadric { .. } => 12.0,
@@ -77,7 +77,7 @@ impl GlyphKind {
         }
     }
 
-    /// The largest semi-axis by the distance between glyphs, such that neighbours never touch.
+    /// The largest semi-axis as a fraction of the distance between glyphs, such that neighbours never touch.
     pub(super) fn radius(self) -> f64 {
         match self {
             // The corners of a square that stands on one.
@@ -88,12 +88,12 @@ impl GlyphKind {
         }
     }
 
-    /// Whether it shows the symmetric part of a tensor only.
+    /// Whether the glyph shows only the symmetric part of a tensor.
     pub(super) const fn is_symmetric(self) -> bool {
         matches!(self, Self::Signed | Self::Arrows)
     }
 
-    /// The largest semi-axis in the tensor's unit; not finite where the tensor cannot be drawn.
+    /// The largest semi-axis in the tensor's unit; not finite if the tensor cannot be drawn.
     pub(super) fn size(self, t: &Tensor2) -> f64 {
         match self {
             _ if !t.is_finite() => f64::NAN,
@@ -124,7 +124,7 @@ choice!(GlyphScale {
     Glyph = "glyph": "Every one fills its cell.",
 });
 
-/// What the colour of glyphs means.
+/// The meaning of the colour of glyphs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum GlyphColour {
     /// Tension, compression or both, by the real parts of the eigenvalues; of [`GlyphKind::Asymmetric`], the sense of

@@ -11,7 +11,7 @@ pub(super) const ANISOTROPY_STEPS: usize = 16;
 pub(super) const TENSION: Rgba = Rgba::hex(0xd55e00);
 pub(super) const COMPRESSION: Rgba = Rgba::hex(0x0072b2);
 pub(super) const MIXED: Rgba = Rgba::hex(0x8a7a9b);
-/// Ellipses whose colour means nothing.
+/// Ellipses without a sign.
 pub(super) const PLAIN: Rgba = Rgba::hex(0x8c8c8c);
 /// Dashes of the lines that reflections keep, pixels.
 pub(super) const DASH_PX: [f64; 2] = [2.5, 2.5];
@@ -31,7 +31,7 @@ pub(super) struct Layer {
     pub(super) heads: PathBuilder,
 }
 
-/// What decides about a glyph's colour where colours show signs.
+/// The class of a glyph that determines its colour if colours show signs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Tone {
     Tension,
@@ -55,7 +55,7 @@ pub(super) struct Layers {
     pub(super) mirrors: PathBuilder,
     pub(super) zeros: PathBuilder,
     pub(super) broken: PathBuilder,
-    /// What the legend must explain.
+    /// Marks that the legend has to explain.
     pub(super) notes: BTreeSet<Note>,
 }
 
@@ -75,7 +75,7 @@ impl Layers {
         }
     }
 
-    /// Where a glyph of `t` goes that has `tone` as long as colours show signs.
+    /// The layer of a glyph of `t`, which belongs to `tone` if colours show signs.
     pub(super) fn layer(&mut self, t: &Tensor2, tone: Tone) -> &mut Layer {
         match self.colour {
             GlyphColour::Anisotropy => {

@@ -1,4 +1,4 @@
-//! What marks of glyphs mean.
+//! Legend entries of glyphs.
 
 use super::arrows;
 use super::kind::GlyphColour;
@@ -7,9 +7,9 @@ use super::note::Note;
 use super::turned;
 use crate::colour::Rgba;
 use crate::legend::{Entry, Mark};
-use crate::scene::{PathBuilder, Scene};
+use crate::scene::{PagePoint, PathBuilder, Scene};
 use crate::shapes::Marker;
-use tigereye_core::math;
+use tigereye_core::{Vector, math};
 
 impl Note {
     pub(super) fn entry(self, colour: GlyphColour) -> Entry {
@@ -49,7 +49,7 @@ impl Note {
 
 fn arrow(colour: Rgba, inwards: bool) -> Mark {
     let mut layer = Layer::default();
-    arrows::add_axis(&mut layer, [0.0; 2], [1.0, 0.0], 11.0, 5.0, inwards);
+    arrows::add_axis(&mut layer, PagePoint::zero(), Vector::new(1.0, 0.0), 11.0, 5.0, inwards);
     let mut scene = Scene::sized(0.0, 0.0);
     layer.draw(&mut scene, colour);
     Mark::Drawing(scene.items)
@@ -59,7 +59,7 @@ fn sector(clockwise: bool, colour: GlyphColour) -> Mark {
     let span = math::radians(if clockwise { -50.0 } else { 50.0 });
     let mut path = PathBuilder::default();
     for end in [0.0, math::PI] {
-        turned::add_sector(&mut path, [0.0; 2], 8.0, end - span, span);
+        turned::add_sector(&mut path, PagePoint::zero(), 8.0, end - span, span);
     }
     let mut scene = Scene::sized(0.0, 0.0);
     if clockwise {

@@ -1,4 +1,4 @@
-//! Tensor fields as glyphs, one a cell.
+//! Tensor fields as glyphs, one per cell.
 
 mod arrows;
 mod draw;
@@ -31,9 +31,9 @@ use tigereye_core::{CellShape, Field, Tensor2};
 /// Options of [`glyphs`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct GlyphOptions {
-    /// Title; empty for none.
+    /// Title; may be empty.
     pub title: String,
-    /// What stands for a tensor.
+    /// The kind of glyph.
     pub kind: GlyphKind,
     /// Scaling.
     pub scale: GlyphScale,
@@ -41,7 +41,7 @@ pub struct GlyphOptions {
     pub colour: GlyphColour,
     /// Draws every n-th cell; by default as many as stay readable.
     pub every: Option<usize>,
-    /// Pixels of a cell's smaller side; by default whole, such that the longer side has about 640.
+    /// Pixels of a cell's smaller side; by default a whole number such that the longer side of the map has about 640.
     pub cell_px: Option<usize>,
     /// The shape of a cell.
     pub cell: CellShape,
@@ -51,7 +51,7 @@ pub struct GlyphOptions {
     pub overlays: Vec<Overlay>,
 }
 
-/// Each tensor as a glyph of the kind chosen, within its cell. What marks mean stands in the legend where they occur.
+/// Each tensor as a glyph of the chosen kind, within its cell. The legend explains the marks that occur.
 #[must_use]
 pub fn glyphs(field: &Field<Tensor2>, options: &GlyphOptions) -> Scene {
     let grid = field.grid();

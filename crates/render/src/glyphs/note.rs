@@ -1,4 +1,4 @@
-//! What the marks of glyphs can mean.
+//! The meanings of the marks of glyphs.
 
 /// Something a legend must explain, in its order there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,12 +1,12 @@
-//! What glyphs are made of, as lines instead of a picture.
+//! The outlines of glyphs as lines instead of a picture.
 
 use super::layers::{Layer, Layers, Tone};
 use super::{GlyphColour, GlyphOptions, Scaling};
 use crate::map_frame;
-use crate::scene::{PathBuilder, Segment};
-use tigereye_core::{Cell, Field, Tensor2};
+use crate::scene::{PagePoint, PathBuilder, Segment};
+use tigereye_core::{Cell, Field, Point, Tensor2};
 
-/// What an outline is of a glyph.
+/// The part of a glyph that an outline draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GlyphPart {
     /// An area: an ellipse, a box, a superellipse, a lobe of tension.
@@ -17,34 +17,34 @@ pub enum GlyphPart {
     Line,
     /// The head of an arrow.
     Head,
-    /// A sector as wide as the angle by which a tensor turns.
+    /// A sector that spans the angle of a tensor's rotation.
     Sector,
-    /// The line that a reflection keeps.
+    /// The invariant line of a reflection.
     Mirror,
 }
 
-/// A line or the rim of an area of a glyph.
+/// A line, or the boundary of an area, of a glyph.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GlyphOutline {
-    /// The cell it stands for.
+    /// The cell of the tensor.
     pub cell: Cell,
-    /// What it is.
+    /// The part of the glyph.
     pub part: GlyphPart,
-    /// 1 for tension and counter-clockwise turns, -1 for compression and clockwise ones, 0 for neither or both.
+    /// 1 for tension and counter-clockwise rotation, -1 for compression and clockwise rotation, 0 for neither or both.
     pub sign: i8,
     /// Whether its last point is connected with its first.
     pub closed: bool,
-    /// Its points in cells, (0, 0) the centre of the upper left one, y **downwards**; curves in straight pieces.
-    pub points: Vec<[f64; 2]>,
+    /// Its points; curves in straight pieces.
+    pub points: Vec<Point>,
 }
 
-/// Pixels a cell that glyphs are made at: lobes have as many points as a large picture wants.
+/// Pixels per cell at which outlines are computed: curves are as fine as in a large picture.
 const CELL_PX: f64 = 64.0;
 /// Pieces of a cubic; those of an ellipse are a quarter of it.
 const PIECES: usize = 8;
 
-/// What [`super::glyphs`] draws, glyph by glyph, for every n-th cell (`every`, 1 by default) and the options `kind`,
-/// `scale` and `cell`; the others are those of pictures. Zero tensors and those that are not finite have none.
+/// The outlines of [`super::glyphs`], glyph by glyph, for every n-th cell (`every`, 1 by default) and the options
+/// `kind`, `scale` and `cell`; the other options apply to pictures only. Zero and non-finite tensors have no outlines.
 #[must_use]
 pub fn glyph_outlines(field: &Field<Tensor2>, options: &GlyphOptions) -> Vec<GlyphOutline> {
     let (kind, every) = (options.kind, options.every.unwrap_or(1).max(1));
@@ -53,13 +53,15 @@ pub fn glyph_outlines(field: &Field<Tensor2>, options: &GlyphOptions) -> Vec<Gly
     let mut outlines = Vec::new();
     for cell in map_frame::sampled_cells(field.grid(), every) {
         let mut layers = Layers::of(kind, GlyphColour::AxisSign);
-        layers.add([0.0; 2], field.at(cell), &scaling);
-        let middle = [cell.x as f64, cell.y as f64];
-        let sides = options.cell.sides();
+        layers.add(PagePoint::zero(), field.at(cell), &scaling);
+        let [width, height] = options.cell.sides();
+        let in_cells = |p: &PagePoint| {
+            let centre = cell.centre();
+            Point::new(centre.x + p.x / CELL_PX / width, centre.y + p.y / CELL_PX / height)
+        };
         let mut push = |path: PathBuilder, part: GlyphPart, sign: i8| {
             for (points, closed) in pieces(&path.finish()) {
-                let points =
-                    points.iter().map(|p| [0, 1].map(|i| middle[i] + p[i] / CELL_PX / sides[i])).collect();
+                let points = points.iter().map(in_cells).collect();
                 outlines.push(GlyphOutline { cell, part, sign, closed, points });
             }
         };
@@ -75,7 +77,7 @@ pub fn glyph_outlines(field: &Field<Tensor2>, options: &GlyphOptions) -> Vec<Gly
             ];
             parts.into_iter().for_each(|(path, part)| push(path, part, sign));
         }
-        // The lines of indefinite tensors are drawn over those of the areas: they only add the sign of the major axis.
+        // Omit the signed lines of indefinite tensors: they repeat the major axis only to colour it.
         for (sector, sign) in layers.sectors.into_iter().zip([1, -1]) {
             push(sector, GlyphPart::Sector, sign);
         }
@@ -95,10 +97,10 @@ impl Tone {
 }
 
 /// The sub-paths of a path with curves in straight pieces, and which are closed.
-fn pieces(path: &[Segment]) -> Vec<(Vec<[f64; 2]>, bool)> {
-    let mut all: Vec<(Vec<[f64; 2]>, bool)> = Vec::new();
+fn pieces(path: &[Segment]) -> Vec<(Vec<PagePoint>, bool)> {
+    let mut all: Vec<(Vec<PagePoint>, bool)> = Vec::new();
     for segment in path {
-        let curve = |points: &mut Vec<[f64; 2]>, controls: &[[f64; 2]]| {
+        let curve = |points: &mut Vec<PagePoint>, controls: &[PagePoint]| {
             let Some(&from) = points.last() else { return };
             points.extend((1..=PIECES).map(|i| bezier(from, controls, i as f64 / PIECES as f64)));
         };
@@ -106,7 +108,7 @@ fn pieces(path: &[Segment]) -> Vec<(Vec<[f64; 2]>, bool)> {
             (Segment::Move(p), _) => all.push((vec![p], false)),
             (Segment::Close, Some((points, closed))) => {
                 *closed = true;
-                // Curves that return to their beginning have it twice.
+                // A closed curve repeats its first point.
                 if points.len() > 1 && near(points[0], points[points.len() - 1]) {
                     points.pop();
                 }
@@ -120,19 +122,19 @@ fn pieces(path: &[Segment]) -> Vec<(Vec<[f64; 2]>, bool)> {
     all
 }
 
-fn near(p: [f64; 2], q: [f64; 2]) -> bool {
-    (0..2).all(|i| (p[i] - q[i]).abs() < 1e-9 * CELL_PX)
+fn near(p: PagePoint, q: PagePoint) -> bool {
+    (p.x - q.x).abs() < 1e-9 * CELL_PX && (p.y - q.y).abs() < 1e-9 * CELL_PX
 }
 
 /// A point of the curve from `from` with these control points, the last of which is its end (de Casteljau).
-fn bezier(from: [f64; 2], controls: &[[f64; 2]], t: f64) -> [f64; 2] {
-    let mut points = [[0.0; 2]; 4];
+fn bezier(from: PagePoint, controls: &[PagePoint], t: f64) -> PagePoint {
+    let mut points = [PagePoint::zero(); 4];
     let count = controls.len() + 1;
     points[0] = from;
     points[1..count].copy_from_slice(controls);
     for level in (1..count).rev() {
         for i in 0..level {
-            points[i] = [0, 1].map(|d| points[i][d] + t * (points[i + 1][d] - points[i][d]));
+            points[i] = points[i] + (points[i + 1] - points[i]) * t;
         }
     }
     points[0]
@@ -158,7 +160,7 @@ mod tests {
         assert!(found.iter().all(|o| o.cell == Cell::new(1, 0)));
         for p in &area.points {
             // Semi-axes 0.45 and 0.15 about (1, 0), y downwards, tilted up by 0.5.
-            let (x, y) = (p[0] - 1.0, -p[1]);
+            let (x, y) = (p.x - 1.0, -p.y);
             let (c, s) = (tigereye_core::math::cos(0.5), tigereye_core::math::sin(0.5));
             let (u, v) = ((c * x + s * y) / 0.45, (c * y - s * x) / 0.15);
             assert!((u * u + v * v - 1.0).abs() < 1e-3, "{p:?}");
@@ -167,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn signs_and_parts_are_told_apart() {
+    fn outlines_have_their_signs_and_parts() {
         let parts = |kind, t: Tensor2| {
             let mut all: Vec<_> =
                 outlines(kind, &[t]).iter().map(|o| (o.part as usize, o.sign, o.closed)).collect();

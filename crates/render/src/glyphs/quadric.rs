@@ -4,10 +4,10 @@ use super::kind::{GlyphColour, GlyphKind};
 use super::layers::{Layers, Tone};
 use super::note::Note;
 use super::scaling::{Scaling, towards};
-use crate::scene::PathBuilder;
-use tigereye_core::{Anisotropy, AxisSign, Eigenvalues, Svd, Tensor2, is_totally_anisotropic, math};
+use crate::scene::{PagePoint, PageVector, PathBuilder};
+use tigereye_core::{Anisotropy, AxisSign, Eigenvalues, Svd, Tensor2, is_totally_anisotropic, length, math};
 
-pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &Scaling) {
+pub(super) fn add(layers: &mut Layers, centre: PagePoint, t: &Tensor2, scaling: &Scaling) {
     let tone = tone(t);
     if layers.colour == GlyphColour::AxisSign {
         layers.notes.insert(match tone {
@@ -21,18 +21,25 @@ pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &
 }
 
 /// The outline with its major axis in the layer of `tone`; a segment for total anisotropy.
-pub(super) fn add_outline(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &Scaling, tone: Tone) {
+pub(super) fn add_outline(
+    layers: &mut Layers,
+    centre: PagePoint,
+    t: &Tensor2,
+    scaling: &Scaling,
+    tone: Tone,
+) {
     let kind = layers.kind;
     let layer = layers.layer(t, tone);
     let svd = Svd::of(t);
     let [a, b] = scaling.axes(&svd);
-    let [ux, uy] = svd.major();
+    let axis = svd.major();
     let (from, to) = major_axis(centre, &svd, scaling);
     if is_totally_anisotropic(t) {
         layer.segments.line(from, to);
         return;
     }
-    let (major, minor) = ([a * ux, -a * uy], [b * uy, b * ux]);
+    // In pixels y points downwards; the minor axis is a quarter turn clockwise from the major one.
+    let (major, minor) = (PageVector::new(axis.x, -axis.y) * a, PageVector::new(axis.y, axis.x) * b);
     match kind {
         GlyphKind::Box => rectangle(&mut layer.areas, centre, major, minor),
         GlyphKind::Superquadric { gamma } if has_major_axis(&svd) => {
@@ -56,7 +63,7 @@ fn tone(t: &Tensor2) -> Tone {
 }
 
 /// For axes of opposite signs, a major axis in the colour of its own sign.
-fn add_signed_line(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &Scaling) {
+fn add_signed_line(layers: &mut Layers, centre: PagePoint, t: &Tensor2, scaling: &Scaling) {
     let eigenvalues = Eigenvalues::of(t);
     if eigenvalues.is_indefinite() && has_major_axis(&Svd::of(t)) {
         let major = eigenvalues.axis_signs()[0];
@@ -65,24 +72,20 @@ fn add_signed_line(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: 
     }
 }
 
-/// A circle has none.
+/// Whether the ellipse is not a circle.
 fn has_major_axis(svd: &Svd) -> bool {
     svd.axis_ratio() < 1.0 - 1e-9
 }
 
 /// Both ends of the major axis in pixels.
-fn major_axis(centre: [f64; 2], svd: &Svd, scaling: &Scaling) -> ([f64; 2], [f64; 2]) {
+fn major_axis(centre: PagePoint, svd: &Svd, scaling: &Scaling) -> (PagePoint, PagePoint) {
     let a = scaling.axes(svd)[0];
     (towards(centre, svd.major(), -a), towards(centre, svd.major(), a))
 }
 
-fn rectangle(path: &mut PathBuilder, centre: [f64; 2], a: [f64; 2], b: [f64; 2]) {
-    let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
-    path.polyline(&corners.map(|[u, v]| combined(centre, a, b, u, v)), true);
-}
-
-fn combined(centre: [f64; 2], a: [f64; 2], b: [f64; 2], u: f64, v: f64) -> [f64; 2] {
-    [centre[0] + u * a[0] + v * b[0], centre[1] + u * a[1] + v * b[1]]
+fn rectangle(path: &mut PathBuilder, centre: PagePoint, a: PageVector, b: PageVector) {
+    let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+    path.polyline(&corners.map(|(u, v)| centre + a * u + b * v), true);
 }
 
 /// The exponent `e` of [`GlyphKind::Superquadric`].
@@ -92,15 +95,15 @@ fn sharpness(t: &Tensor2, gamma: f64) -> f64 {
 }
 
 /// `|u|^(2/e) + |v|^(2/e) = 1` with u along `a` and v along `b`, as straight pieces.
-fn superellipse(path: &mut PathBuilder, centre: [f64; 2], a: [f64; 2], b: [f64; 2], e: f64) {
-    // Pieces of an eighth of the turn: their error is a few hundredths of a pixel.
-    let pieces = (1.5 * math::hypot(a[0], a[1]).sqrt()).ceil().clamp(3.0, 24.0) as usize;
-    let points: Vec<[f64; 2]> = (0..8 * pieces)
+fn superellipse(path: &mut PathBuilder, centre: PagePoint, a: PageVector, b: PageVector, e: f64) {
+    // Straight pieces per eighth of a turn: their error is a few hundredths of a pixel.
+    let pieces = (1.5 * length(a).sqrt()).ceil().clamp(3.0, 24.0) as usize;
+    let points: Vec<PagePoint> = (0..8 * pieces)
         .map(|i| {
             let angle = math::FRAC_PI_4 * i as f64 / pieces as f64;
             let (c, s) = (math::cos(angle), math::sin(angle));
             let r = superellipse_radius(c.abs(), s.abs(), 2.0 / e);
-            combined(centre, a, b, r * c, r * s)
+            centre + a * (r * c) + b * (r * s)
         })
         .collect();
     path.polyline(&points, true);

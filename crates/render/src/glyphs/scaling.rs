@@ -1,14 +1,15 @@
 //! From tensors to pixels.
 
 use super::kind::GlyphScale;
-use tigereye_core::Svd;
+use crate::scene::PagePoint;
+use tigereye_core::{Svd, Vector};
 
 /// From the tensor's unit to pixels.
 pub(super) struct Scaling {
     pub(super) kind: GlyphScale,
     /// Largest semi-axis of the field, finite.
     pub(super) largest: f64,
-    /// What it is drawn as, in pixels: less than half of the distance between glyphs.
+    /// Its length in pixels: less than half of the distance between glyphs.
     pub(super) radius: f64,
 }
 
@@ -26,7 +27,7 @@ impl Scaling {
     }
 }
 
-/// The point at `length` pixels from `centre` in the direction of `[x, y]`, y up.
-pub(super) fn towards(centre: [f64; 2], [x, y]: [f64; 2], length: f64) -> [f64; 2] {
-    [centre[0] + length * x, centre[1] - length * y]
+/// The point at `length` pixels from `centre` in a direction of the tensor's frame.
+pub(super) fn towards(centre: PagePoint, direction: Vector, length: f64) -> PagePoint {
+    PagePoint::new(centre.x + length * direction.x, centre.y - length * direction.y)
 }

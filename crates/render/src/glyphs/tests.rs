@@ -3,8 +3,11 @@
 use super::layers::{Layer, Layers};
 use super::note::Note;
 use super::{GlyphColour, GlyphKind, GlyphOptions, GlyphScale, Scaling, glyphs};
-use crate::scene::Segment;
-use tigereye_core::{Field, Grid, OrthogonalFactor, PrincipalAxes, Svd, Tensor2, math};
+use crate::scene::{PagePoint, Segment};
+use tigereye_core::{
+    Field, Grid, OrthogonalFactor, PhysicalPoint, PrincipalAxes, Svd, Tensor2, Vector, length, math,
+    quarter_turned,
+};
 
 /// Semi-axis of every glyph here, pixels.
 const REACH: f64 = 100.0;
@@ -26,24 +29,24 @@ const KINDS: [GlyphKind; 7] = [
 fn drawn(kind: GlyphKind, t: &Tensor2) -> Layers {
     let scaling = Scaling { kind: GlyphScale::Glyph, largest: kind.size(t), radius: REACH };
     let mut layers = Layers::of(kind, GlyphColour::AxisSign);
-    layers.add([0.0; 2], t, &scaling);
+    layers.add(PagePoint::zero(), t, &scaling);
     layers
 }
 
-/// Corners and ends of curves, x right and y up.
-fn points(segments: Vec<Segment>) -> Vec<[f64; 2]> {
+/// Corners and ends of curves in the frame of the tensor.
+fn points(segments: Vec<Segment>) -> Vec<PhysicalPoint> {
     let ends = segments.into_iter().filter_map(|segment| match segment {
         Segment::Move(p) | Segment::Line(p) | Segment::Quad(_, p) | Segment::Cubic(_, _, p) => Some(p),
         Segment::Close => None,
     });
-    ends.map(|[x, y]| [x, -y]).collect()
+    ends.map(|p| PhysicalPoint::new(p.x, -p.y)).collect()
 }
 
-fn parts(layer: Layer) -> [Vec<[f64; 2]>; 5] {
+fn parts(layer: Layer) -> [Vec<PhysicalPoint>; 5] {
     [layer.areas, layer.hollow, layer.lines, layer.segments, layer.heads].map(|p| points(p.finish()))
 }
 
-fn all_points(kind: GlyphKind, t: &Tensor2) -> Vec<[f64; 2]> {
+fn all_points(kind: GlyphKind, t: &Tensor2) -> Vec<PhysicalPoint> {
     let layers = drawn(kind, t);
     let marks = layers.sectors.into_iter().chain([layers.mirrors]).flat_map(|p| points(p.finish()));
     let mut all: Vec<_> = marks.collect();
@@ -53,16 +56,14 @@ fn all_points(kind: GlyphKind, t: &Tensor2) -> Vec<[f64; 2]> {
     all
 }
 
-fn extent(points: &[[f64; 2]], [x, y]: [f64; 2]) -> f64 {
-    points.iter().map(|p| p[0] * x + p[1] * y).fold(f64::NEG_INFINITY, f64::max)
+fn extent(points: &[PhysicalPoint], along: Vector) -> f64 {
+    points.iter().map(|p| p.to_vector().dot(along)).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Largest distance of a point of one set from the other set.
-fn apart(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
-    let from = |a: &[[f64; 2]], b: &[[f64; 2]]| {
-        let nearest = |p: &[f64; 2]| {
-            b.iter().map(|q| math::hypot(p[0] - q[0], p[1] - q[1])).fold(f64::INFINITY, f64::min)
-        };
+fn apart(a: &[PhysicalPoint], b: &[PhysicalPoint]) -> f64 {
+    let from = |a: &[PhysicalPoint], b: &[PhysicalPoint]| {
+        let nearest = |p: &PhysicalPoint| b.iter().map(|q| length(*p - *q)).fold(f64::INFINITY, f64::min);
         a.iter().map(nearest).fold(0.0, f64::max)
     };
     from(a, b).max(from(b, a))
@@ -95,7 +96,7 @@ fn quadrics_reach_their_semi_axes() {
     let major = svd.major();
     for kind in [GlyphKind::Ellipse, GlyphKind::Box, SUPERQUADRIC, GlyphKind::Asymmetric] {
         let points = all_points(kind, &t);
-        let minor = [-major[1], major[0]];
+        let minor = quarter_turned(major);
         assert!((extent(&points, major) - REACH).abs() < ROUNDING_PX, "{kind:?}");
         assert!((extent(&points, minor) - REACH * 2.0 / 3.0).abs() < ROUNDING_PX, "{kind:?}");
     }
@@ -108,20 +109,16 @@ fn signed_glyphs_and_arrows_reach_the_principal_values() {
         let size = axes.values[0].abs().max(axes.values[1].abs());
         for kind in [GlyphKind::Signed, GlyphKind::Arrows] {
             let points = all_points(kind, &t);
-            for (value, [x, y]) in axes.values.into_iter().zip([axes.first, axes.second()]) {
+            for (value, axis) in axes.values.into_iter().zip([axes.first, axes.second()]) {
                 // Lobes of the other axis are broad: only points on this one count.
-                let on_axis = points.iter().filter(|p| (p[0] * y - p[1] * x).abs() < 1e-3).copied();
-                let own: Vec<_> = on_axis.collect();
+                let beside = |p: &PhysicalPoint| p.to_vector().cross(axis).abs();
+                let own: Vec<_> = points.iter().filter(|p| beside(p) < 1e-3).copied().collect();
                 // Heads that point inwards have no point on the axis at their outer end.
                 let reached = if kind == GlyphKind::Arrows && value < 0.0 {
-                    let across: Vec<_> = points
-                        .iter()
-                        .filter(|p| (p[0] * y - p[1] * x).abs() < 0.2 * REACH)
-                        .copied()
-                        .collect();
-                    extent(&across, [x, y])
+                    let across: Vec<_> = points.iter().filter(|p| beside(p) < 0.2 * REACH).copied().collect();
+                    extent(&across, axis)
                 } else {
-                    extent(&own, [x, y]).max(0.0)
+                    extent(&own, axis).max(0.0)
                 };
                 let expected = REACH * value.abs() / size;
                 assert!((reached - expected).abs() < ROUNDING_PX, "{kind:?} {t:?}: {reached}, {expected}");
@@ -136,8 +133,8 @@ fn glyphs_turn_with_their_tensors() {
         for kind in KINDS {
             let angle: f64 = 0.83;
             let (c, s) = (math::cos(angle), math::sin(angle));
-            let before: Vec<_> =
-                all_points(kind, &t).into_iter().map(|[x, y]| [c * x - s * y, s * x + c * y]).collect();
+            let rotate = |p: PhysicalPoint| PhysicalPoint::new(c * p.x - s * p.y, s * p.x + c * p.y);
+            let before: Vec<_> = all_points(kind, &t).into_iter().map(rotate).collect();
             let after = all_points(kind, &rotated(&t, angle));
             let off = apart(&before, &after);
             assert!(off < ROUNDING_PX, "{kind:?} of {t:?}: off by {off} px");
@@ -158,7 +155,7 @@ fn superquadrics_lie_between_ellipse_and_box_and_become_boxier() {
     let diagonal = |kind, ratio: f64| {
         let t = Tensor2::symmetric(1.0, 0.0, ratio);
         // The corner of the box is (1, 1) in units of the semi-axes.
-        let along = |p: &[f64; 2]| (p[0] + p[1] / ratio) / (2.0 * REACH);
+        let along = |p: &PhysicalPoint| (p.x + p.y / ratio) / (2.0 * REACH);
         all_points(kind, &t).iter().map(along).fold(0.0, f64::max)
     };
     let round = core::f64::consts::FRAC_1_SQRT_2;
@@ -195,7 +192,7 @@ fn opposite_tensors_have_the_same_lobes_with_signs_swapped() {
 fn lobes_are_the_normal_component() {
     for t in samples() {
         let size = GlyphKind::Signed.size(&t);
-        for [x, y] in all_points(GlyphKind::Signed, &t) {
+        for PhysicalPoint { x, y, .. } in all_points(GlyphKind::Signed, &t) {
             let r = math::hypot(x, y);
             if r > ROUNDING_PX {
                 let [n, m] = [x / r, y / r];
@@ -218,11 +215,11 @@ fn arrows_do_not_see_the_antisymmetric_part() {
 fn heads_point_outwards_for_tension_and_inwards_for_compression() {
     let [tension, compression, ..] =
         drawn(GlyphKind::Arrows, &Tensor2::symmetric(1.0, 0.0, -1.0)).tones.map(parts);
-    let tips = |heads: &[[f64; 2]]| heads.iter().step_by(3).copied().collect::<Vec<_>>();
-    assert_eq!(extent(&tips(&tension[4]), [1.0, 0.0]), REACH);
-    assert_eq!(extent(&tension[4], [1.0, 0.0]), REACH);
-    assert!(extent(&tips(&compression[4]), [0.0, 1.0]) < 0.7 * REACH);
-    assert_eq!(extent(&compression[4], [0.0, 1.0]), REACH);
+    let tips = |heads: &[PhysicalPoint]| heads.iter().step_by(3).copied().collect::<Vec<_>>();
+    assert_eq!(extent(&tips(&tension[4]), Vector::new(1.0, 0.0)), REACH);
+    assert_eq!(extent(&tension[4], Vector::new(1.0, 0.0)), REACH);
+    assert!(extent(&tips(&compression[4]), Vector::new(0.0, 1.0)) < 0.7 * REACH);
+    assert_eq!(extent(&compression[4], Vector::new(0.0, 1.0)), REACH);
 }
 
 #[test]
@@ -242,7 +239,7 @@ fn sectors_span_the_rotation_and_end_at_the_major_axis() {
         let (own, other) = if turn > 0.0 { (left, right) } else { (right, left) };
         assert!(other.is_empty());
         let pieces = own.len() / 2;
-        let angle = |p: [f64; 2]| math::atan2(p[1], p[0]);
+        let angle = |p: PhysicalPoint| math::atan2(p.y, p.x);
         let (start, end) = (angle(own[1]), angle(own[pieces - 1]));
         let same = |a: f64, b: f64, period: f64| math::sin((a - b) * math::PI / period).abs() < 1e-9;
         assert!(same(end, 0.4, math::PI), "{turn}: ends at {end}");
@@ -259,7 +256,7 @@ fn reflections_show_the_line_they_keep_and_symmetric_tensors_no_rotation() {
     let layers = drawn(GlyphKind::Asymmetric, &t);
     assert_eq!(layers.notes.into_iter().collect::<Vec<_>>(), [Note::Mirrored]);
     let [a, b] = points(layers.mirrors.finish())[..] else { panic!("one line") };
-    let direction = math::atan2(b[1] - a[1], b[0] - a[0]);
+    let direction = math::atan2(b.y - a.y, b.x - a.x);
     assert!(math::sin(direction - axis_rad).abs() < 1e-9);
     let plain = drawn(GlyphKind::Asymmetric, &Tensor2::symmetric(3.0, 1.0, 2.0));
     assert!(plain.mirrors.is_empty() && plain.sectors.iter().all(|p| p.is_empty()));
@@ -285,7 +282,7 @@ fn legends_name_only_what_occurs() {
     let scaling = Scaling { kind: GlyphScale::Glyph, largest: 1.0, radius: REACH };
     for both in [[Tensor2::ZERO, turning], [turning, Tensor2::ZERO]] {
         let mut layers = Layers::of(GlyphKind::Arrows, GlyphColour::AxisSign);
-        both.iter().for_each(|t| layers.add([0.0; 2], t, &scaling));
+        both.iter().for_each(|t| layers.add(PagePoint::zero(), t, &scaling));
         let notes: Vec<Note> = layers.notes.into_iter().collect();
         assert_eq!(notes, [Note::SymmetricPart, Note::NoSymmetricPart]);
     }
@@ -303,7 +300,8 @@ fn glyphs_stay_within_their_cells() {
             for other in [-1.0, -0.9, -0.3, 0.0, 0.04, 0.3, 0.6, 0.9, 1.0] {
                 let reached = |t: &Tensor2| {
                     let points = all_points(kind, t);
-                    points.iter().flatten().fold(0.0, |m: f64, c| m.max(c.abs())) / REACH * kind.radius()
+                    points.iter().fold(0.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs())) / REACH
+                        * kind.radius()
                 };
                 // Of the distance to the next glyph; lines have a width, too.
                 for t in [Tensor2::from_eigen(angle, 1.0, other), Tensor2::from_axes(angle, 1.0, other)] {
@@ -335,7 +333,7 @@ fn awkward_tensors_give_finite_coordinates() {
             }
         }
         for t in &all {
-            assert!(all_points(kind, t).iter().flatten().all(|c| c.is_finite()), "{kind:?} of {t:?}");
+            assert!(all_points(kind, t).iter().all(|p| p.is_finite()), "{kind:?} of {t:?}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Ellipses of tensors that need not be symmetric, with the rotation or reflection they contain.
+//! Ellipses of asymmetric tensors, with the rotation or reflection they contain.
 
 use super::kind::GlyphColour;
 use super::layers::{COMPRESSION, Layers, TENSION, Tone};
@@ -6,16 +6,16 @@ use super::note::Note;
 use super::quadric;
 use super::scaling::{Scaling, towards};
 use crate::colour::Rgba;
-use crate::scene::{PathBuilder, Scene, Segment};
-use tigereye_core::{OrthogonalFactor, Svd, Symmetry, Tensor2, math};
+use crate::scene::{PagePoint, PathBuilder, Scene, Segment};
+use tigereye_core::{OrthogonalFactor, Svd, Symmetry, Tensor2, Vector, math, quarter_turned};
 
-/// Radius of sectors by the larger semi-axis.
+/// Radius of sectors, as a fraction of the larger semi-axis.
 const SECTOR: f64 = 0.6;
-/// Smaller angles are rounding, radians: as much as [`Symmetry::ROUNDING`] makes of a tensor's own size. So is what is
-/// missing to half a turn.
+/// Smaller angles are rounding errors, radians: the rotation of a tensor whose asymmetry is [`Symmetry::ROUNDING`] of
+/// its size. The same holds for deviations from half a turn.
 const NO_TURN_RAD: f64 = Symmetry::ROUNDING;
 
-pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &Scaling) {
+pub(super) fn add(layers: &mut Layers, centre: PagePoint, t: &Tensor2, scaling: &Scaling) {
     let svd = Svd::of(t);
     let reach = scaling.axes(&svd)[0];
     match OrthogonalFactor::of(t) {
@@ -37,20 +37,24 @@ pub(super) fn add(layers: &mut Layers, centre: [f64; 2], t: &Tensor2, scaling: &
         OrthogonalFactor::Reflection { axis_rad } => {
             quadric::add_outline(layers, centre, t, scaling, Tone::Mixed);
             layers.notes.insert(Note::Mirrored);
-            let axis = [math::cos(axis_rad), math::sin(axis_rad)];
+            let axis = unit(axis_rad);
             layers.mirrors.line(towards(centre, axis, -reach), towards(centre, axis, reach));
         }
     }
 }
 
+fn unit(angle_rad: f64) -> Vector {
+    Vector::new(math::cos(angle_rad), math::sin(angle_rad))
+}
+
 /// A sector of `span` radians, counter-clockwise where positive, from the direction `start`.
-pub(super) fn add_sector(path: &mut PathBuilder, centre: [f64; 2], radius: f64, start: f64, span: f64) {
+pub(super) fn add_sector(path: &mut PathBuilder, centre: PagePoint, radius: f64, start: f64, span: f64) {
     let pieces = (span.abs() / math::FRAC_PI_2).ceil().clamp(1.0, 4.0) as usize;
     let step = span / pieces as f64;
     // Distance of the control points of a cubic from the ends of its arc.
     let handle = 4.0 / 3.0 * math::tan(0.25 * step) * radius;
-    let on_arc = |angle: f64| towards(centre, [math::cos(angle), math::sin(angle)], radius);
-    let along = |p, angle: f64, length: f64| towards(p, [-math::sin(angle), math::cos(angle)], length);
+    let on_arc = |angle: f64| towards(centre, unit(angle), radius);
+    let along = |p, angle: f64, length: f64| towards(p, quarter_turned(unit(angle)), length);
     path.move_to(centre);
     path.line_to(on_arc(start));
     for i in 0..pieces {
@@ -60,7 +64,7 @@ pub(super) fn add_sector(path: &mut PathBuilder, centre: [f64; 2], radius: f64, 
     path.close();
 }
 
-/// Colours of counter-clockwise and clockwise sectors: of their own only where colours mean nothing else.
+/// Colours of counter-clockwise and clockwise sectors; distinct only if colours have no other meaning.
 pub(super) fn sector_colours(colour: GlyphColour) -> [Rgba; 2] {
     match colour {
         GlyphColour::AxisSign => [TENSION, COMPRESSION],

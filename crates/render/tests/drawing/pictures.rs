@@ -1,7 +1,7 @@
 //! A few small pictures, compared pixel by pixel with those recorded beside this file.
 //!
-//! Texts are left out, so that the pictures stay small and a change of the font does not touch them. After a change
-//! that is meant to be seen, run the test with `TIGEREYE_UPDATE_PICTURES=1`, look at the pictures, and commit them.
+//! Texts are left out, so that the pictures stay small and a change of the font does not touch them. After an
+//! intended change, run the test with `TIGEREYE_UPDATE_PICTURES=1`, look at the pictures, and commit them.
 
 use std::path::PathBuf;
 use tigereye_core::{
@@ -58,7 +58,7 @@ fn looks_as_recorded(name: &str, mut scene: Scene) {
     assert!(worst <= CHANNEL_TOLERANCE, "{name}: a channel differs by {worst} of 255");
 }
 
-/// Directions turning with the place, one zero and one totally anisotropic tensor.
+/// Directions that rotate with the position, one zero and one totally anisotropic tensor.
 fn field() -> Field<Tensor2> {
     Field::from_fn(Grid::new(5, 4).expect("a grid"), |c| match (c.x, c.y) {
         (0, 0) => Tensor2::ZERO,
@@ -113,7 +113,7 @@ fn heat_map_looks_as_recorded() {
     looks_as_recorded("heat_map", heat_map(&values, &options));
 }
 
-/// Frame, ticks and overlays of a map do not know how finely its field is sampled.
+/// Frame, ticks and overlays of a map do not depend on how finely its field is sampled.
 #[test]
 fn fine_maps_have_the_frame_of_their_cells() {
     let map = |n: usize| {

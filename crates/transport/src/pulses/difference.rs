@@ -17,8 +17,7 @@ use tigereye_core::Cell;
 use super::PulseDistribution;
 use super::sector_sums::SectorSums;
 
-/// How many cells ahead numbers are announced: they come from far away, and the processor's own foresight ends at the
-/// end of a page.
+/// Prefetch distance in cells: the hardware prefetcher stops at the end of a page.
 const AHEAD: usize = 32;
 
 impl<T: Number> SectorSums<T> {
@@ -107,7 +106,7 @@ impl<T: Real> Task for Distance<'_, T> {
     }
 }
 
-/// What the zeroed pulse samples change in the L1 difference, W/rad.
+/// Correction of the L1 difference for the zeroed pulse samples, W/rad.
 fn source_correction<T: Real>(
     field: &Scattering<'_>,
     b1: &PulseDistribution<T>,

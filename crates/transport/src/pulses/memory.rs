@@ -1,29 +1,29 @@
-//! What Anderson mixing remembers of earlier states.
+//! The history of Anderson mixing.
 
 use crate::number::Number;
 
-/// Changes that are remembered.
+/// Number of remembered changes.
 pub(super) const DEPTH: usize = 3;
-/// A change so many times the smallest one so far empties the memory.
+/// A change larger than this multiple of the smallest one so far clears the history.
 const GROWTH: f64 = 4.0;
-/// A remembered change that depends on newer ones up to this part of its squared norm is not used.
+/// A remembered change is not used if its part independent of newer ones is below this fraction of its squared norm.
 const DEPENDENT: f64 = 1e-12;
 
 /// One number for each lane.
 pub(super) type Lanes<T, const N: usize> = [T; N];
 
-/// What is remembered of earlier mixings.
+/// The states of earlier mixings.
 #[derive(Debug)]
 pub(crate) struct Memory<T, const N: usize> {
-    /// Unmixed halves of the state, newest first; one more than are used, to write the next one to.
+    /// Unmixed halves of the state, newest first, with one spare for the next.
     pub(super) halves: [Vec<[Lanes<T, N>; 4]>; DEPTH + 1],
     /// Differences of consecutive changes of the samples, newest first.
     pub(super) differences: [Vec<Lanes<T, N>>; DEPTH],
-    /// Samples before the sweeps, their change by them, and by those before.
+    /// Samples before the sweeps, their change by these sweeps, and by the previous ones.
     pub(super) before: Vec<Lanes<T, N>>,
     pub(super) change: Vec<Lanes<T, N>>,
     pub(super) last_change: Vec<Lanes<T, N>>,
-    /// How many changes in a row a lane may look back on.
+    /// Number of consecutive changes usable by each lane.
     pub(super) remembered: [usize; N],
     /// The smallest change of the samples so far.
     pub(super) smallest: [f64; N],
@@ -33,7 +33,7 @@ pub(crate) struct Memory<T, const N: usize> {
 pub(super) type Weights<T, const N: usize> = [Lanes<T, N>; DEPTH];
 
 impl<T: Number, const N: usize> Memory<T, N> {
-    /// Numbers it takes.
+    /// Its size in numbers.
     pub(crate) const fn numbers(cells: usize) -> usize {
         cells * N * (4 * (DEPTH + 1) + DEPTH + 3)
     }
@@ -51,14 +51,15 @@ impl<T: Number, const N: usize> Memory<T, N> {
         }
     }
 
-    /// Forgets everything: weights that are 0 do not make what is not a number harmless.
+    /// Clears the history. Weights of 0 would not suffice, since 0 times NaN is NaN.
     pub(crate) fn clear(&mut self) {
         self.halves.iter_mut().for_each(|half| half.fill([[T::default(); N]; 4]));
         self.remembered = [0; N];
         self.smallest = [f64::INFINITY; N];
     }
 
-    /// Turns the samples after the sweeps into their change; the sum of the samples and of the absolute changes.
+    /// Replaces the samples after the sweeps by their change; returns the sums of the samples and of the absolute
+    /// changes.
     #[inline(always)]
     pub(super) fn compare(&mut self) -> ([f64; N], [f64; N]) {
         let (mut lit, mut changed) = ([0.0; N], [0.0; N]);
@@ -72,7 +73,7 @@ impl<T: Number, const N: usize> Memory<T, N> {
         (lit, changed)
     }
 
-    /// The weights of the remembered differences that make the newest change least, which it takes in.
+    /// The weights of the remembered differences that minimise the newest change, which is added to the history.
     #[inline(always)]
     pub(super) fn weigh(&mut self, changed: &[f64; N]) -> Weights<T, N> {
         self.differences.rotate_right(1);
@@ -83,7 +84,7 @@ impl<T: Number, const N: usize> Memory<T, N> {
                 difference[l] = now[l] - before[l];
             }
         }
-        // Sums of products of the differences with each other and with the change, each lane apart.
+        // Sums of products of the differences with each other and with the change, separately for each lane.
         let mut products = [[[0.0; N]; DEPTH + 1]; DEPTH];
         for (i, change) in self.change.iter().enumerate() {
             for c in 0..DEPTH {
@@ -117,8 +118,8 @@ impl<T: Number, const N: usize> Memory<T, N> {
     }
 }
 
-/// Solves the normal equations of the first `n` unknowns, of which the upper triangle and the right-hand side are
-/// given. Unknowns that depend on those before them are 0, and all are where they are not finite.
+/// Solves the normal equations of the first `n` unknowns, given their upper triangle and right-hand side. Unknowns that
+/// depend on previous ones are 0; all are 0 if they are not finite.
 fn least_squares(mut m: [[f64; DEPTH + 1]; DEPTH], n: usize) -> [f64; DEPTH] {
     let norms: [f64; DEPTH] = std::array::from_fn(|c| m[c][c]);
     for r in 0..DEPTH {

@@ -1,8 +1,8 @@
-//! Delta pulses of one cell in many directions at once: what the light transport gradient is made of.
+//! Delta pulses of one cell in many directions at once, from which the light transport gradient is computed.
 //!
 //! The propagations share the field and the window, so a cell's numbers are loaded once for all, and they stop at
-//! nearly the same step. A lane that has stopped keeps computing unseen until the last one has; its light was taken
-//! when it stopped, so the numbers are those of separate propagations, bit for bit.
+//! nearly the same step. A lane that has stopped keeps running until the last one has, but its light is recorded when
+//! it stops, so the numbers are those of separate propagations, bit for bit.
 
 mod difference;
 mod memory;
@@ -29,7 +29,7 @@ use crate::aligned::Aligned;
 use crate::window::Window;
 use tigereye_core::Cell;
 
-/// The light of one pulse: eight fluxes a cell, `lobes[cell][direction]`, W, row-major.
+/// The light of one pulse: eight fluxes per cell, `lobes[cell][direction]`, W, row-major.
 ///
 /// The pulse's own sample counts as 0 in its source cell.
 #[derive(Debug)]
@@ -37,17 +37,17 @@ pub struct PulseDistribution<T> {
     numbers: Aligned<T>,
     source: Cell,
     sample: usize,
-    /// There is no light outside; none before anything was written.
+    /// Light lies only inside this window; empty before the first write.
     window: Option<Window>,
 }
 
 impl<T: Real> PulseDistribution<T> {
-    /// No light in `cells` cells.
+    /// A dark distribution of `cells` cells.
     #[must_use]
     pub fn dark(cells: usize) -> Self {
         Self { numbers: Aligned::zeros(8 * cells), source: Cell::new(0, 0), sample: 0, window: None }
     }
-    /// Bytes a distribution over `cells` cells takes.
+    /// Size of a distribution over `cells` cells, bytes.
     #[must_use]
     pub const fn bytes(cells: usize) -> u128 {
         (cells * 8 * size_of::<T>()) as u128 + 64
@@ -57,7 +57,7 @@ impl<T: Real> PulseDistribution<T> {
     pub fn lobes(&self) -> &[[T; 8]] {
         self.numbers.as_slice().as_chunks().0
     }
-    /// Darkens what is lit outside `window`, in which all cells are about to be written.
+    /// Clears the light outside `window`, all of whose cells are about to be written.
     pub(crate) fn keep(&mut self, width: usize, window: Window) {
         let Some(old) = self.window.replace(window) else {
             // Nothing is lit. Written all the same: memory that is read before it is written costs the system two

@@ -1,10 +1,10 @@
-//! What a cell does to light, in the form the pulse lanes compute it.
+//! The transmission of a cell, in the form computed by the pulse lanes.
 //!
 //! Within 45 degrees of direction k, where the cone of direction k lies, the eight lobes add up to `p_k cos u + (sqrt 2
 //! p_{k+-1} - p_k) |sin u|`, with u the angle from direction k, the sign that of u, and `p_k = a_k + (a_{k-1} +
 //! a_{k+1}) / sqrt 2`, the intensity at direction k (times `L`). So `(M a)_k = B_- p_{k-1} + B_0 p_k + B_+ p_{k+1}`
 //! with `B_0 = h sum w T (cos u - |sin u|) / L` and `B_+- = sqrt 2 h sum_{+-u > 0} w T |sin u| / L`. All terms are
-//! positive, nothing cancels, and the matrix is the same for opposite directions: twelve numbers a cell, and for the
+//! positive, nothing cancels, and the matrix is the same for opposite directions: twelve numbers per cell, and for the
 //! sum over k four more.
 
 use crate::Scheme;
@@ -23,11 +23,11 @@ pub(crate) struct Passage<T> {
     rate: T,
 }
 
-/// What leaves a cell.
+/// The light that leaves a cell.
 pub(crate) struct Passed<V> {
     /// To each neighbour, W.
     pub(crate) phi: [V; 8],
-    /// Altogether, W.
+    /// In total, W.
     pub(crate) total: V,
 }
 
@@ -61,7 +61,7 @@ impl<T: Number> Passage<T> {
         self.rate
     }
 
-    /// `Phi = Tbar E (M a) / sum(M a)` with `E = sum a`; nothing where nothing passes.
+    /// `Phi = Tbar E (M a) / sum(M a)` with `E = sum a`; 0 if nothing is transmitted.
     ///
     /// Sixty-two operations and a division: 8 + 8 for p, 24 for M a, 7 for E and the sums of opposite p, 4 for sum(M
     /// a), 11 for the rest.

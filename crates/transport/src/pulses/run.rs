@@ -1,4 +1,4 @@
-//! One batch of pulses on its way.
+//! One batch of pulses under propagation.
 
 use super::PulseDistribution;
 use super::stream::{Medium, Stream};

@@ -1,4 +1,4 @@
-//! The samples of a sector between two directions, two by two; [`super::difference`] says how they add up.
+//! The samples of a sector between two directions in symmetric pairs; [`super::difference`] has the derivation.
 
 use crate::Scheme;
 use crate::number::Number;
@@ -6,19 +6,19 @@ use core::f64::consts::FRAC_1_SQRT_2;
 
 /// Two symmetric samples of a sector: `|v_i| + |v_{n-i}| = weight * max(|p_k + p_{k+1}|, ratio * |p_k - p_{k+1}|)`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pair<T> {
-    pub(super) weight: T,
-    pub(super) ratio: T,
+pub(crate) struct Pair<T> {
+    pub(crate) weight: T,
+    pub(crate) ratio: T,
 }
 
 /// Samples of a sector, the same for all eight.
 #[derive(Clone, Debug)]
 pub(crate) struct SectorSums<T> {
-    pub(super) pairs: Vec<Pair<T>>,
-    /// Of `|p_k + p_{k+1}|`: the sample in the middle, where there is one.
-    pub(super) middle: T,
+    pub(crate) pairs: Vec<Pair<T>>,
+    /// Weight of `|p_k + p_{k+1}|`: the sample in the middle, if there is one.
+    pub(crate) middle: T,
     /// `1/L`.
-    pub(super) scale: f64,
+    pub(crate) scale: f64,
 }
 
 impl<T: Number> SectorSums<T> {

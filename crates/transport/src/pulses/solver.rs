@@ -1,4 +1,4 @@
-//! Propagates several pulses, one a lane, from the dark field to their stops.
+//! Propagates several pulses, one per lane, from the dark field until they stop.
 
 use super::PulseDistribution;
 use super::difference::distance;
@@ -15,10 +15,10 @@ use crate::window::Window;
 use crate::{Real, Stopping, StoppingRule};
 use tigereye_core::{Cell, Grid, StopReason, Work};
 
-/// How one lane's propagation ended.
+/// The end of one lane's propagation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LaneOutcome {
-    /// Why.
+    /// The reason.
     pub stop: StopReason,
     /// Steps, and cells passed through the scheme until this lane stopped.
     pub work: Work,
@@ -28,7 +28,7 @@ pub struct LaneOutcome {
 pub struct PulseSolver<'a, T> {
     field: &'a Scattering<'a>,
     level: Level,
-    /// Streams of 4, 8 and 16 lanes, made when first needed.
+    /// Streams of 4, 8 and 16 lanes, created on first use.
     narrow: Option<Stream<T, 4>>,
     middle: Option<Stream<T, 8>>,
     wide: Option<Stream<T, 16>>,
@@ -41,7 +41,7 @@ impl<'a, T: Real> PulseSolver<'a, T> {
         Self { field, level, narrow: None, middle: None, wide: None }
     }
 
-    /// Bytes of a solver's buffers for a grid and a stopping rule, whatever numbers of samples it is asked for.
+    /// Bytes of a solver's buffers for a grid and a stopping rule, whatever the number of samples.
     #[must_use]
     pub const fn bytes(grid: Grid, stopping: &Stopping) -> u128 {
         let lanes = T::LANES + T::LANES / 2;
@@ -56,8 +56,8 @@ impl<'a, T: Real> PulseSolver<'a, T> {
     }
 
     /// Propagates pulses from `cell` in 1 to [`Real::LANES`] samples, each until `stopping` ends it; the light of
-    /// `samples[i]` goes to `results[i]`. Panics where there are more samples, a sample or the cell does not exist, or
-    /// a result has another size: the sweep chose them.
+    /// `samples[i]` goes to `results[i]`. Panics if there are more samples, a sample or the cell does not exist, or a
+    /// result has another size, all of which the sweep excludes.
     pub fn solve(
         &mut self,
         cell: Cell,
@@ -72,7 +72,7 @@ impl<'a, T: Real> PulseSolver<'a, T> {
             (result.source, result.sample) = (cell, sample);
         }
         let (field, level) = (self.field, self.level);
-        // Half of the lanes at least: narrower registers would be slower than empty lanes.
+        // Use at least half of the lanes: narrower registers would be slower than idle lanes.
         match samples.len().max(T::LANES / 2) {
             ..=4 => {
                 let stream = self.narrow.get_or_insert_with(|| Stream::dark(grid));
@@ -107,9 +107,9 @@ fn run<T: Real, const N: usize>(
     level.dispatch(run)[..samples.len()].to_vec()
 }
 
-/// Where a run stands.
+/// The state of a run.
 struct Progress<const N: usize> {
-    /// Where light is.
+    /// The window of the light.
     window: Window,
     work: Work,
     /// Flux of the last step and of the two before, W.
@@ -127,8 +127,8 @@ impl<const N: usize> Progress<N> {
         }
     }
 
-    /// How many steps may be fused without one of them being a lane's last but not the last of them, as far as can be
-    /// foreseen: a guess that costs time where it is wrong, and nothing else.
+    /// The number n of steps to fuse next. A lane may stop at step n of them, but not before, because the light of the
+    /// earlier steps is overwritten. The estimate affects only the time: if a lane stops earlier, the run is repeated.
     fn fusible(&self, stopping: &Stopping) -> usize {
         let limit = stopping.max_iterations.saturating_add(1).saturating_sub(self.work.steps);
         match stopping.rule {
@@ -141,10 +141,10 @@ impl<const N: usize> Progress<N> {
         }
     }
 
-    /// One more than the steps in which lane `l`'s flux will change by more than the threshold if the change goes on
-    /// shrinking as it did.
+    /// The step at which the change of lane `l`'s flux will fall to the threshold, counted from 1, if it keeps
+    /// shrinking at its last rate.
     fn steps_above(&self, threshold: f64, l: usize) -> usize {
-        /// Changes this close above the threshold may fall below it unforeseen.
+        /// Safety factor: a change within this factor of the threshold may fall below it unexpectedly.
         const MARGIN: f64 = 1.2;
         let [now, before, earlier] = self.totals.map(|t| t[l]);
         let (mut change, previous) = ((now - before).abs(), (before - earlier).abs());
@@ -152,7 +152,7 @@ impl<const N: usize> Progress<N> {
         let mut steps = 1;
         while steps < MAX_FUSED {
             change *= ratio;
-            // Not a number is not above either.
+            // Also ends for NaN.
             if change > MARGIN * threshold {
                 steps += 1;
             } else {
@@ -175,7 +175,7 @@ impl<T: Real, const N: usize> Task for Run<'_, '_, T, N> {
 }
 
 impl<T: Real, const N: usize> Run<'_, '_, T, N> {
-    /// Until every lane has stopped. The stream is dark before and after.
+    /// Runs until every lane has stopped. The stream is dark before and after.
     #[inline(always)]
     fn solve<V: Vector<Number = T>>(mut self, proof: V::Proof) -> [LaneOutcome; N] {
         let StoppingRule::Converged { tolerance } = self.stopping.rule else {
@@ -188,8 +188,8 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
             Settled::Stationary(work) => Some(LaneOutcome { stop: StopReason::Converged, work }),
             Settled::Never => None,
         });
-        // Light that is caught away from the pulse grows for ever: it is what it is after so many plain steps. The
-        // search is not counted.
+        // Light trapped away from the pulse grows without bound: the result is that after the limit of plain steps, and
+        // the search does not count as work.
         self.stopping = Stopping::steps(limit.min(Stopping::REFERENCE.max_iterations + 1));
         if outcomes.contains(&None) { self.march::<V>(proof, outcomes) } else { self.finished(outcomes) }
     }
@@ -199,7 +199,7 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
         outcomes.map(|o| o.unwrap_or(never))
     }
 
-    /// Steps until every lane has stopped that has no outcome yet. The stream is dark before and after.
+    /// Steps until every lane without an outcome has stopped. The stream is dark before and after.
     #[inline(always)]
     fn march<V: Vector<Number = T>>(
         &mut self,
@@ -208,7 +208,7 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
     ) -> [LaneOutcome; N] {
         let grid = self.field.grid();
         let mut changes = self.stopping.needs_distribution_change().then(|| Changes::new(self));
-        // Up to which step runs may be fused: known better after a wrong guess.
+        // The last step up to which runs may be fused; reduced after a wrong estimate.
         let mut fusible_until = usize::MAX;
         let mut progress = Progress::new(self.medium.source.cell(), outcomes);
         loop {
@@ -235,7 +235,7 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
                 self.take(progress.window, &stopped);
             }
             if !foreseen {
-                // The light of that step is gone: once more, and slowly from there on.
+                // The light of that step is overwritten: start again, with single steps from there on.
                 fusible_until = progress.work.steps - 1;
                 progress = Progress::new(self.medium.source.cell(), outcomes);
                 self.stream.clear(passed);
@@ -274,7 +274,7 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
         stopped
     }
 
-    /// Lanes that were not asked for repeat the last one that was.
+    /// Unused lanes repeat the last requested one.
     fn distinct(&self, lane: usize) -> usize {
         lane.min(self.results.len() - 1)
     }
@@ -306,7 +306,7 @@ impl<T: Real> Changes<T> {
         Self { now: dark(), before: dark() }
     }
 
-    /// L1 change (W) and energy (W) of every lane that was asked for.
+    /// L1 change (W) and energy (W) of every requested lane.
     fn measure<const N: usize>(&mut self, run: &Run<'_, '_, T, N>, window: Window) -> Vec<(f64, f64)> {
         core::mem::swap(&mut self.now, &mut self.before);
         let lanes: Vec<usize> = (0..self.now.len()).collect();
@@ -322,7 +322,7 @@ impl<T: Real> Changes<T> {
         let l1 = distance(run.field, run.level, whole(grid), [now, before]);
         let at_sample =
             |lobes: &[[T; 8]]| scheme.intensity(&lobes[grid.index(cell)].map(Number::widened), sample);
-        // The pulse's own sample holds S before and after.
+        // The pulse's own sample is S before and after.
         let change = l1 - (at_sample(now) - at_sample(before)).abs();
         let row_energy = |row: &[[T; 8]]| row.iter().flatten().map(|v| v.widened()).sum::<f64>();
         let lobes: f64 = now.chunks(grid.width()).map(row_energy).sum();

@@ -9,7 +9,7 @@ use tigereye_core::Cell;
 /// The pulses' own terms: each keeps one sample of the source cell at the value S.
 pub(crate) struct Source<T, const N: usize> {
     cell: Cell,
-    /// What one W/rad in the sample adds to `M a`, for each direction and lane.
+    /// Contribution of one W/rad in the sample to `M a`, for each direction and lane.
     inject: [[T; N]; 8],
     /// The lobes' intensity at the sample, 1/rad.
     lobe_at_sample: [[T; N]; 8],
@@ -35,7 +35,7 @@ impl<T: Number, const N: usize> Source<T, N> {
         self.cell
     }
 
-    /// What the pulses add to the energy of what arrives, W.
+    /// The energy that the pulses add to the arriving light, W.
     pub(crate) fn missing_energy(&self, arriving: &[[T; N]; 8]) -> [f64; N] {
         std::array::from_fn(|l| {
             let at_sample = |k: usize| arriving[k][l].widened() * self.lobe_at_sample[k][l].widened();
@@ -43,7 +43,7 @@ impl<T: Number, const N: usize> Source<T, N> {
         })
     }
 
-    /// What part `c` of the lanes passes on where `a` arrives.
+    /// The light emitted by part `c` of the lanes for arriving light `a`.
     #[inline(always)]
     pub(crate) fn passed<V: Vector<Number = T>>(
         &self,

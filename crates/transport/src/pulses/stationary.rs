@@ -1,14 +1,14 @@
-//! The stationary state of pulses, by far fewer evaluations of the scheme than stepping there takes.
+//! The stationary state of pulses, with far fewer evaluations of the scheme than plain steps need.
 //!
 //! A slot (cell, direction) is written by one cell only, so the scheme can be swept through one state in place: each
-//! cell passes on what has arrived so far, first in row-major order, then in exactly the reverse one (a nonlinear
-//! symmetric Gauss-Seidel iteration). Its fixed points are those of the plain step. After every few such pairs of
-//! sweeps the states are mixed so that the change, taken as linear in them, is least (Anderson acceleration of type II:
-//! Walker and Ni, SIAM J. Numer. Anal. 49, 2011).
+//! cell passes on the light that has arrived so far, first in row-major order, then in exactly the reverse one (a
+//! nonlinear symmetric Gauss-Seidel iteration). Its fixed points are those of the plain step. After every few such
+//! pairs of sweeps the states are mixed such that the change, linearised in them, is minimal (Anderson acceleration of
+//! type II: Walker and Ni, SIAM J. Numer. Anal. 49, 2011).
 //!
-//! A row-major sweep writes directions 0, 5, 6 and 7 of a cell before it reads them. So a pair of sweeps depends on the
-//! other four alone: half of the state is all that is mixed and remembered. To choose the few weights one of these four
-//! numbers per cell is enough.
+//! A row-major sweep writes directions 0, 5, 6 and 7 of a cell before it reads them. A pair of sweeps therefore depends
+//! only on the other four, and only this half of the state is mixed and remembered. One of these four numbers per cell
+//! suffices to determine the few weights.
 //!
 //! Every lane decides for itself, by sums in a fixed order: its light depends neither on the other lanes nor on the
 //! processor.
@@ -21,43 +21,43 @@ use crate::number::Number;
 use crate::simd::Vector;
 use tigereye_core::{Cell, Grid, Work};
 
-/// Pairs of sweeps between two mixings.
+/// Number of pairs of sweeps between two mixings.
 const PAIRS: usize = 3;
-/// Rows that a sweep works on at once.
+/// Number of rows that a sweep processes at once.
 const ROWS: usize = 4;
 /// Directions that a row-major sweep reads before it writes them.
 const READ: [usize; 4] = [1, 2, 3, 4];
-/// A mixed number below this part of the unmixed one rejects the mixing: light stays positive, and what is lit stays
-/// lit.
+/// A mixing is rejected if a mixed number is below this fraction of the unmixed one: light stays positive, and lit
+/// cells stay lit.
 const FLOOR: f64 = 1.0 / 16.0;
-/// By what part of it the light that leaves the grid or is absorbed in a step may differ from what the pulse injects.
-/// Light that is caught in a loop away from the pulse grows for ever, while its relative change falls below any
-/// tolerance, and below rounding. In a closed room nothing leaves, and the pulse injects less and less: there the
-/// difference itself must be below the tolerance, as a part of [`INJECTED`], or below rounding.
+/// Relative tolerance of the energy balance: of the light that leaves the grid or is absorbed in a step against the
+/// injected light. The relative change of the state is no criterion for light trapped in a loop away from the pulse: it
+/// grows without bound while its relative change falls below any tolerance. In a closed room no light leaves and the
+/// pulse injects less and less; there the difference itself must be below this fraction of [`INJECTED`], or below
+/// rounding.
 const BALANCE: f64 = 1e-3;
-/// What rounding of all light leaves of the balance, as a part of what it leaves of a change: errors of single cells
-/// cancel.
+/// Rounding error of the energy balance, relative to that of a change: the errors of single cells cancel.
 const ROUNDED: f64 = 0.1;
-/// What a pulse injects in one step at most, W.
+/// Largest energy that a pulse injects in one step, W.
 const INJECTED: f64 = core::f64::consts::TAU;
-/// Evaluations after which the search is given up: some ten times what rings of light, the slowest of the published
-/// fields, need on a grid of that size.
+/// Number of evaluations after which the search gives up: about ten times as many as the slowest published fields,
+/// rings of light, need on a grid of that size.
 const fn patience(grid: Grid) -> usize {
     1000 + 20 * (grid.width() + grid.height())
 }
 
-/// How a lane's search ended.
+/// The end of a lane's search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Settled {
-    /// A plain step changes nothing more.
+    /// A plain step changes nothing any more.
     Stationary(Work),
-    /// Its light is caught, or the search took too long.
+    /// Its light is trapped, or the search took too long.
     Never,
 }
 
 impl<T: Real, const N: usize> Run<'_, '_, T, N> {
-    /// Brings every lane to its stationary state and writes its light. The stream is dark before, and in need of
-    /// clearing afterwards.
+    /// Brings every lane to its stationary state and writes its light. The stream is dark before and must be cleared
+    /// afterwards.
     #[inline(always)]
     pub(crate) fn settle<V: Vector<Number = T>>(
         &mut self,
@@ -87,15 +87,15 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
             }
             self.stream.sample(&mut memory.change);
             let (lit, changed) = memory.compare();
-            // The samples say when to ask; the plain step's own change decides.
+            // The samples indicate when to check; the change of the plain step decides.
             let asks: [bool; N] =
                 std::array::from_fn(|l| settled[l].is_none() && changed[l] <= trigger[l] * lit[l]);
             if asks.contains(&true) {
                 let found = self.balance::<V>(proof);
                 for l in (0..N).filter(|&l| asks[l]) {
-                    // Counted for those who asked: a lane's work does not depend on its neighbours.
+                    // Counted only for the lanes that check, so that a lane's work does not depend on its neighbours.
                     asked[l] += 1;
-                    // Not below what rounding leaves of a change.
+                    // Not below the rounding error of a change.
                     trigger[l] = (0.25 * trigger[l]).max(0.25 * T::SETTLED);
                     if found.energy[l] > T::RESIDENCE * INJECTED {
                         settled[l] = Some(Settled::Never);
@@ -128,7 +128,7 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
         }
     }
 
-    /// One evaluation that changes nothing: what a plain step would change, and where the light of the pulses stays.
+    /// One evaluation without effect: the change that a plain step would make, and the energy balance of the pulses.
     #[inline(always)]
     fn balance<V: Vector<Number = T>>(&self, proof: V::Proof) -> Balance<N> {
         let mut found = Balance { change: [0.0; N], energy: [0.0; N], injected: [0.0; N], lost: [0.0; N] };
@@ -159,7 +159,7 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
                     energy[l] += found.injected[l];
                 }
             }
-            // By the rate, not by what is missing from `passed`: that would be rounding where nothing is absorbed.
+            // From the rate, not from the difference to `passed`, which would be rounding where nothing is absorbed.
             let absorbed = 1.0 - self.medium.cells[i].rate().widened();
             let wall = self.medium.walls.at(cell).filter(|_| cell != self.medium.source.cell());
             for l in 0..N {
@@ -180,19 +180,20 @@ impl<T: Real, const N: usize> Run<'_, '_, T, N> {
 struct Balance<const N: usize> {
     /// `sum |F(a) - a|` over the fluxes that arrive anywhere.
     change: [f64; N],
-    /// In the grid, the pulse among it.
+    /// In the grid, including the pulse.
     energy: [f64; N],
-    /// What the pulse adds in a step.
+    /// Injected by the pulse in a step.
     injected: [f64; N],
-    /// What leaves the grid or is absorbed in a step.
+    /// Leaves the grid or is absorbed in a step.
     lost: [f64; N],
 }
 
 impl<T: Number, const N: usize> Stream<T, N> {
     /// One sweep in place, in row-major order or `BACK`.
     ///
-    /// Every cell waits for the one before it. So a few rows run at once, each two cells behind the one before: far
-    /// enough for all that it depends on, and the result is that of one row after the other, to the last bit.
+    /// Every cell depends on the one before it, which is slow. So a few rows run at once, each two cells behind the
+    /// previous: far enough for all its dependencies, and the result is that of one row after the other, to the last
+    /// bit.
     #[inline(always)]
     fn relax<const BACK: bool, V: Vector<Number = T>>(&mut self, proof: V::Proof, medium: &Medium<'_, T, N>) {
         debug_assert_eq!(self.parity(), Parity::Even);
@@ -224,7 +225,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         }
     }
 
-    /// What a cell would pass on.
+    /// The light that a cell would pass on.
     #[inline(always)]
     fn evaluate<V: Vector<Number = T>>(
         &self,
@@ -245,7 +246,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         passed
     }
 
-    /// The number of each cell that stands for it: the four directions in turn.
+    /// The number sampled in each cell: its four directions in turn.
     #[inline(always)]
     fn sample(&self, to: &mut [Lanes<T, N>]) {
         for (to, cell) in to.iter_mut().zip(self.grid().iter()) {
@@ -275,7 +276,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
                     newer = older;
                 }
                 for l in 0..N {
-                    // Not a number rejects too.
+                    // NaN rejects as well.
                     accepted[l] &= mixed[l] >= floor * here[l];
                 }
                 unmixed[i][half] = here;

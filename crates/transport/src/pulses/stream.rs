@@ -1,15 +1,15 @@
 //! N lanes of light that share one field, stepping in place.
 //!
-//! The state is `[cell][slot][lane]`, eight slots a cell, on a grid with a ring of ghost cells. Steps alternate (the AA
-//! pattern of lattice Boltzmann methods: Bailey et al., ICPP 2009), so that each step reads and writes the same slots
-//! and no second state is needed:
+//! The state is `[cell][slot][lane]`, eight slots per cell, on a grid with a ring of ghost cells. Steps alternate (the
+//! AA pattern of lattice Boltzmann methods: Bailey et al., ICPP 2009), so that each step reads and writes the same
+//! slots and no second state is needed:
 //!
-//! - an **even** step finds the flux that arrives in direction k in slot k of the cell itself and leaves what it passes
-//!   on in direction k in its own slot k + 4, opposite;
-//! - an **odd** step finds what arrives in direction k in slot k + 4 of the neighbour it comes from, and puts what it
-//!   passes on in direction k into slot k of the neighbour it goes to: the same eight slots.
+//! - an **even** step reads the flux arriving in direction k from slot k of the cell itself and writes the flux emitted
+//!   in direction k to its own opposite slot k + 4;
+//! - an **odd** step reads the flux arriving in direction k from slot k + 4 of the neighbour it comes from, and writes
+//!   the flux emitted in direction k to slot k of the neighbour it goes to: the same eight slots.
 //!
-//! Nothing ever enters from outside (the absorbing rim): slots that a cell outside would have filled are kept at 0.
+//! No light enters from outside (the border absorbs): slots that a cell outside would have filled stay 0.
 //!
 //! Several steps may be **fused**: step s of a fused run handles row `r - s` and columns one to the left of those of
 //! the step before, strip after strip, so that a cell's slots stay in the cache from one step to the next. The numbers
@@ -30,13 +30,13 @@ use tigereye_core::{Cell, Grid, NEIGHBOUR_OFFSETS};
 /// Eight numbers for each of N lanes.
 pub(crate) type Lobes<T, const N: usize> = [[T; N]; 8];
 
-/// The most steps that are fused. Ten rows of a strip then lie in a second-level cache of 1 MB.
+/// Largest number of fused steps: ten rows of a strip then fit into a second-level cache of 1 MB.
 pub(crate) const MAX_FUSED: usize = 8;
 
 /// Bytes of a strip's row.
 const STRIP_BYTES: usize = 96 << 10;
 
-/// Which of the two kinds a step is.
+/// The two kinds of steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Parity {
     Even,
@@ -63,24 +63,24 @@ pub(crate) struct Stream<T, const N: usize> {
     parity: Parity,
     /// Flux to existing neighbours, per fused step and row.
     row_flux: Vec<[f64; N]>,
-    /// For stationary states, made when first needed.
+    /// For stationary states, created on first use.
     memory: Option<Box<Memory<T, N>>>,
 }
 
-/// What the steps of a run have in common.
+/// The inputs shared by all steps of a run.
 pub(crate) struct Medium<'a, T, const N: usize> {
     /// Passages of the cells, row-major.
     pub(crate) cells: &'a [Passage<T>],
-    /// The cells that send light back instead; their passages let nothing through.
+    /// The reflecting cells; their passages transmit nothing.
     pub(crate) walls: &'a Walls<T>,
     /// The pulses.
     pub(crate) source: Source<T, N>,
 }
 
 impl<T: Number, const N: usize> Medium<'_, T, N> {
-    /// What part `c` of the lanes passes on in a cell of any kind where `a` arrives.
+    /// The light emitted by part `c` of the lanes in a cell of any kind, for arriving light `a`.
     ///
-    /// The source comes first: a pulse in a wall shines on nothing.
+    /// The source is checked first: a pulse inside a wall emits nothing.
     #[inline(always)]
     pub(crate) fn passed<V: Vector<Number = T>>(
         &self,
@@ -134,13 +134,13 @@ impl<T: Number, const N: usize> Stream<T, N> {
         &self.slots()[(here + dx + dy * self.stride as isize) as usize]
     }
 
-    /// An empty memory.
+    /// A cleared history.
     pub(crate) fn memory(&mut self) -> Box<Memory<T, N>> {
         let mut memory = self.memory.take().unwrap_or_else(|| Box::new(Memory::new(self.grid.cells())));
         memory.clear();
         memory
     }
-    /// Keeps a memory for the next time.
+    /// Keeps a history for reuse.
     pub(crate) fn keep(&mut self, memory: Box<Memory<T, N>>) {
         self.memory = Some(memory);
     }
@@ -155,12 +155,12 @@ impl<T: Number, const N: usize> Stream<T, N> {
         self.numbers.as_mut_slice().as_chunks_mut().0.as_chunks_mut().0
     }
 
-    /// Cells in memory.
+    /// Number of cells in memory.
     pub(crate) const fn cells(grid: Grid) -> usize {
         Self::stride(grid) * (grid.height() + 2)
     }
 
-    /// Rows an odd number of cells apart: rows a multiple of 4096 bytes apart would hinder each other in the cache.
+    /// Rows are an odd number of cells apart: rows a multiple of 4096 bytes apart would conflict in the cache.
     const fn stride(grid: Grid) -> usize {
         (grid.width() + 2) | 1
     }
@@ -195,7 +195,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         }
     }
 
-    /// The cells in which what arrives in direction `k` lies, from that of `cell` on.
+    /// The cells that hold the flux arriving in direction `k`, from that of `cell` on.
     fn arriving(&self, cell: Cell, k: usize) -> &[Lobes<T, N>] {
         let here = self.index(cell.x, cell.y);
         let (dx, dy) = NEIGHBOUR_OFFSETS[k];
@@ -268,7 +268,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         (totals, windows)
     }
 
-    /// Cells `span` of row `y`: borders, walls and the source apart, so that the inner loop asks nothing.
+    /// Cells `span` of row `y`: borders, walls and the source separately, so that the inner loop has no branches.
     #[inline(always)]
     fn pass_row<V: Vector<Number = T>>(
         &mut self,
@@ -317,7 +317,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         }
     }
 
-    /// Which neighbours of a cell exist.
+    /// The existing neighbours of a cell.
     pub(crate) fn reached(&self, cell: Cell) -> [bool; 8] {
         std::array::from_fn(|k| self.grid.neighbour(cell, k).is_some())
     }
@@ -417,7 +417,8 @@ impl<T: Number, const N: usize> Stream<T, N> {
     }
 }
 
-/// What a cell passes on, its flux added. What has nowhere to go is lost, and must not come back: 0.
+/// The light that a cell passes on, with its flux added to the sum. Light towards the outside is lost: its slot is set
+/// to 0, so that it does not return.
 #[inline(always)]
 fn left<const INNER: bool, V: Vector, const N: usize>(
     proof: V::Proof,
@@ -453,7 +454,7 @@ fn slot<'a, T, const N: usize>(rows: &'a [&mut [Lobes<T, N>]; 3], k: usize) -> &
     &rows[(dy + 1) as usize][(dx + 1) as usize][k]
 }
 
-/// The same, to write.
+/// The same, mutable.
 #[inline(always)]
 pub(crate) fn slot_mut<'a, T, const N: usize>(
     rows: &'a mut [&mut [Lobes<T, N>]; 3],

@@ -1,4 +1,4 @@
-//! What pulses must not depend on, and what they must agree with.
+//! Laws of pulses: what they must not depend on, and what they must agree with.
 
 use super::*;
 use crate::{
@@ -6,7 +6,6 @@ use crate::{
     SharedWeights, Stopping, StoppingRule, l1_difference,
 };
 use tigereye_core::{Directions, Field, Grid, Normalization, Tensor2, TransmissionField};
-use tigereye_test_support::Random;
 
 const SAMPLES: usize = 16;
 /// Inner, border and corner cells, one of them absorbing.
@@ -15,8 +14,12 @@ const SOURCES: [Cell; 5] =
 
 /// No symmetry: random axes, weaker cells that absorb a part and some that absorb everything.
 fn rough_field(width: usize, height: usize) -> TransmissionField {
-    let mut numbers = Random::seeded(7);
-    let mut random = move || numbers.unit();
+    // The recorded bits below belong to the numbers of this generator, a linear congruential one.
+    let mut seed = 7_u64;
+    let mut random = move || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
     let field = Field::from_fn(Grid::new(width, height).expect("a grid"), |c| {
         let axes = Tensor2::from_axes(6.0 * random(), 1.0 + 2.0 * random(), 0.02 + random());
         if (c.x + 3 * c.y) % 10 == 4 { Tensor2::default() } else { axes }
@@ -278,7 +281,7 @@ fn by_sample(scheme: &Scheme, a: &[f64; 8], b: &[f64; 8]) -> f64 {
     (0..SAMPLES).map(|t| (scheme.intensity(a, t) - scheme.intensity(b, t)).abs()).sum()
 }
 
-/// The light that plain steps end with, far beyond the tolerance.
+/// The light after so many plain steps that it is far within the tolerance.
 fn brute_force(scheme: &Scheme, transmission: &TransmissionField, light: Light) -> Outcome {
     let rule = StoppingRule::Converged { tolerance: 1e-15 };
     eight_lobe(scheme, transmission, light, Stopping { rule, max_iterations: 20_000 })

@@ -1,4 +1,4 @@
-//! Cells that send light back, in the form the pulse lanes compute them.
+//! Reflecting cells, in the form computed by the pulse lanes.
 
 use crate::number::Number;
 use crate::simd::Vector;
@@ -9,15 +9,15 @@ use tigereye_core::{Cell, Reflection, TransmissionField};
 pub(crate) struct Walls<T> {
     /// Columns and matrices, row-major.
     cells: Vec<(usize, Wall<T>)>,
-    /// Where each row begins in `cells`, and where the last one ends.
+    /// The start of each row in `cells`, and the end of the last one.
     rows: Vec<usize>,
 }
 
-/// One wall: `shares[k][j]` of what arrives in direction j leaves in direction k.
+/// One wall: `shares[k][j]` of the flux arriving in direction j leaves in direction k.
 #[derive(Clone, Debug)]
 pub(crate) struct Wall<T> {
     shares: [[T; 8]; 8],
-    /// The share of each direction that is not sent back.
+    /// The share of each direction that is not reflected.
     absorbed: [f64; 8],
 }
 
@@ -58,12 +58,12 @@ impl<T: Number> Wall<T> {
         }
     }
 
-    /// The share of what arrives in direction `j` that is not sent back.
+    /// The share of the flux arriving in direction `j` that is not reflected.
     pub(crate) const fn absorbed(&self, j: usize) -> f64 {
         self.absorbed[j]
     }
 
-    /// What is sent back where `a` arrives.
+    /// The reflected light, for arriving light `a`.
     #[inline(always)]
     pub(crate) fn pass<V: Vector<Number = T>>(&self, proof: V::Proof, a: &[V; 8]) -> [V; 8] {
         let mut phi = [V::splat(proof, T::default()); 8];

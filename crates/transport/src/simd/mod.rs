@@ -138,6 +138,28 @@ pub(crate) trait Task: Sized {
     fn work<P: Proven<Self::Number>>(self, proof: P) -> Self::Output;
 }
 
+/// A loop over arrays that the compiler itself turns into vectors.
+pub trait ArrayLoop {
+    /// What it gives.
+    type Output;
+
+    /// The loop. `#[inline(always)]`, so that it is compiled for the level.
+    fn run(self) -> Self::Output;
+}
+
+/// An array loop as a task; it asks for no vectors.
+struct Compiled<L>(L);
+
+impl<L: ArrayLoop> Task for Compiled<L> {
+    type Number = f32;
+    type Output = L::Output;
+
+    #[inline(always)]
+    fn work<P: Proven<f32>>(self, _: P) -> L::Output {
+        self.0.run()
+    }
+}
+
 /// The vectors of a level, where the processor has its instructions.
 pub(crate) trait Proven<T>: Copy {
     /// As wide as the level has them.
@@ -196,6 +218,11 @@ impl<T: Vectors> Proven<T> for HasAvx512 {
 }
 
 impl Level {
+    /// Runs a loop compiled for this level. Fused products are rounded once at every level, so the bits are the same.
+    pub fn compiled<L: ArrayLoop>(self, array_loop: L) -> L::Output {
+        self.dispatch(Compiled(array_loop))
+    }
+
     /// Does a task with the widest vectors of this level that its lanes fill.
     pub(crate) fn dispatch<K: Task>(self, task: K) -> K::Output {
         #[cfg(target_arch = "x86_64")]

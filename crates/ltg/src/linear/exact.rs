@@ -1,0 +1,364 @@
+//! The exact gradient of the linear scheme, from eight responses a cell.
+//!
+//! The sweep goes down the grid. The responses of a cell are compared with those of the cell two rows above, whose
+//! place they then take, and with those two columns away; pulses of one cell in different directions need no other
+//! cell.
+
+use super::Pool;
+use super::pulses::Comparisons;
+use crate::observer::{Phase, SweepObserver};
+use crate::partial::PartialVolume;
+use crate::{LtgError, LtgSettings, Precision, Shard};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError, RwLock};
+use tigereye_core::{Cell, Directions, Grid, SweepWork};
+use tigereye_transport::{
+    Combination, Course, Dissection, Lanes, Level, LinearScattering, Real, Workspace, l1_norms,
+};
+
+/// Computes what `shard` has of the exact gradient of the linear scheme and `start` lacks; `settings.stopping` has no
+/// say, for every pulse is solved to its stationary state. The counters of work hold one source per response.
+///
+/// # Errors
+/// [`LtgError`]; [`LtgError::Stopping`] with [`tigereye_transport::TransportError::Trapped`] where there is no
+/// stationary state.
+pub fn linear_sweep_part(
+    field: &LinearScattering<'_>,
+    settings: &LtgSettings,
+    shard: Shard,
+    start: Option<PartialVolume>,
+    observer: &dyn SweepObserver,
+) -> Result<PartialVolume, LtgError> {
+    let (grid, directions) = (field.grid(), field.scheme().directions());
+    let slices = settings.checked_slices(directions)?;
+    check_linear_fit(grid, directions, settings)?;
+    let empty = || PartialVolume::empty(grid, directions, slices.clone(), settings.omega_step);
+    let volume = match start {
+        None => empty()?,
+        Some(start) => {
+            empty()?.check_like(&start)?;
+            start
+        }
+    };
+    match settings.precision {
+        Precision::F64 => run::<f64, 32>(field, settings, &slices, shard, volume, observer),
+        Precision::F32 => run::<f32, 64>(field, settings, &slices, shard, volume, observer),
+    }
+}
+
+/// Whether an exact sweep of the linear scheme can run with these settings on rayon's current thread pool.
+///
+/// # Errors
+/// What [`linear_sweep_part`] would refuse.
+pub fn check_linear_fit(grid: Grid, directions: Directions, settings: &LtgSettings) -> Result<(), LtgError> {
+    let slices = settings.checked_slices(directions)?;
+    match settings.precision {
+        Precision::F64 => strips::<f64, 32>(grid, directions, slices.len(), settings.memory_bytes),
+        Precision::F32 => strips::<f32, 64>(grid, directions, slices.len(), settings.memory_bytes),
+    }
+    .map(drop)
+}
+
+/// Bytes of the responses of one cell.
+fn response_bytes<T>(grid: Grid) -> u128 {
+    (64 * grid.cells() * size_of::<T>()) as u128
+}
+
+/// The strips of inner columns, so that two rows of responses fit beside everything else.
+fn strips<T: Real, const N: usize>(
+    grid: Grid,
+    directions: Directions,
+    slices: usize,
+    memory_bytes: u64,
+) -> Result<Vec<Range<usize>>, LtgError> {
+    if grid.width() < 3 || grid.height() < 3 {
+        return Ok(Vec::new());
+    }
+    let cells = grid.cells() as u128;
+    let threads = rayon::current_num_threads() as u128;
+    let prepared = cells * (directions.count() as u128 * 8 + 168 + 160) + cells * slices as u128 * 24;
+    // Each thread solves N lanes and holds the responses that it reads off them.
+    let fixed = prepared
+        + Dissection::<T, N>::bytes_for(grid)
+        + threads * 2 * Dissection::<T, N>::solution_bytes(grid);
+    let needed = |columns: usize| fixed + 2 * columns as u128 * response_bytes::<T>(grid);
+    if needed(3) > u128::from(memory_bytes) {
+        return Err(LtgError::Memory { needed: needed(3), bound: memory_bytes });
+    }
+    let interior = grid.width() - 2;
+    let widest = (1..=interior).rev().find(|n| needed(n + 2) <= u128::from(memory_bytes)).unwrap_or(1);
+    let width = interior.div_ceil(interior.div_ceil(widest));
+    Ok((0..interior).step_by(width).map(|first| 1 + first..1 + (first + width).min(interior)).collect())
+}
+
+/// The responses of one cell to its eight lobes, each eight lobes a cell (W): what a flux of 1 W that leaves towards
+/// neighbour k makes of the whole field.
+type Responses<T> = Vec<Vec<[T; 8]>>;
+
+struct Sweep<'a, T, const N: usize> {
+    field: &'a LinearScattering<'a>,
+    level: Level,
+    comparisons: &'a Comparisons,
+    dissection: Dissection<T, N>,
+    observer: &'a dyn SweepObserver,
+    workers: Mutex<Vec<Worker<T, N>>>,
+    done: AtomicU64,
+    total: u64,
+    interrupted: AtomicBool,
+    skipped: AtomicBool,
+}
+
+struct Worker<T, const N: usize> {
+    edges: Vec<Lanes<T, N>>,
+    workspace: Workspace<T, N>,
+}
+
+/// Responses of the columns of a strip in an even and an odd row.
+struct Ring<T> {
+    columns: Range<usize>,
+    places: Vec<RwLock<Responses<T>>>,
+}
+
+/// Half the L1 differences at one cell: by place of the class among the moved ones, or by turn.
+#[derive(Clone, Default)]
+struct Differences {
+    along_x: Vec<f64>,
+    along_y: Vec<f64>,
+    turned: Vec<f64>,
+}
+
+fn run<T: Real, const N: usize>(
+    field: &LinearScattering<'_>,
+    settings: &LtgSettings,
+    slices: &[usize],
+    shard: Shard,
+    mut volume: PartialVolume,
+    observer: &dyn SweepObserver,
+) -> Result<PartialVolume, LtgError> {
+    let grid = field.grid();
+    let comparisons = Comparisons::new(field, slices, settings.omega_step)?;
+    let strips = strips::<T, N>(grid, field.scheme().directions(), slices.len(), settings.memory_bytes)?;
+    let targets = volume.all_targets(shard);
+    let wanted = |x: usize, y: usize| targets[y * grid.width() + x];
+    if !targets.contains(&true) {
+        return Ok(volume);
+    }
+    observer.busy(Some(Phase::Propagation));
+    let dissection = Dissection::new(field, Course::FromSources, settings.level, &Pool)?;
+    observer.busy(None);
+    let before = volume.finished().work.sources;
+    let needed = |x: usize, y: usize| {
+        let near = [(0, 0), (1, 0), (0, 1)]
+            .map(|(dx, dy)| [(x.checked_sub(dx), y.checked_sub(dy)), (Some(x + dx), Some(y + dy))]);
+        near.into_iter().flatten().any(|(x, y)| match (x, y) {
+            (Some(x), Some(y)) => x < grid.width() && y < grid.height() && wanted(x, y),
+            _ => false,
+        })
+    };
+    let of_strip = |strip: &Range<usize>| {
+        let columns = strip.start - 1..strip.end + 1;
+        let rows = 0..grid.height();
+        rows.flat_map(|y| columns.clone().map(move |x| (x, y))).filter(|&(x, y)| needed(x, y)).count() as u64
+    };
+    let sweep = Sweep::<T, N> {
+        field,
+        level: settings.level,
+        comparisons: &comparisons,
+        dissection,
+        observer,
+        workers: Mutex::new(Vec::new()),
+        done: AtomicU64::new(before),
+        total: before + 8 * strips.iter().map(of_strip).sum::<u64>(),
+        interrupted: AtomicBool::new(false),
+        skipped: AtomicBool::new(false),
+    };
+    for strip in &strips {
+        let columns = strip.start - 1..strip.end + 1;
+        let ring = Ring {
+            places: (0..2 * columns.len()).map(|_| RwLock::new(Vec::new())).collect(),
+            columns: columns.clone(),
+        };
+        let is_target = |x: usize, y: usize| strip.contains(&x) && wanted(x, y);
+        let mut above: Vec<Differences> = vec![Differences::default(); columns.len()];
+        for y in 0..grid.height() {
+            let solved: Vec<usize> = columns.clone().filter(|&x| needed(x, y)).collect();
+            let here = sweep.row(&ring, y, &solved, &is_target, &mut above);
+            if sweep.skipped.load(Ordering::Relaxed) {
+                let _ = observer.finished(&volume);
+                let done = sweep.done.load(Ordering::Relaxed);
+                return Err(LtgError::Interrupted { done, total: sweep.total });
+            }
+            if let Some(last) = y.checked_sub(1) {
+                let mut any = false;
+                for x in strip.clone().filter(|&x| is_target(x, last)) {
+                    let differences = &above[x - columns.start];
+                    finish(&mut volume, &comparisons, shard, Cell::new(x, last), differences);
+                    any = true;
+                }
+                if any && observer.finished(&volume).is_break() {
+                    sweep.interrupted.store(true, Ordering::Relaxed);
+                }
+            }
+            above = here;
+        }
+    }
+    Ok(volume)
+}
+
+/// Adds the differences of a cell to the sets of directions that `shard` lacks there.
+fn finish(
+    volume: &mut PartialVolume,
+    comparisons: &Comparisons,
+    shard: Shard,
+    cell: Cell,
+    found: &Differences,
+) {
+    let moved = comparisons.moved();
+    let value = |slice: usize| {
+        let (class, turn) = comparisons.values[comparisons.of_slice[slice]];
+        let place = moved.iter().position(|m| *m == class).unwrap_or(0);
+        [found.along_x[place], found.along_y[place], found.turned[turn]]
+    };
+    let grid = volume.grid();
+    // The responses of the rim belong to the cells inside of it.
+    let own = |i: usize, n: usize| {
+        if n == 3 {
+            3
+        } else if i == 1 || i == n - 2 {
+            2
+        } else {
+            1
+        }
+    };
+    let owned = own(cell.x, grid.width()) * own(cell.y, grid.height());
+    let work = SweepWork { sources: 8 * owned as u64, ..SweepWork::default() };
+    volume.finish_cell(shard, cell, work, &value);
+}
+
+impl<T: Real, const N: usize> Sweep<'_, T, N> {
+    /// Solves the cells of a row and takes the differences that become possible: along y in `above`, along x and in
+    /// direction in what is returned.
+    fn row(
+        &self,
+        ring: &Ring<T>,
+        y: usize,
+        solved: &[usize],
+        is_target: &(dyn Fn(usize, usize) -> bool + Sync),
+        above: &mut [Differences],
+    ) -> Vec<Differences> {
+        let columns = &ring.columns;
+        let here: Vec<Mutex<Differences>> =
+            columns.clone().map(|_| Mutex::new(Differences::default())).collect();
+        let last: Vec<Mutex<&mut Differences>> = above.iter_mut().map(Mutex::new).collect();
+        solved.par_chunks(N / 8).with_max_len(1).for_each(|batch| {
+            if self.interrupted.load(Ordering::Relaxed) {
+                self.skipped.store(true, Ordering::Relaxed);
+                return;
+            }
+            self.observer.busy(Some(Phase::Propagation));
+            let responses = self.solve(y, batch);
+            self.observer.busy(Some(Phase::Difference));
+            for (&x, responses) in batch.iter().zip(responses) {
+                if is_target(x, y) {
+                    here[x - columns.start].lock().unwrap_or_else(PoisonError::into_inner).turned =
+                        self.turned(Cell::new(x, y), &responses);
+                }
+                let mut place = ring.places[ring.at(x, y)].write().unwrap_or_else(PoisonError::into_inner);
+                if y > 1 && is_target(x, y - 1) {
+                    last[x - columns.start].lock().unwrap_or_else(PoisonError::into_inner).along_y =
+                        self.moved([(Cell::new(x, y - 2), &*place), (Cell::new(x, y), &responses)]);
+                }
+                *place = responses;
+            }
+            self.observer.busy(None);
+            let solved = 8 * batch.len() as u64;
+            let done = self.done.fetch_add(solved, Ordering::Relaxed) + solved;
+            if self.observer.progress(done, self.total).is_break() {
+                self.interrupted.store(true, Ordering::Relaxed);
+            }
+        });
+        if !self.skipped.load(Ordering::Relaxed) {
+            let targets: Vec<usize> = columns.clone().filter(|&x| is_target(x, y)).collect();
+            targets.par_iter().with_max_len(1).for_each(|&x| {
+                self.observer.busy(Some(Phase::Difference));
+                let read =
+                    |x: usize| ring.places[ring.at(x, y)].read().unwrap_or_else(PoisonError::into_inner);
+                let (left, right) = (read(x - 1), read(x + 1));
+                let along_x = self.moved([(Cell::new(x - 1, y), &*left), (Cell::new(x + 1, y), &*right)]);
+                here[x - columns.start].lock().unwrap_or_else(PoisonError::into_inner).along_x = along_x;
+                self.observer.busy(None);
+            });
+        }
+        here.into_iter().map(|d| d.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
+    }
+
+    /// The responses of up to N / 8 cells of a row.
+    fn solve(&self, y: usize, columns: &[usize]) -> Vec<Responses<T>> {
+        let grid = self.field.grid();
+        let waiting = self.workers.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let mut worker = waiting.unwrap_or_else(|| Worker {
+            edges: vec![Lanes::zero(); 8 * grid.cells()],
+            workspace: self.dissection.workspace(),
+        });
+        worker.edges.fill(Lanes::zero());
+        let lit: Vec<Cell> = columns.iter().map(|&x| Cell::new(x, y)).collect();
+        for (i, &cell) in lit.iter().enumerate() {
+            for k in 0..8 {
+                if let Some(there) = grid.neighbour(cell, k) {
+                    worker.edges[8 * grid.index(there) + k].0[8 * i + k] = T::from_f64(1.0);
+                }
+            }
+        }
+        self.dissection.solve_near(&lit, &mut worker.edges, &mut worker.workspace);
+        let dark = || vec![[T::from_f64(0.0); 8]; grid.cells()];
+        let mut all: Vec<Responses<T>> = lit.iter().map(|_| (0..8).map(|_| dark()).collect()).collect();
+        for (cell, edges) in worker.edges.as_chunks::<8>().0.iter().enumerate() {
+            for (i, responses) in all.iter_mut().enumerate() {
+                for (k, response) in responses.iter_mut().enumerate() {
+                    response[cell] = std::array::from_fn(|j| edges[j].0[8 * i + k]);
+                }
+            }
+        }
+        self.workers.lock().unwrap_or_else(PoisonError::into_inner).push(worker);
+        all
+    }
+
+    /// Half the L1 differences of the pulses of each moved class in two cells.
+    fn moved(&self, [(one, responses), (other, others)]: [(Cell, &Responses<T>); 2]) -> Vec<f64> {
+        let energies = [one, other].map(|cell| self.comparisons.energies(self.field, cell));
+        let distributions: Vec<&[[T; 8]]> = responses.iter().chain(others).map(|r| &**r).collect();
+        let combination = |class: usize| -> Combination<T> {
+            let lit = (0..8).filter(|k| self.comparisons.classes[class][*k] != 0.0);
+            lit.flat_map(|k| {
+                let weight = self.comparisons.classes[class][k];
+                [(k, 0.5 * energies[0][class] * weight), (8 + k, -0.5 * energies[1][class] * weight)]
+            })
+            .map(|(i, factor)| (i, T::from_f64(factor)))
+            .collect()
+        };
+        let combinations: Vec<_> = self.comparisons.moved().into_iter().map(combination).collect();
+        l1_norms(self.field.scattering(), self.level, &distributions, &combinations)
+    }
+
+    /// Half the L1 differences between the pulses of each turn in one cell.
+    fn turned(&self, cell: Cell, responses: &Responses<T>) -> Vec<f64> {
+        let energies = self.comparisons.energies(self.field, cell);
+        let distributions: Vec<&[[T; 8]]> = responses.iter().map(|r| &**r).collect();
+        let combination = |&[before, after]: &[usize; 2]| -> Combination<T> {
+            let pulse = |class: usize, k: usize| energies[class] * self.comparisons.classes[class][k];
+            let factor = |k: usize| 0.5 * (pulse(after, k) - pulse(before, k));
+            let lit = (0..8).map(|k| (k, factor(k))).filter(|(_, factor)| *factor != 0.0);
+            lit.map(|(k, factor)| (k, T::from_f64(factor))).collect()
+        };
+        let combinations: Vec<_> = self.comparisons.turns.iter().map(combination).collect();
+        l1_norms(self.field.scattering(), self.level, &distributions, &combinations)
+    }
+}
+
+impl<T> Ring<T> {
+    const fn at(&self, x: usize, y: usize) -> usize {
+        y % 2 * (self.columns.end - self.columns.start) + x - self.columns.start
+    }
+}

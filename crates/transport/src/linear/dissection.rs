@@ -1,0 +1,440 @@
+//! The stationary light of any sources, directly: the grid is taken apart into blocks, and the way light passes to and
+//! fro between the halves of each is summed up in closed form.
+//!
+//! A block answers what enters it with what leaves it, a matrix. Two halves with the answers `R1` and `R2` pass light
+//! to and fro: what goes back from the second to the first is `b = (I - R2' R1')^-1 (...)`, where `R'` are the parts of
+//! the answers between the halves. So the answer of the whole follows from those of the halves (as in the adding method
+//! for layers: van de Hulst 1963; for sparse matrices: nested dissection, George 1973). All entries are parts of light,
+//! none is negative, and no pivoting is needed.
+//!
+//! With the answers known, sources take two passes through the blocks. From the cells to the whole, each block learns
+//! what the sources inside it send between its halves and out of it while nothing enters; from the whole to the cells,
+//! it learns what really enters. Nothing iterates, so nothing has to converge.
+
+use super::blocks::{Blocks, Halves};
+use super::cells::LinearScattering;
+use super::dense::{Lanes, Packed, Tiles, inverse_of_one_minus};
+use super::parallel::{Parallel, Serial};
+use crate::TransportError;
+use crate::real::Real;
+use crate::simd::{Level, Proven, Task};
+use std::sync::{Mutex, OnceLock};
+use tigereye_core::{Cell, Grid};
+
+/// Which way light is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Course {
+    /// From sources: `a = A a + q`.
+    FromSources,
+    /// Back from receivers: `x = A^T x + r`.
+    ToReceivers,
+}
+
+/// A field, prepared for stationary light of many sources in N lanes.
+///
+/// Edges are numbered `8 cell + k`. From sources, edge `(cell, k)` holds the flux (W) that enters the cell in direction
+/// k. Back from receivers, edge `(cell, k)` holds what a flux of 1 W that *leaves* the cell towards the neighbour at
+/// `k + 4` contributes to the receivers: light that is followed backwards enters from there.
+pub struct Dissection<T, const N: usize> {
+    grid: Grid,
+    level: Level,
+    blocks: Blocks,
+    /// What passes between the halves of each block; nothing for single cells.
+    merges: Vec<OnceLock<Merge<T>>>,
+    /// The longest lists of edges: between the halves of a block and at one of its halves.
+    longest: [usize; 2],
+}
+
+/// What passes between the two halves of a block.
+struct Merge<T> {
+    /// `(I - R2' R1')^-1`, over the edges back.
+    to_and_fro: Packed<T>,
+    /// What each half answers to light from the other, back to it and out of the block.
+    returned: [Packed<T>; 2],
+    sent_out: [Packed<T>; 2],
+    /// What each half passes to the other of light from outside of the block.
+    let_through: [Packed<T>; 2],
+}
+
+/// Buffers of a solution.
+#[derive(Clone, Debug)]
+pub struct Workspace<T, const N: usize>([Vec<Lanes<T, N>>; 5]);
+
+/// What the buffers hold.
+const FORTH: usize = 0;
+const BACK: usize = 1;
+/// What goes back before it has been to and fro.
+const FIRST_BACK: usize = 2;
+/// What passes between each half and the outside of the block.
+const OUTSIDE: [usize; 2] = [3, 4];
+
+/// The passes through the blocks.
+#[derive(Clone, Copy)]
+enum Pass {
+    /// What the sources in a block send between its halves and out of it while nothing enters. The edges hold what the
+    /// halves alone send there.
+    Collect,
+    /// Adds to the edges between the halves of a block what enters it from outside; those edges are final.
+    Distribute,
+}
+
+/// Of light that cannot leave, less than this part leaves per passage: what rounding makes of 0.
+fn smallest_pivot<T: Real>() -> T {
+    T::from_f64(T::SMALLEST_PIVOT)
+}
+
+impl<T: Real, const N: usize> Dissection<T, N> {
+    /// Prepares `field`. Independent parts of the work go to `parallel`; the result does not depend on it.
+    ///
+    /// # Errors
+    /// [`TransportError::Trapped`] where light can get into a part of the field that (next to) nothing leaves: there is
+    /// no stationary state then.
+    pub fn new(
+        field: &LinearScattering<'_>,
+        course: Course,
+        level: Level,
+        parallel: &dyn Parallel,
+    ) -> Result<Self, TransportError> {
+        let grid = field.grid();
+        let blocks = Blocks::of(grid);
+        let mut longest = [0, 0];
+        for halves in blocks.shapes.iter().filter_map(|s| s.halves.as_ref()) {
+            longest[0] = longest[0].max(halves.forth.len()).max(halves.back.len());
+            let outer = halves.sides.iter().flat_map(|s| [s.entering.len(), s.leaving.len()]);
+            longest[1] = longest[1].max(outer.max().unwrap_or(0));
+        }
+        let merges = blocks.blocks.iter().map(|_| OnceLock::new()).collect();
+        let made = Self { grid, level, blocks, merges, longest };
+        made.factorize(field, course, parallel)?;
+        Ok(made)
+    }
+
+    /// The grid.
+    #[must_use]
+    pub const fn grid(&self) -> Grid {
+        self.grid
+    }
+
+    /// Bytes of the prepared matrices.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let merge = |m: &Merge<T>| {
+            let pairs = [&m.returned, &m.sent_out, &m.let_through];
+            m.to_and_fro.bytes() + pairs.into_iter().flatten().map(Packed::bytes).sum::<usize>()
+        };
+        self.merges.iter().filter_map(|m| m.get()).map(merge).sum()
+    }
+
+    /// Bytes of the matrices that [`Self::new`] would prepare for a grid, and of the largest buffers on the way.
+    #[must_use]
+    pub fn bytes_for(grid: Grid) -> u128 {
+        let blocks = Blocks::of(grid);
+        let numbers = |halves: &Halves| {
+            let (f, b) = (halves.forth.len(), halves.back.len());
+            let [one, two] = &halves.sides;
+            b * b
+                + 2 * f * b
+                + one.leaving.len() * b
+                + two.leaving.len() * f
+                + one.entering.len() * f
+                + two.entering.len() * b
+        };
+        let mut of_shape = vec![0_u128; blocks.shapes.len()];
+        for (numbers_of, shape) in of_shape.iter_mut().zip(&blocks.shapes) {
+            *numbers_of = shape.halves.as_ref().map_or(0, numbers) as u128;
+        }
+        let kept: u128 = blocks.blocks.iter().map(|b| of_shape[b.shape]).sum();
+        let answer = |b: usize| {
+            let shape = &blocks.shapes[blocks.blocks[b].shape];
+            (shape.leaving.len() * shape.entering.len().div_ceil(N) * N) as u128
+        };
+        let answers = blocks.generations.iter().map(|g| g.clone().map(answer).sum::<u128>()).max();
+        (kept + 2 * answers.unwrap_or(0)) * size_of::<T>() as u128
+    }
+
+    fn factorize(
+        &self,
+        field: &LinearScattering<'_>,
+        course: Course,
+        parallel: &dyn Parallel,
+    ) -> Result<(), TransportError> {
+        let answers: Vec<Mutex<Option<Tiles<T, N>>>> =
+            self.blocks.blocks.iter().map(|_| Mutex::new(None)).collect();
+        let take = |block: usize| {
+            let known = answers[block].lock().expect("no task panics").take();
+            known.unwrap_or_else(|| self.answer_of_cell(field, course, block))
+        };
+        let trapped = Mutex::new(None);
+        for generation in self.blocks.generations.iter().rev() {
+            // Few large blocks share the threads in each product, many small ones each have their own.
+            let shared = generation.len() < 16;
+            let inner: &dyn Parallel = if shared { parallel } else { &Serial };
+            let one = |i: usize| {
+                let block = generation.start + i;
+                let Some((halves, [first, second])) = self.blocks.halves(block) else { return };
+                match self.merge(halves, [take(first), take(second)], block == 0, inner) {
+                    Ok((merge, answer)) => {
+                        assert!(self.merges[block].set(merge).is_ok(), "each block once");
+                        *answers[block].lock().expect("no task panics") = answer;
+                    }
+                    Err(_) => {
+                        let mut found = trapped.lock().expect("no task panics");
+                        *found = Some(found.map_or(block, |other: usize| other.min(block)));
+                    }
+                }
+            };
+            if shared {
+                (0..generation.len()).for_each(one)
+            } else {
+                parallel.for_each(generation.len(), &one)
+            }
+            if let Some(block) = *trapped.lock().expect("no task panics") {
+                let Cell { x, y } = self.grid.cell(self.blocks.blocks[block].first);
+                return Err(TransportError::Trapped { x, y });
+            }
+        }
+        Ok(())
+    }
+
+    /// What a single cell answers: rows are edges that leave, columns edges that enter.
+    fn answer_of_cell(&self, field: &LinearScattering<'_>, course: Course, block: usize) -> Tiles<T, N> {
+        let block = &self.blocks.blocks[block];
+        let shape = &self.blocks.shapes[block.shape];
+        let p = field.matrix(self.grid.cell(block.first));
+        let direction = |edge: isize| edge.rem_euclid(8) as usize;
+        Tiles::from_fn(shape.leaving.len(), shape.entering.len(), |r, c| {
+            let (k, j) = (direction(shape.leaving[r]), direction(shape.entering[c]));
+            T::from_f64(match course {
+                Course::FromSources => p[k][j],
+                // Opposite directions trade places, and so do cause and effect.
+                Course::ToReceivers => p[(j + 4) % 8][(k + 4) % 8],
+            })
+        })
+    }
+
+    /// What passes between two halves, and what the whole answers; nothing asks the whole grid.
+    fn merge(
+        &self,
+        halves: &Halves,
+        answers: [Tiles<T, N>; 2],
+        whole: bool,
+        parallel: &dyn Parallel,
+    ) -> Result<(Merge<T>, Option<Tiles<T, N>>), super::dense::SmallPivot> {
+        let level = self.level;
+        let [one, two] = &halves.sides;
+        let [a1, a2] = &answers;
+        let returned = [a1.part(&one.to_other, &one.from_other), a2.part(&two.to_other, &two.from_other)];
+        let sent_out =
+            [a1.part(&one.leaving_places, &one.from_other), a2.part(&two.leaving_places, &two.from_other)];
+        let let_through =
+            [a1.part(&one.to_other, &one.entering_places), a2.part(&two.to_other, &two.entering_places)];
+        let packed_returned = returned.each_ref().map(Packed::of);
+        let (forth, back) = (halves.forth.len(), halves.back.len());
+        let loops = Tiles::zero(back, back).plus_product(&packed_returned[1], &returned[0], level, parallel);
+        let to_and_fro = inverse_of_one_minus(&loops, smallest_pivot::<T>(), level, parallel)?;
+        let to_and_fro = Packed::of(&to_and_fro);
+        let packed_out = sent_out.each_ref().map(Packed::of);
+        let answer = (!whole).then(|| {
+            let (n1, n2) = (one.entering.len(), two.entering.len());
+            let entering = n1 + n2;
+            // What goes back, and then forth, per flux that enters the block.
+            let first_back =
+                Tiles::zero(back, n1).plus_product(&packed_returned[1], &let_through[0], level, parallel);
+            let cause = Tiles::<T, N>::from_fn(back, entering, |r, c| {
+                if c < n1 { first_back.at(r, c) } else { let_through[1].at(r, c - n1) }
+            });
+            let goes_back =
+                Tiles::<T, N>::zero(back, entering).plus_product(&to_and_fro, &cause, level, parallel);
+            let first_forth = Tiles::<T, N>::from_fn(forth, entering, |r, c| {
+                if c < n1 { let_through[0].at(r, c) } else { T::default() }
+            });
+            let goes_forth = first_forth.plus_product(&packed_returned[0], &goes_back, level, parallel);
+            let (m1, m2) = (one.leaving.len(), two.leaving.len());
+            let direct =
+                |answer: &Tiles<T, N>, side: &super::blocks::Side, columns: std::ops::Range<usize>| {
+                    Tiles::from_fn(side.leaving.len(), entering, |r, c| {
+                        if columns.contains(&c) {
+                            let place = side.entering_places[c - columns.start] as usize;
+                            answer.at(side.leaving_places[r] as usize, place)
+                        } else {
+                            T::default()
+                        }
+                    })
+                };
+            let upper: Tiles<T, N> =
+                direct(a1, one, 0..n1).plus_product(&packed_out[0], &goes_back, level, parallel);
+            let lower =
+                direct(a2, two, n1..entering).plus_product(&packed_out[1], &goes_forth, level, parallel);
+            Tiles::from_fn(
+                m1 + m2,
+                entering,
+                |r, c| if r < m1 { upper.at(r, c) } else { lower.at(r - m1, c) },
+            )
+        });
+        let merge = Merge {
+            to_and_fro,
+            returned: packed_returned,
+            sent_out: packed_out,
+            let_through: let_through.each_ref().map(Packed::of),
+        };
+        Ok((merge, answer))
+    }
+
+    /// Buffers for [`Self::solve`].
+    #[must_use]
+    pub fn workspace(&self) -> Workspace<T, N> {
+        let [between, outside] = self.longest;
+        let zeros = |n: usize| vec![Lanes::zero(); n];
+        Workspace([zeros(between), zeros(between), zeros(between), zeros(outside), zeros(outside)])
+    }
+
+    /// Bytes of what one thread needs to solve N lanes: edges and workspace.
+    #[must_use]
+    pub const fn solution_bytes(grid: Grid) -> u128 {
+        (grid.cells() * 8 * size_of::<Lanes<T, N>>()) as u128
+    }
+
+    /// Replaces what sources put on the edges by the stationary light they cause, their own contributions included.
+    /// Edges that lead into the grid from outside are left as they are and must be 0.
+    ///
+    /// Panics where `edges` has not eight rows a cell.
+    pub fn solve(&self, edges: &mut [Lanes<T, N>], workspace: &mut Workspace<T, N>) {
+        self.run(edges, workspace, &self.blocks.order);
+    }
+
+    /// [`Self::solve`] for sources in few places: `lit` lists the cells whose outgoing edges alone are not 0 at first.
+    pub fn solve_near(&self, lit: &[Cell], edges: &mut [Lanes<T, N>], workspace: &mut Workspace<T, N>) {
+        let mut is_lit = vec![false; self.blocks.blocks.len()];
+        for cell in lit {
+            let mut block = self.blocks.of_cell[self.grid.index(*cell)];
+            // The blocks that hold a lit block are lit.
+            while !is_lit[block] {
+                is_lit[block] = true;
+                block = self.blocks.blocks[block].parent;
+            }
+        }
+        let lit: Vec<usize> = self.blocks.order.iter().copied().filter(|&block| is_lit[block]).collect();
+        self.run(edges, workspace, &lit);
+    }
+
+    /// `lit`: the blocks with sources inside, each after its halves.
+    fn run(&self, edges: &mut [Lanes<T, N>], workspace: &mut Workspace<T, N>, lit: &[usize]) {
+        assert_eq!(edges.len(), self.grid.cells() * 8, "eight edges a cell");
+        self.level.dispatch(Solve { dissection: self, edges, workspace, lit });
+    }
+}
+
+struct Solve<'a, T, const N: usize> {
+    dissection: &'a Dissection<T, N>,
+    edges: &'a mut [Lanes<T, N>],
+    workspace: &'a mut Workspace<T, N>,
+    lit: &'a [usize],
+}
+
+impl<T: Real, const N: usize> Task for Solve<'_, T, N> {
+    type Number = T;
+    type Output = ();
+
+    #[inline(always)]
+    fn work<P: Proven<T>>(self, proof: P) {
+        let Self { dissection, edges, workspace: Workspace(buffers), lit } = self;
+        let blocks = &dissection.blocks;
+        // Halves before wholes, then wholes before halves.
+        let collect = lit.iter().map(|&block| (block, Pass::Collect));
+        let distribute = blocks.order.iter().rev().map(|&block| (block, Pass::Distribute));
+        for (block, pass) in collect.chain(distribute) {
+            let Some((halves, _)) = blocks.halves(block) else { continue };
+            let Some(merge) = dissection.merges[block].get() else { continue };
+            let first = blocks.blocks[block].first as isize * 8;
+            let [one, two] = &halves.sides;
+            let between = [(&halves.forth, FORTH), (&halves.back, BACK), (&halves.back, FIRST_BACK)];
+            for (list, buffer) in between {
+                buffers[buffer][..list.len()].fill(Lanes::zero());
+            }
+            let outer = match pass {
+                Pass::Collect => [&one.leaving, &two.leaving],
+                Pass::Distribute => [&one.entering, &two.entering],
+            };
+            for (list, buffer) in outer.into_iter().zip(OUTSIDE) {
+                gather(list, first, edges, &mut buffers[buffer]);
+            }
+            let to_and_fro = [
+                (&merge.returned[1], FORTH, FIRST_BACK),
+                (&merge.to_and_fro, FIRST_BACK, BACK),
+                (&merge.returned[0], BACK, FORTH),
+            ];
+            let [t0, t1, t2] = to_and_fro;
+            let products = match pass {
+                Pass::Collect => {
+                    gather(&halves.forth, first, edges, &mut buffers[FORTH]);
+                    gather(&halves.back, first, edges, &mut buffers[FIRST_BACK]);
+                    [
+                        t0,
+                        t1,
+                        t2,
+                        (&merge.sent_out[0], BACK, OUTSIDE[0]),
+                        (&merge.sent_out[1], FORTH, OUTSIDE[1]),
+                    ]
+                }
+                Pass::Distribute => [
+                    (&merge.let_through[0], OUTSIDE[0], FORTH),
+                    (&merge.let_through[1], OUTSIDE[1], FIRST_BACK),
+                    t0,
+                    t1,
+                    t2,
+                ],
+            };
+            // One place in the code for all products: each is compiled many times over.
+            for (matrix, from, to) in products {
+                let [from, to] = buffers.get_disjoint_mut([from, to]).expect("two buffers");
+                matrix.add_to(proof, from, to);
+            }
+            match pass {
+                Pass::Collect => {
+                    scatter(&halves.forth, first, &buffers[FORTH], edges);
+                    scatter(&halves.back, first, &buffers[BACK], edges);
+                    scatter(&one.leaving, first, &buffers[OUTSIDE[0]], edges);
+                    scatter(&two.leaving, first, &buffers[OUTSIDE[1]], edges);
+                }
+                Pass::Distribute => {
+                    add(&halves.forth, first, &buffers[FORTH], edges);
+                    add(&halves.back, first, &buffers[BACK], edges);
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn gather<T: Real, const N: usize>(
+    of: &[isize],
+    first: isize,
+    edges: &[Lanes<T, N>],
+    to: &mut [Lanes<T, N>],
+) {
+    for (to, edge) in to.iter_mut().zip(of) {
+        *to = edges[(first + edge) as usize];
+    }
+}
+
+#[inline(always)]
+fn scatter<T: Real, const N: usize>(
+    of: &[isize],
+    first: isize,
+    from: &[Lanes<T, N>],
+    edges: &mut [Lanes<T, N>],
+) {
+    for (from, edge) in from.iter().zip(of) {
+        edges[(first + edge) as usize] = *from;
+    }
+}
+
+#[inline(always)]
+fn add<T: Real, const N: usize>(of: &[isize], first: isize, from: &[Lanes<T, N>], edges: &mut [Lanes<T, N>]) {
+    for (from, edge) in from.iter().zip(of) {
+        let to = &mut edges[(first + edge) as usize];
+        for (to, from) in to.0.iter_mut().zip(&from.0) {
+            *to = *to + *from;
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! The linear scheme: every photon for itself (thesis, eq. 3.15). Light superposes, the stationary state is the
+//! solution of a linear system, and every question has an adjoint: "where does the light here come from?".
+
+mod blocks;
+mod cells;
+mod combinations;
+mod dense;
+mod dissection;
+mod parallel;
+#[cfg(test)]
+mod tests;
+
+pub use cells::LinearScattering;
+pub use combinations::{Combination, l1_norms};
+pub use dense::Lanes;
+pub use dissection::{Course, Dissection, Workspace};
+pub use parallel::{Parallel, Serial};

@@ -92,6 +92,37 @@ pub enum TransportError {
         /// Its row.
         y: usize,
     },
+    /// A receiver outside the grid.
+    #[error("the receiver at ({x}, {y}) lies outside the field of {width} x {height} cells")]
+    ReceiverOutside {
+        /// Column of the receiver.
+        x: usize,
+        /// Row of the receiver.
+        y: usize,
+        /// Grid width in cells.
+        width: usize,
+        /// Grid height in cells.
+        height: usize,
+    },
+    /// A receiver in a cell that sends light back.
+    #[error("the receiver at ({x}, {y}) is inside a wall: expected a cell that passes light on")]
+    ReceiverInWall {
+        /// Column of the receiver.
+        x: usize,
+        /// Row of the receiver.
+        y: usize,
+    },
+    /// No stationary light was found.
+    #[error(
+        "the light did not become stationary within {sweeps} sweeps (the last step would change {residual:e} of it): \
+         expected a field whose light can leave or is absorbed"
+    )]
+    Unsettled {
+        /// Sweeps and steps over the whole field.
+        sweeps: usize,
+        /// What a step would still change, as a part of all light.
+        residual: f64,
+    },
     /// A transmission field with another sampling than the scheme's.
     #[error("the transmission has {samples} directions where the scheme has {expected}")]
     TransmissionDirections {

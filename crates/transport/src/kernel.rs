@@ -4,6 +4,7 @@
 //! neighbours, and what reaches the ring is never read again (the absorbing rim). A slot (cell, k) has one writer, the
 //! cell behind it, so the two states need no clearing between steps.
 
+use crate::linear::{Band, banded};
 use crate::scattering::{CellScattering, Scattering};
 use crate::window::Window;
 use tigereye_core::{Cell, Grid, NEIGHBOUR_OFFSETS};
@@ -74,7 +75,15 @@ impl Buffers {
     /// Passes light on from every cell of `window` and makes the result the current state (`from`) and the one before
     /// `to`. `specials` (lights, in row-major order) pass on what they say instead of their lobes' flux. Returns the
     /// flux that went to existing neighbours: each row alone, then rows in order.
-    pub(crate) fn step(&mut self, field: &Scattering<'_>, window: Window, specials: &[(Cell, Lobes)]) -> f64 {
+    ///
+    /// With `bands`, every lobe is scattered by itself.
+    pub(crate) fn step(
+        &mut self,
+        field: &Scattering<'_>,
+        bands: Option<&[Band]>,
+        window: Window,
+        specials: &[(Cell, Lobes)],
+    ) -> f64 {
         let mut total = 0.0;
         let mut specials = specials.iter().peekable();
         for y in window.y0..=window.y1 {
@@ -84,11 +93,12 @@ impl Buffers {
                 let phi = match specials.next_if(|(c, _)| *c == cell) {
                     Some((_, phi)) => *phi,
                     None => {
-                        let (m, a) =
-                            (&field.cells[self.grid.index(cell)], &self.from[self.padding.index(x, y)]);
-                        match field.transmission().reflection(cell) {
-                            Some(wall) => wall.reflected(a),
-                            None => normalized(m.rate, sum_of_eight(a), &scattered(m, a)),
+                        let i = self.grid.index(cell);
+                        let (m, a) = (&field.cells[i], &self.from[self.padding.index(x, y)]);
+                        match (field.transmission().reflection(cell), bands) {
+                            (Some(wall), _) => wall.reflected(a),
+                            (None, Some(bands)) => banded(&bands[i], a),
+                            (None, None) => normalized(m.rate, sum_of_eight(a), &scattered(m, a)),
                         }
                     }
                 };

@@ -27,14 +27,17 @@ pub use error::TransportError;
 pub use light::{Emission, Light, check_lights, emitter};
 pub use limits::{Traffic, arithmetic};
 pub use linear::{
-    Combination, Course, Dissection, Lanes, LinearScattering, Parallel, Serial, Workspace, l1_norms,
+    Combination, Course, Dissection, Lanes, LinearScattering, Parallel, Serial, Settled, Workspace,
+    importance, l1_norms, stationary,
 };
 pub use oracle::SampleSpace;
 pub use pulses::{LaneOutcome, PulseDistribution, PulseSolver, l1_difference};
 pub use real::Real;
 pub use reduced::EightLobe;
 pub use scattering::Scattering;
-pub use scheme::{Scheme, SharedWeights, half_angle_beta_rad, half_core_alpha_rad, sector_lobes};
+pub use scheme::{
+    ScatteringRule, Scheme, SharedWeights, half_angle_beta_rad, half_core_alpha_rad, sector_lobes,
+};
 pub use simd::{ArrayLoop, Level};
 pub use stopping::{StopMeasure, Stopping, StoppingRule};
 

@@ -3,7 +3,7 @@
 //! It uses nothing that those use beyond the problem, its light and the stopping rule; a test holds that.
 
 use crate::stopping::{StepMeasures, Verdict};
-use crate::{Emission, Engine, Observer, Outcome, Problem, StepView, TransportError};
+use crate::{Emission, Engine, Observer, Outcome, Problem, ScatteringRule, StepView, TransportError};
 use std::ops::ControlFlow;
 use tigereye_core::{Cell, Field, LightDistribution, StopReason, Work};
 
@@ -51,7 +51,7 @@ impl Engine for SampleSpace {
         let mut work = Work::default();
         let stop = loop {
             let mut target = Buffer::dark(problem);
-            let (total_flux, cells) = step(problem, &source, &mut target);
+            let (total_flux, cells) = step(problem, &source, work.steps == 0, &mut target);
             place_lights(problem, &mut target, false);
             work.steps += 1;
             work.cell_updates += cells;
@@ -77,7 +77,7 @@ impl Engine for SampleSpace {
 }
 
 /// One step from `source` to `target`: the total flux and the number of cells that passed light on.
-fn step(problem: &Problem<'_>, source: &Buffer, target: &mut Buffer) -> (f64, u64) {
+fn step(problem: &Problem<'_>, source: &Buffer, first: bool, target: &mut Buffer) -> (f64, u64) {
     let scheme = problem.scheme;
     let grid = problem.transmission.grid();
     let s = scheme.directions().count();
@@ -95,7 +95,10 @@ fn step(problem: &Problem<'_>, source: &Buffer, target: &mut Buffer) -> (f64, u6
             cells += 1;
             let phi = match problem.transmission.reflection(cell) {
                 Some(wall) => wall.reflected(&source.incoming[i]),
-                None => outgoing_flux(problem, cell, intensity),
+                None => match scheme.scattering() {
+                    ScatteringRule::Joint => outgoing_flux(problem, cell, intensity),
+                    ScatteringRule::Linear => linear_flux(problem, cell, &source.incoming[i], first),
+                },
             };
             for k in 0..8 {
                 let Some(next) = grid.neighbour(cell, k) else { continue };
@@ -126,6 +129,29 @@ fn outgoing_flux(problem: &Problem<'_>, cell: Cell, intensity: &[f64]) -> [f64; 
     std::array::from_fn(|k| h * n_f * (0..s).map(|t| scheme.weights(t)[k] * transmitted[t]).sum::<f64>())
 }
 
+/// The outgoing flux (W) where every photon goes its own way (eq. 3.15): that of each arriving lobe alone, and of each
+/// sample of a light alone.
+fn linear_flux(problem: &Problem<'_>, cell: Cell, incoming: &[f64; 8], first: bool) -> [f64; 8] {
+    let scheme = problem.scheme;
+    let s = scheme.directions().count();
+    let mut total = [0.0; 8];
+    let mut pass_alone = |intensity: &[f64]| {
+        let phi = outgoing_flux(problem, cell, intensity);
+        total.iter_mut().zip(phi).for_each(|(total, phi)| *total += phi);
+    };
+    for (j, a) in incoming.iter().enumerate().filter(|(_, a)| **a != 0.0) {
+        pass_alone(&(0..s).map(|t| a * scheme.lobes(t)[j]).collect::<Vec<_>>());
+    }
+    let shines = |emission: &Emission| first || !matches!(emission, Emission::Impulse(_));
+    for light in problem.lights.iter().filter(|light| light.cell == cell && shines(&light.emission)) {
+        let profile = light.initial_profile(scheme.directions());
+        for t in (0..s).filter(|&t| profile.samples()[t] != 0.0) {
+            pass_alone(&(0..s).map(|u| if u == t { profile.samples()[t] } else { 0.0 }).collect::<Vec<_>>());
+        }
+    }
+    total
+}
+
 /// Sets what the lights prescribe: everything before the first step, the lasting parts after each.
 fn place_lights(problem: &Problem<'_>, buffer: &mut Buffer, first: bool) {
     let directions = problem.scheme.directions();
@@ -135,6 +161,11 @@ fn place_lights(problem: &Problem<'_>, buffer: &mut Buffer, first: bool) {
         let profile = &mut buffer.samples[i * s..(i + 1) * s];
         match &light.emission {
             Emission::Impulse(_) if !first => {}
+            // Superposed on what arrives.
+            _ if problem.scheme.scattering() == ScatteringRule::Linear => {
+                let own = light.initial_profile(directions);
+                profile.iter_mut().zip(own.samples()).for_each(|(v, own)| *v += own);
+            }
             Emission::Impulse(_) | Emission::Continuous(_) => {
                 profile.copy_from_slice(light.initial_profile(directions).samples());
             }

@@ -1,11 +1,14 @@
 //! The reduced eight-lobe engine: the same numbers as [`crate::SampleSpace`] from eight fluxes a cell.
 
 use crate::kernel::{Buffers, Lobes, NOTHING_PASSES, normalized, scattered, sum_of_eight};
+use crate::linear::{self, Band};
 use crate::scattering::Scattering;
 use crate::sectors::Sectors;
 use crate::stopping::{StepMeasures, Verdict};
 use crate::window::Window;
-use crate::{Emission, Engine, Observer, Outcome, Problem, StepView, TransportError};
+use crate::{
+    Emission, Engine, Observer, Outcome, Problem, ScatteringRule, StepView, StoppingRule, TransportError,
+};
 use std::ops::ControlFlow;
 use tigereye_core::{Cell, Field, LightDistribution, StopReason, Work};
 
@@ -37,6 +40,8 @@ enum Kind {
 struct Run<'a> {
     problem: &'a Problem<'a>,
     field: Scattering<'a>,
+    /// With linear scattering, the matrices of the cells.
+    bands: Option<Vec<Band>>,
     sectors: Sectors,
     lights: Vec<PreparedLight>,
     buffers: Buffers,
@@ -52,6 +57,20 @@ impl Engine for EightLobe {
 
     fn name(&self) -> &'static str {
         "eight lobes"
+    }
+
+    /// With linear scattering, the stationary light is solved for instead of waited for.
+    fn propagate(&self, problem: &Problem<'_>) -> Result<Outcome, TransportError> {
+        let lasts = |light: &crate::Light| !matches!(light.emission, Emission::Impulse(_));
+        match problem.stopping.rule {
+            StoppingRule::Converged { tolerance }
+                if problem.scheme.scattering() == ScatteringRule::Linear
+                    && problem.lights.iter().all(lasts) =>
+            {
+                linear::stationary_light(problem, tolerance)
+            }
+            _ => self.propagate_observed(problem, &mut |_| ControlFlow::Continue(())),
+        }
     }
 
     fn propagate_observed(
@@ -86,9 +105,15 @@ impl<'a> Run<'a> {
         let mut lights: Vec<PreparedLight> = problem.lights.iter().map(|l| prepare(problem, l)).collect();
         let grid = problem.transmission.grid();
         lights.sort_by_key(|l| grid.index(l.cell));
+        let field = Scattering::new(problem.scheme, problem.transmission);
+        let bands = match problem.scheme.scattering() {
+            ScatteringRule::Joint => None,
+            ScatteringRule::Linear => Some(linear::bands(&field)),
+        };
         Self {
             problem,
-            field: Scattering::new(problem.scheme, problem.transmission),
+            field,
+            bands,
             sectors: Sectors::new(problem.scheme),
             lights,
             buffers: Buffers::new(grid),
@@ -102,7 +127,7 @@ impl<'a> Run<'a> {
         let first = self.work.steps == 0;
         let specials: Vec<(Cell, Lobes)> =
             self.lights.iter().filter_map(|l| Some((l.cell, self.special_flux(l, first)?))).collect();
-        let total_flux = self.buffers.step(&self.field, self.window, &specials);
+        let total_flux = self.buffers.step(&self.field, self.bands.as_deref(), self.window, &specials);
         self.work.steps += 1;
         self.work.cell_updates += self.window.cells();
         self.window = self.window.grown(self.buffers_grid());
@@ -125,6 +150,12 @@ impl<'a> Run<'a> {
 
     /// What a light's cell passes on this step; `None` where its lobes tell.
     fn special_flux(&self, light: &PreparedLight, first: bool) -> Option<[f64; 8]> {
+        if let Some(bands) = &self.bands {
+            let index = self.buffers_grid().index(light.cell);
+            let passed = linear::banded(&bands[index], &self.lobes_at(&self.buffers.from, light.cell));
+            let shines = first || !matches!(light.kind, Kind::Impulse);
+            return shines.then(|| std::array::from_fn(|k| passed[k] + light.flux[k]));
+        }
         match &light.kind {
             Kind::Continuous => Some(light.flux),
             Kind::Impulse => first.then_some(light.flux),
@@ -179,7 +210,13 @@ impl<'a> Run<'a> {
         let before = self.lobes_at(&self.buffers.to, light.cell);
         let scheme = self.problem.scheme;
         let s = scheme.directions().count();
+        let lasts = !matches!(light.kind, Kind::Impulse);
         match &light.kind {
+            _ if self.bands.is_some() && (lasts || !first) => {
+                // What lasts is the same before and after; only what arrives changes.
+                let before = |t| if first { 0.0 } else { scheme.intensity(&before, t) };
+                (0..s).map(|t| (scheme.intensity(&now, t) - before(t)).abs()).sum()
+            }
             Kind::Continuous => 0.0,
             Kind::Impulse if first => {
                 (0..s).map(|t| (scheme.intensity(&now, t) - light.profile[t]).abs()).sum()
@@ -221,6 +258,9 @@ impl StepView for Run<'_> {
         for light in &self.lights {
             let a = self.lobes_at(&self.buffers.from, light.cell);
             total += match &light.kind {
+                Kind::Continuous | Kind::Pulse { .. } if self.bands.is_some() => {
+                    h * light.profile.iter().sum::<f64>()
+                }
                 Kind::Continuous => h * light.profile.iter().sum::<f64>() - a.iter().sum::<f64>(),
                 Kind::Impulse => 0.0,
                 Kind::Pulse { sample, .. } => h * self.missing_intensity(&a, *sample),
@@ -241,6 +281,9 @@ impl StepView for Run<'_> {
         for light in &self.lights {
             let i = grid.index(light.cell) * s;
             match &light.kind {
+                Kind::Continuous | Kind::Pulse { .. } if self.bands.is_some() => {
+                    samples[i..i + s].iter_mut().zip(&light.profile).for_each(|(v, own)| *v += own);
+                }
                 Kind::Continuous => samples[i..i + s].copy_from_slice(&light.profile),
                 Kind::Impulse => {}
                 Kind::Pulse { sample, .. } => samples[i + sample] = s as f64,
@@ -258,6 +301,9 @@ impl StepView for Run<'_> {
             let light = self.lights.binary_search_by_key(&grid.index(cell), |l| grid.index(l.cell));
             let kind = light.ok().map(|i| (&self.lights[i].kind, &self.lights[i].profile));
             let sample = |t: usize| match kind {
+                Some((Kind::Continuous | Kind::Pulse { .. }, profile)) if self.bands.is_some() => {
+                    scheme.intensity(&a, t) + profile[t]
+                }
                 Some((Kind::Continuous, profile)) => profile[t],
                 Some((Kind::Pulse { sample, .. }, _)) if t == *sample => s as f64,
                 _ => scheme.intensity(&a, t),
@@ -286,7 +332,10 @@ fn flux_of_profile(problem: &Problem<'_>, cell: Cell, profile: &[f64]) -> [f64; 
 fn prepare(problem: &Problem<'_>, light: &crate::Light) -> PreparedLight {
     let directions = problem.scheme.directions();
     let profile = light.initial_profile(directions).samples().to_vec();
-    let flux = flux_of_profile(problem, light.cell, &profile);
+    let flux = match problem.scheme.scattering() {
+        ScatteringRule::Joint => flux_of_profile(problem, light.cell, &profile),
+        ScatteringRule::Linear => linear::emitted(problem.scheme, problem.transmission, light.cell, &profile),
+    };
     let kind = match light.emission {
         Emission::Continuous(_) => Kind::Continuous,
         Emission::Impulse(_) => Kind::Impulse,

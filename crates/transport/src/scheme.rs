@@ -47,6 +47,31 @@ impl SharedWeights {
     }
 }
 
+/// What a cell does to light that arrives from several sides at once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ScatteringRule {
+    /// The sum of all light in a cell is normalised at once (eqs. 3.12 to 3.14), as in every published result: light
+    /// from one side changes what becomes of light from another.
+    #[default]
+    Joint,
+    /// Every photon goes its own way (eq. 3.15): light superposes.
+    Linear,
+}
+
+impl ScatteringRule {
+    /// Both rules.
+    pub const ALL: [Self; 2] = [Self::Joint, Self::Linear];
+
+    /// `joint` or `linear`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Joint => "joint",
+            Self::Linear => "linear",
+        }
+    }
+}
+
 /// Half-angle of a diagonal cone, `beta = atan(1/2)`, radians.
 #[must_use]
 pub fn half_angle_beta_rad() -> f64 {
@@ -64,13 +89,14 @@ pub fn half_core_alpha_rad() -> f64 {
 pub struct Scheme {
     directions: Directions,
     shared: SharedWeights,
+    scattering: ScatteringRule,
     weights: Vec<[f64; 8]>,
     lobes: Vec<[f64; 8]>,
     lobe_integral: f64,
 }
 
 impl Scheme {
-    /// The scheme for `directions`.
+    /// The thesis's scheme for `directions`, with joint scattering.
     #[must_use]
     pub fn new(directions: Directions, shared: SharedWeights) -> Self {
         let n = directions.count();
@@ -81,6 +107,7 @@ impl Scheme {
         Self {
             directions,
             shared,
+            scattering: ScatteringRule::Joint,
             weights: per_neighbour(&|k, t| cone_weight(directions, shared, k, t)),
             lobes: per_neighbour(&|k, t| {
                 directions.cos(t + n - directions.of_neighbour(k)).max(0.0) / lobe_integral
@@ -89,6 +116,16 @@ impl Scheme {
         }
     }
 
+    /// The same weights and lobes with another rule of scattering.
+    #[must_use]
+    pub fn with_scattering(self, scattering: ScatteringRule) -> Self {
+        Self { scattering, ..self }
+    }
+    /// The rule of scattering.
+    #[must_use]
+    pub const fn scattering(&self) -> ScatteringRule {
+        self.scattering
+    }
     /// The angular sampling.
     #[must_use]
     pub const fn directions(&self) -> Directions {

@@ -131,16 +131,15 @@ fn fault(error: LtgError) -> CliError {
         LtgError::Slice { .. } | LtgError::NoSlices => CliError::input("--slices", error),
         LtgError::Memory { .. } => CliError::input("--memory", error),
         LtgError::Stopping(_) => CliError::input("--threshold", error),
+        LtgError::Sketches { .. } | LtgError::NoSketches => CliError::input("--estimate", error),
         LtgError::Shard { .. } => CliError::input("--shard", error),
         LtgError::Unlike { .. }
         | LtgError::Length { .. }
         | LtgError::Value { .. }
         | LtgError::DoneTwice { .. }
-        | LtgError::Missing { .. }
-        | LtgError::Sketches { .. }
-        | LtgError::NoSketches
         | LtgError::Sum { .. }
-        | LtgError::SketchedTwice { .. } => CliError::input("--checkpoint", error),
+        | LtgError::SketchedTwice { .. }
+        | LtgError::Missing { .. } => CliError::input("--checkpoint", error),
     }
 }
 

@@ -266,7 +266,7 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
              upside down and xy has the other sign"
                 .to_owned(),
         );
-    } else if lattice.size[2] == 1 && wanted == Wanted::Tensors {
+    } else if lattice.size[2] == 1 && wanted != Wanted::Scalars {
         lattice.remarks.push(Y_UPWARDS.to_owned());
     }
     let read =
@@ -460,6 +460,9 @@ mod tests {
         let remarks = read(&bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap().remarks;
         assert!(remarks.iter().any(|r| r.contains("not read") && r.contains("Status, Mises")), "{remarks:?}");
         assert!(remarks.iter().any(|r| r.contains("y taken to run upwards")), "{remarks:?}");
+        let bytes = table("x,y,u,v,T\n", |x, y| format!("{x},{y},1,2,3"));
+        let vectors = read(&bytes, ArrayChoice::Usual, Wanted::Vectors).unwrap().remarks;
+        assert!(vectors.iter().any(|r| r.contains("y taken to run upwards")), "{vectors:?}");
     }
 
     /// As beside vectors: what a column of validity leaves out is masked, and said.

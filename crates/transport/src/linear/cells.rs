@@ -5,6 +5,9 @@ use crate::scattering::{CellScattering, Scattering};
 use crate::{Scheme, sector_lobes};
 use tigereye_core::{Cell, Grid, TransmissionField};
 
+/// `band[k % 4][d] = P[k][k + d - 2]`.
+pub(crate) type Band = [[f64; 5]; 4];
+
 /// Scattering of a field in which every photon goes its own way (thesis, eq. 3.15): the light that arrives as lobe j
 /// leaves towards neighbour k as `P[k][j] = Tbar M[k][j] / sum_k' M[k'][j]`, whatever else arrives.
 ///
@@ -13,15 +16,15 @@ use tigereye_core::{Cell, Grid, TransmissionField};
 #[derive(Clone, Debug)]
 pub struct LinearScattering<'a> {
     field: &'a Scattering<'a>,
-    /// `bands[cell][k % 4][d] = P[k][k + d - 2]`; unused in walls.
-    bands: Vec<[[f64; 5]; 4]>,
+    /// By cell; unused in walls.
+    bands: Vec<Band>,
 }
 
 impl<'a> LinearScattering<'a> {
     /// Normalises the columns of every cell's matrix.
     #[must_use]
     pub fn new(field: &'a Scattering<'a>) -> Self {
-        Self { field, bands: field.cells.iter().map(normalized_columns).collect() }
+        Self { field, bands: bands(field) }
     }
 
     /// The grid.
@@ -83,21 +86,7 @@ impl<'a> LinearScattering<'a> {
     /// and lights in walls, are lost.
     #[must_use]
     pub fn emitted(&self, cell: Cell, profile: &[f64]) -> [f64; 8] {
-        let mut flux = [0.0; 8];
-        let transmission = self.transmission();
-        if transmission.reflection(cell).is_some() {
-            return flux;
-        }
-        let scheme = self.scheme();
-        let scale = transmission.rate(cell) * scheme.directions().step_rad();
-        for (t, (&f, &passes)) in profile.iter().zip(transmission.shape(cell)).enumerate() {
-            if passes > 0.0 {
-                for (flux, weight) in flux.iter_mut().zip(scheme.weights(t)) {
-                    *flux += scale * weight * f;
-                }
-            }
-        }
-        flux
+        emitted(self.scheme(), self.transmission(), cell, profile)
     }
 
     /// The flux towards each neighbour (W) of a pulse of height S in sample `t`: `2 pi Tbar w_k(t)`.
@@ -125,8 +114,35 @@ impl<'a> LinearScattering<'a> {
     }
 }
 
+/// [`LinearScattering::emitted`], without the matrices.
+pub(crate) fn emitted(
+    scheme: &Scheme,
+    transmission: &TransmissionField,
+    cell: Cell,
+    profile: &[f64],
+) -> [f64; 8] {
+    let mut flux = [0.0; 8];
+    if transmission.reflection(cell).is_some() {
+        return flux;
+    }
+    let scale = transmission.rate(cell) * scheme.directions().step_rad();
+    for (t, (&f, &passes)) in profile.iter().zip(transmission.shape(cell)).enumerate() {
+        if passes > 0.0 {
+            for (flux, weight) in flux.iter_mut().zip(scheme.weights(t)) {
+                *flux += scale * weight * f;
+            }
+        }
+    }
+    flux
+}
+
+/// The bands of `P` of a whole field.
+pub(crate) fn bands(field: &Scattering<'_>) -> Vec<Band> {
+    field.cells.iter().map(normalized_columns).collect()
+}
+
 /// The band of `P`; columns of which nothing passes are 0.
-fn normalized_columns(cell: &CellScattering) -> [[f64; 5]; 4] {
+fn normalized_columns(cell: &CellScattering) -> Band {
     let m = &cell.band;
     // Column j has rows j-2 to j+2; it lies at place d = j - k + 2 of row k. The order of the additions is symmetric.
     let factor: [f64; 4] = std::array::from_fn(|j| {
@@ -138,7 +154,7 @@ fn normalized_columns(cell: &CellScattering) -> [[f64; 5]; 4] {
 }
 
 /// `P a`, in an order of additions that mirroring and quarter turns keep.
-fn banded(p: &[[f64; 5]; 4], a: &Lobes) -> Lobes {
+pub(crate) fn banded(p: &Band, a: &Lobes) -> Lobes {
     std::array::from_fn(|k| {
         let b = &p[k % 4];
         let near = b[1] * a[(k + 7) % 8] + b[3] * a[(k + 1) % 8];

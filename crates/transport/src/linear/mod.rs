@@ -6,12 +6,18 @@ mod cells;
 mod combinations;
 mod dense;
 mod dissection;
+mod light;
 mod parallel;
+mod stationary;
 #[cfg(test)]
 mod tests;
 
 pub use cells::LinearScattering;
+pub(crate) use cells::{Band, banded, bands, emitted};
 pub use combinations::{Combination, l1_norms};
 pub use dense::Lanes;
 pub use dissection::{Course, Dissection, Workspace};
+pub use light::importance;
+pub(crate) use light::stationary_light;
 pub use parallel::{Parallel, Serial};
+pub use stationary::{Settled, stationary};

@@ -1,9 +1,13 @@
 //! Laws of the direct solution of the linear scheme.
 
 use super::*;
-use crate::{Level, Scattering, Scheme, SharedWeights, TransportError};
+use crate::{
+    EightLobe, Engine, Level, Light, Problem, SampleSpace, Scattering, ScatteringRule, Scheme, SharedWeights,
+    Stopping, StoppingRule, TransportError,
+};
 use tigereye_core::{
-    Cell, Directions, Field, Grid, NEIGHBOUR_OFFSETS, Normalization, Reflection, Tensor2, TransmissionField,
+    Cell, Directions, Field, Grid, LightDistribution, NEIGHBOUR_OFFSETS, Normalization, PolarProfile,
+    Reflection, Tensor2, TransmissionField,
 };
 
 /// Tensors of all kinds.
@@ -122,6 +126,128 @@ fn following_light_back_gives_the_adjoint() {
             assert!((received - sent).abs() < 1e-12 * received, "{received} and {sent}");
         }
     });
+}
+
+#[test]
+fn sweeps_settle_on_the_direct_solution() {
+    with_linear(&transmission(23, 17), |field| {
+        let grid = field.grid();
+        for course in [Course::FromSources, Course::ToReceivers] {
+            let direct = solved::<f64, 32>(field, course, Level::detect(), &|l| sources(grid, l));
+            let q: Vec<[f64; 8]> = sources(grid, 3).as_chunks().0.to_vec();
+            let mut told = 0;
+            let watch = &mut |sweeps, _| {
+                told = sweeps;
+                std::ops::ControlFlow::Continue(())
+            };
+            let settled = stationary(field, course, &q, 1e-12, watch).expect("light that leaves");
+            assert_eq!(told, settled.sweeps);
+            let all: f64 = direct.iter().map(|lanes| lanes.0[3]).sum();
+            let apart: f64 =
+                settled.lobes.as_flattened().iter().zip(&direct).map(|(a, b)| (a - b.0[3]).abs()).sum();
+            assert!(apart < 1e-10 * all, "{course:?}: {}", apart / all);
+        }
+    });
+}
+
+#[test]
+fn sweeps_grow_no_faster_than_fields() {
+    let sweeps = |n: usize| {
+        with_linear(&transmission(n, n), |field| {
+            let mut q = vec![[0.0; 8]; n * n];
+            q[n * n / 2] = [1.0; 8];
+            let watch = &mut |_, _| std::ops::ControlFlow::Continue(());
+            stationary(field, Course::FromSources, &q, 1e-6, watch).expect("light that leaves").sweeps
+        })
+    };
+    let [small, large] = [24, 96].map(sweeps);
+    assert!(large <= 4 * small && large < 200, "{small} and {large}");
+}
+
+#[test]
+fn importance_is_the_adjoint_of_light() {
+    let t = transmission(15, 12);
+    let scheme = scheme().with_scattering(ScatteringRule::Linear);
+    let scattering = Scattering::new(&scheme, &t);
+    let field = LinearScattering::new(&scattering);
+    let directions = scheme.directions();
+    let h = directions.step_rad();
+    let sensitivity: Vec<f64> = (0..16).map(|t| 1.0 + (t as f64).sin().abs()).collect();
+    let receiver = Cell::new(9, 4);
+    let (importance, _) = importance(&field, receiver, &sensitivity, 1e-13).expect("a receiver");
+    let light =
+        |cell, f: &dyn Fn(usize) -> f64| Light::continuous(cell, PolarProfile::from_fn(directions, f));
+    let lights = [
+        light(Cell::new(2, 3), &|t| 1.0 + t as f64),
+        light(Cell::new(14, 0), &|_| 0.5),
+        light(Cell::new(9, 5), &|t| if t == 4 { 2.0 } else { 0.0 }),
+    ];
+    let stopping = Stopping { rule: StoppingRule::Converged { tolerance: 1e-13 }, max_iterations: 100_000 };
+    let problem = Problem { scheme: &scheme, transmission: &t, lights: &lights, stopping };
+    let outcome = EightLobe.propagate(&problem).expect("a propagation");
+    let arrived = outcome.distribution.profile(receiver);
+    let received: f64 = h * arrived.iter().zip(&sensitivity).map(|(i, s)| i * s).sum::<f64>();
+    let mut sent = 0.0;
+    for light in &lights {
+        let f = light.initial_profile(directions);
+        sent += h * importance.profile(light.cell).iter().zip(f.samples()).map(|(i, f)| i * f).sum::<f64>();
+    }
+    assert!((received - sent).abs() < 1e-11 * sent, "{received} and {sent}");
+}
+
+/// What is left of a difference of two distributions, as a part of the larger.
+fn difference(a: &LightDistribution, b: &LightDistribution) -> f64 {
+    let largest = b.samples().iter().fold(0.0_f64, |m, v| m.max(*v));
+    let apart = a.samples().iter().zip(b.samples()).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+    apart / largest
+}
+
+#[test]
+fn oracle_and_lobes_agree_on_linear_steps_and_light_superposes() {
+    let t = transmission(9, 8);
+    let scheme = scheme().with_scattering(ScatteringRule::Linear);
+    let directions = scheme.directions();
+    let profile = |f: &dyn Fn(usize) -> f64| PolarProfile::from_fn(directions, f);
+    let lights = [
+        Light::continuous(Cell::new(2, 3), profile(&|t| 1.0 + t as f64)),
+        Light::impulse(Cell::new(5, 5), profile(&|t| (t % 3) as f64)),
+        Light::pulse(Cell::new(8, 0), 9),
+    ];
+    for steps in [1, 2, 13] {
+        let stopping = Stopping::steps(steps);
+        let run = |engine: &dyn Engine, lights: &[Light]| {
+            let problem = Problem { scheme: &scheme, transmission: &t, lights, stopping };
+            engine.propagate(&problem).expect("a propagation").distribution
+        };
+        let [oracle, lobes] = [run(&SampleSpace, &lights), run(&EightLobe, &lights)];
+        assert!(difference(&oracle, &lobes) < 1e-14, "{steps} steps");
+        let mut sum = vec![0.0; lobes.samples().len()];
+        for light in &lights {
+            let alone = run(&EightLobe, std::slice::from_ref(light));
+            sum.iter_mut().zip(alone.samples()).for_each(|(sum, v)| *sum += v);
+        }
+        let sum = LightDistribution::new(directions, sum, lobes.incoming().clone());
+        assert!(difference(&sum, &lobes) < 1e-14, "{steps} steps: superposition");
+    }
+}
+
+#[test]
+fn a_single_lobe_is_scattered_as_the_joint_scheme_does() {
+    // One step after a pulse each lit cell holds one lobe, so the second step is the same in both schemes.
+    let t = transmission(9, 9);
+    for sample in [0, 1, 2, 7] {
+        let lights = [Light::impulse(
+            Cell::new(4, 4),
+            PolarProfile::from_fn(scheme().directions(), |t| if t == sample { 1.0 } else { 0.0 }),
+        )];
+        let [joint, linear] = ScatteringRule::ALL.map(|rule| {
+            let scheme = scheme().with_scattering(rule);
+            let problem =
+                Problem { scheme: &scheme, transmission: &t, lights: &lights, stopping: Stopping::steps(2) };
+            EightLobe.propagate(&problem).expect("a propagation").distribution
+        });
+        assert!(difference(&joint, &linear) < 1e-14, "sample {sample}");
+    }
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::pulses::Comparisons;
 use super::random::BATCH;
 use crate::{LtgError, Shard};
 use core::f64::consts::{FRAC_PI_2, LN_2};
-use tigereye_core::{Cell, Directions, Grid, LtgVolume};
+use tigereye_core::{Cell, Directions, Grid, LtgVolume, math};
 
 /// Logarithms are squared in coarser steps than they are added, so that sums fit into 53 bits: `2^SQUARED_SHIFT` of
 /// them.
@@ -292,10 +292,10 @@ fn value_and_error(layout: &Layout, sums: &[i64], value: usize, sketches: u32) -
     let groups = (count / 2.0).floor();
     // Mean logarithm of a sketch, octaves.
     let means = at.map(|i| sums[i] as f64 / (f64::from(STEPS) * count));
-    let bias = (FRAC_PI_2 / count).cos().powf(count);
+    let bias = math::pow(math::cos(FRAC_PI_2 / count), count);
     let norms = means.map(|mean| {
         // Nothing but zeros.
-        if mean < f64::from(OF_ZERO) + 1.0 { 0.0 } else { 0.5 * (LN_2 * mean).exp() * bias }
+        if mean < f64::from(OF_ZERO) + 1.0 { 0.0 } else { 0.5 * math::exp(LN_2 * mean) * bias }
     });
     let square = norms.iter().map(|g| g * g).sum::<f64>();
     if square == 0.0 {

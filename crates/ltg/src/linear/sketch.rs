@@ -223,7 +223,8 @@ impl<'a> SketchedGradient<'a> {
                 return Ok(sums);
             }
             // The error falls with the root of the number; two per cent more, since it is itself measured.
-            let wanted = (f64::from(sums.sketches()) * (found / target).powi(2) * 1.02).ceil();
+            let ratio = found / target;
+            let wanted = (f64::from(sums.sketches()) * (ratio * ratio) * 1.02).ceil();
             if wanted > f64::from(MOST_SKETCHES) {
                 return Err(LtgError::Sketches { sketches: wanted as u64 });
             }

@@ -1,31 +1,6 @@
 //! Helpers shared by the cross-crate tests.
 
-use std::path::{Path, PathBuf};
 use tigereye_core::{Cell, Directions, Field, Grid, PolarProfile, Tensor2};
-
-/// The folder with the thesis author's published data: `TIGEREYE_REFERENCE`, or `shared/reference` beside the
-/// workspace. `None`, with a line on stderr that says so, where neither holds a `manifest.json`.
-#[must_use]
-pub fn reference_folder(test: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("TIGEREYE_REFERENCE")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/reference"), PathBuf::from);
-    if folder.join("manifest.json").is_file() {
-        return Some(folder);
-    }
-    skipped(test, &format!("no published data in {} (set TIGEREYE_REFERENCE)", folder.display()));
-    None
-}
-
-/// Says on stderr that a test, or a part of it, did not run.
-pub fn skipped(test: &str, reason: &str) {
-    eprintln!("skipped: {test}: {reason}");
-}
-
-/// Whether the tests that take minutes were asked for: `TIGEREYE_FULL=1`.
-#[must_use]
-pub fn full_run() -> bool {
-    std::env::var_os("TIGEREYE_FULL").is_some_and(|v| v == "1")
-}
 
 /// Largest absolute difference of two lists relative to the largest value of the second. Infinite where the lengths
 /// differ or anything is not finite; 0 for two dark lists.

@@ -25,7 +25,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     // clap prints usage errors itself, to standard error, and exits with 2.
     let cli = Cli::parse();
-    if let Err(error) = interrupt::install(clear_away) {
+    if let Err(error) = interrupt::install(files::abandon) {
         return report(&error);
     }
     // An unknown instruction set is reported before anything runs, not ignored.
@@ -65,10 +65,4 @@ fn dispatch(cli: Cli) -> Result<u8, CliError> {
 fn report(error: &CliError) -> ExitCode {
     eprintln!("tigereye: {error}");
     ExitCode::from(error.exit_code())
-}
-
-/// Removes what is half-written, for a process that ends right now.
-fn clear_away() {
-    files::abandon();
-    commands::review::abandon();
 }

@@ -7,8 +7,8 @@ use crate::host::FileHost;
 use crate::input::Input;
 use std::path::{Path, PathBuf};
 use tigereye_core::{Directions, Field, Grid, Normalization, Surface, TransmissionField};
+use tigereye_experiments::Medium;
 use tigereye_experiments::scene::{PreparedScene, is_scene_file, light_fault, prepare};
-use tigereye_experiments::{Medium, normalization_name};
 use tigereye_input::Reading;
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_transport::Light;
@@ -114,7 +114,7 @@ impl MediumInput {
     /// Name of a normalisation for parameters.
     pub(crate) fn normalization_name(&self, normalization: Normalization) -> String {
         match self {
-            Self::Tensors(_) => normalization_name(normalization),
+            Self::Tensors(_) => normalization.to_string(),
             Self::Scene(..) => "scene".to_owned(),
         }
     }

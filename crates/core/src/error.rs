@@ -83,6 +83,14 @@ pub enum CoreError {
         /// Its rate.
         rate: f64,
     },
+    /// Words that name no normalisation.
+    #[error(
+        "`{text}` is no normalisation: expected global, local, local-above:F or local-above-global:F with F from 0 to 1"
+    )]
+    NormalizationWord {
+        /// What was given.
+        text: String,
+    },
     /// The fraction of `local-above` outside [0, 1].
     #[error("the fraction {fraction} of local-above is out of range: expected 0 to 1")]
     Fraction {

@@ -10,8 +10,10 @@
 mod anisotropy;
 mod bilinear;
 mod cell_shape;
+mod choice;
 mod conformal;
 mod decomposition;
+mod difference;
 mod directions;
 mod error;
 mod factors;
@@ -20,6 +22,7 @@ mod geometry;
 mod grid;
 mod limits;
 pub mod math;
+mod normalization;
 mod profile;
 mod reflection;
 mod results;
@@ -34,8 +37,10 @@ mod transmission;
 pub use anisotropy::Anisotropy;
 pub use bilinear::bilinear;
 pub use cell_shape::CellShape;
+pub use choice::Choice;
 pub use conformal::Conformal;
 pub use decomposition::{AxisSign, Eigenvalues, Svd};
+pub use difference::Difference;
 pub use directions::Directions;
 pub use error::CoreError;
 pub use factors::{OrthogonalFactor, PrincipalAxes};
@@ -43,6 +48,7 @@ pub use field::Field;
 pub use geometry::{Cells, Physical, PhysicalPoint, Point, Vector, length, quarter_turned};
 pub use grid::{Cell, Grid, NEIGHBOUR_OFFSETS};
 pub use nalgebra::Complex;
+pub use normalization::{Below, Normalization};
 pub use profile::PolarProfile;
 pub use reflection::{Reflection, Surface};
 pub use results::{LightDistribution, LtgVolume, StopReason, SweepWork, Work};
@@ -53,6 +59,6 @@ pub use symmetric3::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
 pub use symmetry::Symmetry;
 pub use tensor::Tensor2;
 pub use transmission::{
-    Below, CellTransmission, Normalization, RateScale, TOTAL_ANISOTROPY_RATIO, TransmissionField,
-    is_totally_anisotropic, transmission_ellipse,
+    CellTransmission, RateScale, TOTAL_ANISOTROPY_RATIO, TransmissionField, is_totally_anisotropic,
+    transmission_ellipse,
 };

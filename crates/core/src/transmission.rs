@@ -1,38 +1,14 @@
 //! Tensors to transmission profiles (thesis, section 3.3).
 
 use crate::reflection::Reflections;
-use crate::{Cell, CoreError, Directions, Field, Grid, PolarProfile, Reflection, Svd, Tensor2, math};
+use crate::{
+    Below, Cell, CoreError, Directions, Field, Grid, Normalization, PolarProfile, Reflection, Svd, Tensor2,
+    math,
+};
 
 /// Above this ratio of the semi-axes (or with a vanishing one) a tensor counts as totally anisotropic and its profile
 /// is a bidirectional pulse (thesis, section 4.3; the value is the published programme's).
 pub const TOTAL_ANISOTROPY_RATIO: f64 = 20.0;
-
-/// How the profiles of a field are scaled against each other.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Normalization {
-    /// Every profile divided by the largest mean of the field (eq. 3.11): weaker cells absorb the rest.
-    Global,
-    /// Every profile divided by its own mean: nothing absorbs. The published synthetic results use this one.
-    Local,
-    /// Cells whose mean reaches `fraction` of the largest are normalised locally; noise below is treated as `below`
-    /// says.
-    LocalAbove {
-        /// Fraction of the field's largest mean, 0 to 1.
-        fraction: f64,
-        /// What becomes of the weaker cells.
-        below: Below,
-    },
-}
-
-/// What [`Normalization::LocalAbove`] makes of the cells under its threshold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Below {
-    /// They absorb everything (the published programme).
-    Absorb,
-    /// They keep the transmission eq. 3.11 gives them (the text of the thesis, which leaves them out of the local
-    /// normalisation).
-    Global,
-}
 
 /// Shape of one tensor's transmission: `samples` relative to the major semi-axis, and that semi-axis.
 struct Shape {

@@ -53,5 +53,5 @@ pub use host::Host;
 pub use load::load;
 pub use medium::Medium;
 pub use plan::{Plan, plan, slug_of};
-pub use runs::{RunError, normalization_name};
+pub use runs::RunError;
 pub use unavailable::Unavailable;

@@ -260,7 +260,7 @@ impl SweepObserver for Shared<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tigereye_fields::{generate, parse_spec};
+    use tigereye_test_support::field;
 
     fn options() -> SheetOptions {
         SheetOptions {
@@ -271,11 +271,6 @@ mod tests {
             cell: CellShape::SQUARE,
             level: Level::detect(),
         }
-    }
-
-    fn field(spec: &str) -> Field<Tensor2> {
-        let spec = parse_spec(spec).expect("a generator");
-        generate(&spec.name, &spec.arguments).expect("a field")
     }
 
     /// Every panel is there, whatever the field; nothing hangs.

@@ -9,23 +9,22 @@ use libtest_mimic::{Arguments, Failed, Trial};
 use std::path::{Path, PathBuf};
 use tigereye_experiments::library::is_experiment;
 use tigereye_experiments::{Host, evaluate, load, plan, slug_of};
+use tigereye_test_support::{reference_file, skipped};
 
 /// Memory for the gradients of one experiment, bytes.
 const MEMORY: u64 = 4 << 30;
 
 /// Files beside the experiment and in its parent folders.
-struct Folder(PathBuf);
-
-impl Host for Folder {
-    fn read(&self, path: &str) -> Result<Vec<u8>, String> {
-        if let Some(name) = path.strip_prefix("reference/") {
-            let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/reference");
-            let folder = std::env::var_os("TIGEREYE_REFERENCE").map_or_else(beside, PathBuf::from);
-            return std::fs::read(folder.join(name)).map_err(|e| e.to_string());
-        }
-        let found = self.0.ancestors().map(|a| a.join(path)).find(|p| p.is_file());
-        let path = found.ok_or_else(|| format!("no file {path}"))?;
-        std::fs::read(&path).map_err(|e| e.to_string())
+fn around(folder: &Path) -> impl Host {
+    move |path: &str| {
+        let file = match path.strip_prefix("reference/") {
+            Some(name) => reference_file(name),
+            None => {
+                let found = folder.ancestors().map(|above| above.join(path)).find(|p| p.is_file());
+                found.ok_or_else(|| format!("no file {path}"))?
+            }
+        };
+        std::fs::read(&file).map_err(|e| e.to_string())
     }
 }
 
@@ -33,10 +32,10 @@ impl Host for Folder {
 fn digest(path: &Path) -> Option<(String, tigereye_experiments::Digest, Vec<String>)> {
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path).expect("a readable experiment");
-    let host = Folder(path.parent().expect("a folder").to_path_buf());
+    let host = around(path.parent().expect("a folder"));
     let experiment = load(&name, &text).unwrap_or_else(|e| panic!("{e}"));
     if let Some(missing) = experiment.needs.iter().find(|file| !host.has(file)) {
-        println!("skipped: {name} needs {missing} (set TIGEREYE_REFERENCE)");
+        skipped(&format!("{name} needs {missing} (set TIGEREYE_REFERENCE)"));
         return None;
     }
     let plan = plan(&name, &text, &experiment, false, &host).unwrap_or_else(|e| panic!("{e:?}"));

@@ -1,7 +1,7 @@
 //! Generators of test fields, and the settings they receive: arguments checked and completed.
 
 use crate::parameter::SIZES;
-use crate::{Arguments, FieldError, Parameter};
+use crate::{Arguments, FieldError, Known, Parameter};
 use tigereye_core::{Field, Grid, Tensor2};
 
 /// A test field: its name and source, its parameters, and what is known about it.
@@ -19,6 +19,8 @@ pub struct Generator {
     pub determinant_one: bool,
     /// Whether every tensor is symmetric for the default parameters.
     pub symmetric: bool,
+    /// What else is known about its fields, at least one answer.
+    pub known: &'static [Known],
     pub(crate) build: fn(&Settings) -> Field<Tensor2>,
 }
 

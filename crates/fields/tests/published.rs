@@ -4,9 +4,8 @@
 //! `shared/reference` beside the workspace; without them the test is skipped.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 use tigereye_core::{Field, Grid, Tensor2};
-use tigereye_fields::{generate, parse_spec};
+use tigereye_test_support::{field, reference_folder};
 
 /// Largest difference of a component, relative to the largest component of the field. The files hold 12 digits.
 const TOLERANCE: f64 = 1e-11;
@@ -40,19 +39,6 @@ const FILES: [(&str, &str); 25] = [
     ("step13.txt", "step:size=13,anisotropy=4"),
 ];
 
-fn folder() -> Option<PathBuf> {
-    let root = std::env::var_os("TIGEREYE_REFERENCE").map_or_else(
-        || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/reference"),
-        PathBuf::from,
-    );
-    let fields = root.join("fields");
-    if fields.is_dir() {
-        return Some(fields);
-    }
-    println!("skipped: no published fields in {} (set TIGEREYE_REFERENCE)", fields.display());
-    None
-}
-
 /// 2H rows of 2W numbers, cell (x, y) the 2x2 block at row 2y, column 2x.
 fn parse_blocks(text: &str) -> Field<Tensor2> {
     let rows: Vec<Vec<f64>> = text
@@ -69,13 +55,12 @@ fn parse_blocks(text: &str) -> Field<Tensor2> {
 
 #[test]
 fn generators_equal_the_published_matrices() {
-    let Some(folder) = folder() else { return };
+    let Some(folder) = reference_folder("fields") else { return };
     for (file, spec) in FILES {
         let path = folder.join(file);
         let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         let published = parse_blocks(&text);
-        let parsed = parse_spec(spec).expect("a specification");
-        let field = generate(&parsed.name, &parsed.arguments).expect("a field");
+        let field = field(spec);
         assert_eq!(field.grid(), published.grid(), "{file}");
         let largest = published.values().iter().fold(0.0, |m: f64, t| m.max(t.max_abs()));
         for (cell, t) in field.iter() {
@@ -87,7 +72,7 @@ fn generators_equal_the_published_matrices() {
 
 #[test]
 fn every_published_file_is_compared() {
-    let Some(folder) = folder() else { return };
+    let Some(folder) = reference_folder("fields") else { return };
     let there: BTreeSet<String> = std::fs::read_dir(folder)
         .expect("a folder")
         .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())

@@ -9,6 +9,7 @@
 //! The program's commands and the fields of experiment files go the same way. Whoever calls reads the bytes.
 
 mod error;
+mod facts;
 mod file;
 mod foreign;
 pub mod formats;
@@ -19,6 +20,7 @@ mod reading;
 mod threshold;
 
 pub use error::InputError;
+pub use facts::{Anisotropies, FieldFacts, Range, VolumeFacts};
 pub use file::{Content, TensorFile, finite_volume, open};
 pub use formats::{TEXT_MATRICES, format_of, is_readable};
 pub use plane::{PlaneField, not_finite_words};

@@ -24,25 +24,28 @@
 //! semi-axes are equally long. Eigenvectors by magnitude, and semi-axes of asymmetric tensors by value, swap roles
 //! where the trace is zero, so their lines end there.
 
-use tigereye_core::{Complex, Conformal, Tensor2, Vector, math, quarter_turned};
+use tigereye_core::{Choice, Complex, Conformal, Tensor2, Vector, choice, math, quarter_turned};
 
 /// Which of the two axes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Family {
     /// The larger one, in the sense of [`Major`].
+    #[default]
     Major,
     /// The other one.
     Minor,
 }
 
+choice!(Family {
+    Major = "major": "The larger one, by value or by magnitude.",
+    Minor = "minor": "The other one.",
+});
+
 impl Family {
-    /// `major` or `minor`, as options and files spell it.
+    /// Its word as a choice.
     #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Major => "major",
-            Self::Minor => "minor",
-        }
+    pub fn name(self) -> &'static str {
+        self.word()
     }
 }
 
@@ -62,15 +65,18 @@ pub enum Axes {
     DualEigenvectors,
 }
 
+choice!(Axes {
+    HalfAxes = "half": "Semi-axes of the ellipse: what light sees.",
+    Eigenvectors = "eigen": "Eigenvectors; pseudo-eigenvectors where eigenvalues are complex.",
+    DualEigenvectors = "dual":
+        "Dual eigenvectors, halfway between the eigenvectors; only for tensors that are not symmetric.",
+});
+
 impl Axes {
-    /// `half`, `eigen` or `dual`, as options and files spell it.
+    /// Its word as a choice.
     #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::HalfAxes => "half",
-            Self::Eigenvectors => "eigen",
-            Self::DualEigenvectors => "dual",
-        }
+    pub fn name(self) -> &'static str {
+        self.word()
     }
 }
 
@@ -83,14 +89,16 @@ pub enum Major {
     Magnitude,
 }
 
+choice!(Major {
+    Value = "value": "By the value with its sign, as in mechanics: tension before compression.",
+    Magnitude = "magnitude": "By the size of the value, as light sees it: the longer one.",
+});
+
 impl Major {
-    /// `value` or `magnitude`, as options and files spell it.
+    /// Its word as a choice.
     #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Value => "value",
-            Self::Magnitude => "magnitude",
-        }
+    pub fn name(self) -> &'static str {
+        self.word()
     }
 }
 

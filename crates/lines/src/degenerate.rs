@@ -228,11 +228,10 @@ mod tests {
     use super::*;
     use core::f64::consts::PI;
     use tigereye_core::{SplitMix64, Svd};
-    use tigereye_fields::{generate, parse_spec};
+    use tigereye_test_support::field;
 
     fn points(spec: &str) -> Vec<DegeneratePoint> {
-        let spec = parse_spec(spec).expect("a generator");
-        degenerate_points(&generate(&spec.name, &spec.arguments).expect("a field"))
+        degenerate_points(&field(spec))
     }
 
     #[test]
@@ -271,15 +270,13 @@ mod tests {
             ("wedge:size=21", 1),
             ("trisector:size=21", -1),
         ] {
-            let spec = parse_spec(spec).expect("a generator");
-            let ellipses = crate::ellipse_tensors(&generate(&spec.name, &spec.arguments).expect("a field"));
+            let ellipses = crate::ellipse_tensors(&field(spec));
             let found = degenerate_points(&ellipses);
-            assert_eq!(found.len(), 1, "{}: {found:?}", spec.name);
+            assert_eq!(found.len(), 1, "{spec}: {found:?}");
             assert_eq!(
                 (found[0].position, found[0].half_turns()),
                 (Point::new(10.0, 10.0), half_turns),
-                "{}",
-                spec.name
+                "{spec}"
             );
         }
         for spec in ["x:size=9", "isotropic:size=9", "step:size=15", "cross_x:size=15", "drain:size=20"] {
@@ -347,24 +344,22 @@ mod tests {
     #[test]
     fn broken_cells_hide_what_is_around_them() {
         for bad in [f64::NAN, f64::INFINITY] {
-            let spec = parse_spec("wedge:size=21").expect("a generator");
-            let mut field = generate(&spec.name, &spec.arguments).expect("a field");
-            let broken = field.grid().index(Cell::new(10, 10));
-            field.values_mut()[broken] = Tensor2::isotropic(bad);
-            assert_eq!(degenerate_points(&field), []);
+            let mut wedge = field("wedge:size=21");
+            let broken = wedge.grid().index(Cell::new(10, 10));
+            wedge.values_mut()[broken] = Tensor2::isotropic(bad);
+            assert_eq!(degenerate_points(&wedge), []);
             // Elsewhere it does not matter.
-            let mut field = generate(&spec.name, &spec.arguments).expect("a field");
-            let broken = field.grid().index(Cell::new(3, 15));
-            field.values_mut()[broken] = Tensor2::isotropic(bad);
-            assert_eq!(degenerate_points(&field).len(), 1);
+            let mut wedge = field("wedge:size=21");
+            let broken = wedge.grid().index(Cell::new(3, 15));
+            wedge.values_mut()[broken] = Tensor2::isotropic(bad);
+            assert_eq!(degenerate_points(&wedge).len(), 1);
         }
     }
 
     /// The points do not depend on the magnitude of the tensors.
     #[test]
     fn scale_does_not_matter() {
-        let spec = parse_spec("wedge:size=20").expect("a generator");
-        let plain = generate(&spec.name, &spec.arguments).expect("a field");
+        let plain = field("wedge:size=20");
         let mut strong = plain.map(|t| t.scaled(1e-9));
         strong.values_mut()[0] = Tensor2::symmetric(1e9, 0.0, 1.0);
         assert_eq!(degenerate_points(&strong).len(), degenerate_points(&plain).len());

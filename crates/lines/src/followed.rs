@@ -76,15 +76,15 @@ impl Followed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tigereye_fields::{generate, generators, parse_spec};
+    use tigereye_fields::generators;
+    use tigereye_test_support::field;
 
     /// The asymmetry of each generator is either rounding or large; none lies near the threshold.
     #[test]
     fn generators_are_judged_with_a_wide_margin() {
         let (mut symmetric, mut others) = (0, 0);
         for generator in generators() {
-            let spec = parse_spec(generator.name).expect("a generator");
-            let field = generate(&spec.name, &spec.arguments).expect("a field");
+            let field = field(generator.name);
             let ratio = Symmetry::of(&field).ratio();
             let is_symmetric = usual_axes(&field) == Axes::Eigenvectors;
             assert!(!(1e-12..=0.05).contains(&ratio), "{}: {ratio}", generator.name);

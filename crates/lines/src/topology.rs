@@ -140,7 +140,7 @@ mod tests {
     use super::*;
     use crate::LineEnd;
     use tigereye_core::{Field, Grid, Tensor2};
-    use tigereye_fields::{generate, parse_spec};
+    use tigereye_test_support::field;
 
     fn topology(field: &Field<Tensor2>, axes: Axes) -> Topology {
         let between = Interpolated::new(field).with_axes(axes);
@@ -211,14 +211,11 @@ mod tests {
     /// A saddle with four hyperbolic sectors: two merged trisectors.
     #[test]
     fn merged_points_have_the_separatrices_of_their_sectors() {
-        let spec = parse_spec("inverse:size=21").expect("a generator");
-        let field = crate::ellipse_tensors(&generate(&spec.name, &spec.arguments).expect("a field"));
-        let found = topology(&field, Axes::HalfAxes);
+        let of = |spec| topology(&crate::ellipse_tensors(&field(spec)), Axes::HalfAxes);
+        let found = of("inverse:size=21");
         assert_eq!(found.points.len(), 1);
         assert_eq!(found.separatrices.len(), 4, "{:?}", angles(&found));
-        let spec = parse_spec("star:size=21").expect("a generator");
-        let field = crate::ellipse_tensors(&generate(&spec.name, &spec.arguments).expect("a field"));
-        let found = topology(&field, Axes::HalfAxes);
+        let found = of("star:size=21");
         assert_eq!((found.points.len(), found.separatrices.len()), (1, 0), "rays bound no sector");
     }
 

@@ -1,8 +1,8 @@
 //! Settings of a sweep.
 
 use crate::LtgError;
-use tigereye_core::Directions;
-use tigereye_transport::{Level, Real, Stopping};
+use tigereye_core::{Choice, Directions, choice};
+use tigereye_transport::{Level, Stopping};
 
 /// The precision of pulses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,14 +14,16 @@ pub enum Precision {
     F32,
 }
 
+choice!(Precision {
+    F64 = "f64": "Double precision.",
+    F32 = "f32": "Single precision: faster, and less than 1e-4 off in the fields that the tests compare.",
+});
+
 impl Precision {
-    /// `f64` or `f32`.
+    /// Its word as a choice.
     #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::F64 => f64::NAME,
-            Self::F32 => f32::NAME,
-        }
+    pub fn name(self) -> &'static str {
+        self.word()
     }
 }
 

@@ -39,7 +39,7 @@ pub use scheme::{
     ScatteringRule, Scheme, SharedWeights, half_angle_beta_rad, half_core_alpha_rad, sector_lobes,
 };
 pub use simd::{ArrayLoop, Level};
-pub use stopping::{Stopping, StoppingRule};
+pub use stopping::{StopMeasure, Stopping, StoppingRule};
 
 /// Every engine, the oracle first. Laws of propagations are tested for each of them, and experiment files choose them
 /// by [`Engine::id`].

@@ -10,7 +10,7 @@
 //!            k=6
 //! ```
 
-use tigereye_core::{Directions, math};
+use tigereye_core::{Directions, choice, math};
 
 /// How the light in the overlap of a face cone and a diagonal cone is shared (eqs. 3.1 and 3.2).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,6 +22,11 @@ pub enum SharedWeights {
     /// `e1 = 0.371201`: the value that eqs. 3.1 and 3.2 give for beta = atan(1/2).
     Geometric,
 }
+
+choice!(SharedWeights {
+    Thesis = "thesis": "The printed constants.",
+    Geometric = "geometric": "The values their formula gives for beta = atan(1/2).",
+});
 
 impl SharedWeights {
     /// Weight of the face cone in the overlap.
@@ -45,8 +50,8 @@ impl SharedWeights {
 /// What a cell does to light that arrives from several sides at once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ScatteringRule {
-    /// The sum of all light in a cell is normalised at once (eqs. 3.12 to 3.14), as in every published result: light from
-    /// one side changes what becomes of light from another.
+    /// The sum of all light in a cell is normalised at once (eqs. 3.12 to 3.14), as in every published result: light
+    /// from one side changes what becomes of light from another.
     #[default]
     Joint,
     /// Every photon goes its own way (eq. 3.15): light superposes.

@@ -1,6 +1,7 @@
 //! When a propagation ends.
 
 use crate::TransportError;
+use tigereye_core::{Choice, choice};
 
 /// A rule and a limit. The rule is asked after every step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +35,50 @@ pub enum StoppingRule {
     Steps(usize),
 }
 
+/// What a propagation looks at to find its own end, as options name it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StopMeasure {
+    /// See [`StoppingRule::FluxChange`].
+    #[default]
+    Flux,
+    /// See [`StoppingRule::DistributionChange`].
+    Distribution,
+    /// See [`StoppingRule::Converged`].
+    Stationary,
+}
+
+choice!(StopMeasure {
+    Flux = "flux": "Change of the total transported flux between two steps, W.",
+    Distribution = "distribution": "Sum of the changes of all profiles, W.",
+    Stationary = "stationary":
+        "That sum over the energy at most 1e-10, whatever the threshold and the limit of iterations.",
+});
+
+impl StopMeasure {
+    /// The rule with this measure; the stationary state has its own numbers.
+    #[must_use]
+    pub const fn stopping(self, threshold: f64, max_iterations: usize) -> Stopping {
+        let rule = match self {
+            Self::Flux => StoppingRule::FluxChange { threshold },
+            Self::Distribution => StoppingRule::DistributionChange { threshold },
+            Self::Stationary => return Stopping::STATIONARY,
+        };
+        Stopping { rule, max_iterations }
+    }
+}
+
 impl StoppingRule {
+    /// Its name, for provenance: the word of its measure, or `steps`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::FluxChange { .. } => StopMeasure::Flux.word(),
+            Self::DistributionChange { .. } => StopMeasure::Distribution.word(),
+            Self::Converged { .. } => StopMeasure::Stationary.word(),
+            Self::Steps(_) => "steps",
+        }
+    }
+
     /// Threshold in W, or the relative tolerance; 0 for a number of steps.
     #[must_use]
     pub const fn threshold(&self) -> f64 {

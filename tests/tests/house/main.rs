@@ -1,6 +1,8 @@
 //! The layering and the house rules, checked.
 
 mod architecture;
+mod experiment_files;
+mod forms;
 mod modules;
 mod pages;
 

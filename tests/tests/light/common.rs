@@ -1,14 +1,7 @@
-//! Fields by their specification.
+//! Directions, schemes and transmissions with fewer words.
 
 use tigereye_core::{Directions, Field, Normalization, Tensor2, TransmissionField};
-use tigereye_fields::{generate, parse_spec};
 use tigereye_transport::{Scheme, SharedWeights};
-
-/// The field of a specification that is right.
-pub(crate) fn field(spec: &str) -> Field<Tensor2> {
-    let parsed = parse_spec(spec).unwrap_or_else(|e| panic!("{spec}: {e}"));
-    generate(&parsed.name, &parsed.arguments).unwrap_or_else(|e| panic!("{spec}: {e}"))
-}
 
 /// `samples` directions.
 pub(crate) fn directions(samples: usize) -> Directions {

@@ -1,6 +1,6 @@
 //! Laws of the light transport gradient: its definition, its symmetries, and what it must not depend on.
 
-use crate::common::{field, scheme, transmission};
+use crate::common::{scheme, transmission};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -9,6 +9,7 @@ use tigereye_ltg::{
     Finished, LtgError, LtgOutcome, LtgSettings, NUMERICS, PartialVolume, Phase, Precision, Shard,
     SweepObserver, omega_step_of_slices, omega_step_of_volumes, sweep, sweep_part,
 };
+use tigereye_test_support::field;
 use tigereye_tests::{Symmetry, difference_over_largest};
 use tigereye_transport::{
     EightLobe, Engine, Level, Light, Problem, SampleSpace, Scattering, Scheme, Stopping, StoppingRule,

@@ -1,6 +1,6 @@
 //! Laws of the propagation: what holds for every field and every engine.
 
-use crate::common::{directions, field, scheme, transmission};
+use crate::common::{directions, scheme, transmission};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 use tigereye_core::{
@@ -8,6 +8,7 @@ use tigereye_core::{
     Tensor2, TransmissionField, math,
 };
 use tigereye_fields::{Expression, generators};
+use tigereye_test_support::field;
 use tigereye_tests::{Symmetry, difference_over_largest};
 use tigereye_transport::{
     ENGINES, EightLobe, Emission, Engine, Light, Outcome, Problem, SampleSpace, Scheme, Stopping,

@@ -3,13 +3,13 @@
 //! They lie outside the project (`TIGEREYE_REFERENCE`, or `shared/reference` beside the workspace); where they are
 //! absent the probe values below remain. `TIGEREYE_FULL=1` adds the volumes of 51x51 cells, which take minutes.
 
-use crate::common::{directions, field, scheme, transmission};
+use crate::common::{directions, scheme, transmission};
 use serde_json::Value;
 use std::path::Path;
 use tigereye_core::{Cell, Field, LtgVolume, Normalization, Tensor2};
 use tigereye_io::{ltg_from_image, matrices, vti};
 use tigereye_ltg::{LtgOutcome, LtgSettings, sweep};
-use tigereye_tests::{full_run, reference_folder, skipped};
+use tigereye_test_support::{field, full_run, reference_folder, skipped};
 use tigereye_transport::{Scattering, Stopping, StoppingRule};
 
 /// Relative L2 error of a volume (1). Rounding reaches 1e-14; one source that stops a step early or late makes 1e-5.
@@ -109,15 +109,14 @@ fn assert_volume_is_met(folder: &Path, entry: &Value) {
 
 #[test]
 fn published_volumes_are_met() {
-    let test = "published_volumes_are_met";
-    let Some(folder) = reference_folder(test) else { return };
+    let Some(folder) = reference_folder(".") else { return };
     let text = std::fs::read(folder.join("manifest.json")).expect("manifest.json");
     let manifest: Value = serde_json::from_slice(&text).expect("JSON");
     let volumes = manifest["volumes"].as_array().expect("volumes");
     let mut met = 0;
     for entry in volumes {
         if integer(entry, "width") * integer(entry, "height") > QUICK_CELLS && !full_run() {
-            skipped(test, &format!("{} (set TIGEREYE_FULL=1)", entry["name"]));
+            skipped(&format!("{} (set TIGEREYE_FULL=1)", entry["name"]));
             continue;
         }
         assert_volume_is_met(&folder, entry);

@@ -1,11 +1,12 @@
 //! Laws of light in scenes: walls absorb and reflect, and neither directions nor engines are told apart.
 
-use crate::common::{directions, field, scheme, transmission};
+use crate::common::{directions, scheme, transmission};
 use tigereye_core::{
     Cell, Field, Grid, NEIGHBOUR_OFFSETS, Normalization, PolarProfile, Surface, TransmissionField, math,
 };
 use tigereye_ltg::{LtgSettings, sweep};
 use tigereye_scenes::{Layout, Mask, Material, Part, Scene, Shape};
+use tigereye_test_support::field;
 use tigereye_transport::{
     ENGINES, EightLobe, Engine, Level, Light, Outcome, Problem, PulseDistribution, PulseSolver, Real,
     SampleSpace, Scattering, Scheme, Stopping, TransportError,

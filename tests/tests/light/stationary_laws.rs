@@ -1,7 +1,8 @@
 //! Laws of stationary states: reached by far fewer evaluations than stepping takes, and never made up.
 
-use crate::common::{field, scheme, transmission};
+use crate::common::{scheme, transmission};
 use tigereye_core::{Cell, Field, Grid, Normalization, StopReason, Svd, Tensor2, TransmissionField};
+use tigereye_test_support::field;
 use tigereye_transport::{
     EightLobe, Engine, LaneOutcome, Level, Light, Outcome, Problem, PulseDistribution, PulseSolver, Real,
     Scattering, Scheme, Stopping, StoppingRule,

@@ -1,64 +1,14 @@
 //! The command line of the classical methods.
 
 use super::reading::ReadingArgs;
+use super::values::{choice, families};
 use crate::error::CliError;
 use crate::input::Input;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use tigereye_core::{CellShape, Point};
-use tigereye_lines::{Axes, Family, Major};
-use tigereye_lines::{Following, usual_axes};
-
-/// The axes that lines follow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum AxesName {
-    /// Semi-axes of the ellipse: what light sees.
-    Half,
-    /// Eigenvectors; pseudo-eigenvectors where eigenvalues are complex.
-    Eigen,
-    /// Dual eigenvectors, halfway between the eigenvectors; only for tensors that are not symmetric.
-    Dual,
-}
-
-impl From<AxesName> for Axes {
-    fn from(name: AxesName) -> Self {
-        match name {
-            AxesName::Half => Self::HalfAxes,
-            AxesName::Eigen => Self::Eigenvectors,
-            AxesName::Dual => Self::DualEigenvectors,
-        }
-    }
-}
-
-/// By what the major axis is the larger one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum MajorName {
-    /// By the value with its sign, as in mechanics: tension before compression.
-    Value,
-    /// By the size of the value, as light sees it: the longer one.
-    Magnitude,
-}
-
-/// Which of the two axes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum FamilyName {
-    /// The larger one, see --major.
-    Major,
-    /// The other one.
-    Minor,
-    /// Both.
-    Both,
-}
-
-impl FamilyName {
-    pub(crate) const fn families(self) -> &'static [Family] {
-        match self {
-            Self::Major => &[Family::Major],
-            Self::Minor => &[Family::Minor],
-            Self::Both => &[Family::Major, Family::Minor],
-        }
-    }
-}
+use tigereye_core::{CellShape, Choice, Point};
+use tigereye_lines::{Axes, Family, Following, Major, usual_axes};
+use tigereye_render::{GlyphColour, GlyphKind, GlyphScale};
 
 /// How lines are integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -75,11 +25,11 @@ pub(crate) struct AxesArgs {
     /// A data file, a field file or a generator.
     pub(crate) input: String,
     /// The axes to follow; by default eigen where the field is symmetric (but for rounding), half otherwise.
-    #[arg(long, value_enum)]
-    axes: Option<AxesName>,
+    #[arg(long, value_parser = choice::<Axes>())]
+    axes: Option<Axes>,
     /// Which axis is the major one where signs are mixed; by default eigenvectors by value, semi-axes by magnitude.
-    #[arg(long, value_enum)]
-    major: Option<MajorName>,
+    #[arg(long, value_parser = choice::<Major>())]
+    major: Option<Major>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
     /// Summary as JSON on standard output.
@@ -90,16 +40,12 @@ pub(crate) struct AxesArgs {
 impl AxesArgs {
     /// The axes asked for, or those that are usual for such a field, over the cells of the input.
     pub(crate) fn following(&self, input: &Input) -> Result<Following, CliError> {
-        let axes = self.axes.map_or_else(|| usual_axes(&input.field), Axes::from);
+        let axes = self.axes.unwrap_or_else(|| usual_axes(&input.field));
         if axes == Axes::DualEigenvectors && self.major.is_some() {
             let problem = "changes nothing: dual eigenvectors have one order, the longer first (expected --axes eigen or half)";
             return Err(CliError::input("--major", problem));
         }
-        let ordered = match self.major {
-            None => axes.into(),
-            Some(MajorName::Value) => axes.by(Major::Value),
-            Some(MajorName::Magnitude) => axes.by(Major::Magnitude),
-        };
+        let ordered = self.major.map_or_else(|| axes.into(), |major| axes.by(major));
         Ok(Following { axes: ordered, cell: CellShape::of(input.geometry.spacing()) })
     }
 }
@@ -110,8 +56,8 @@ pub(crate) struct LinesArgs {
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Which lines.
-    #[arg(long, value_enum, default_value_t = FamilyName::Major)]
-    pub(crate) family: FamilyName,
+    #[arg(long, default_value = Family::Major.word(), value_parser = families())]
+    pub(crate) family: &'static [Family],
     /// Distance of the lines, cells (sides of the smaller length where cells are not square), from 0.1; by default a
     /// fortieth of the longer side.
     #[arg(long, value_name = "CELLS", value_parser = parse_separation, conflicts_with = "seeds")]
@@ -153,8 +99,8 @@ pub(crate) struct TopologyArgs {
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Whose separatrices.
-    #[arg(long, value_enum, default_value_t = FamilyName::Major)]
-    pub(crate) family: FamilyName,
+    #[arg(long, default_value = Family::Major.word(), value_parser = families())]
+    pub(crate) family: &'static [Family],
     /// Step of the separatrices, cells (smaller sides).
     #[arg(long, value_name = "CELLS", default_value = "0.1", value_parser = parse_step)]
     pub(crate) step: f64,
@@ -174,8 +120,8 @@ pub(crate) struct LicArgs {
     #[arg(long, conflicts_with = "family")]
     pub(crate) hyper: bool,
     /// Along which axis.
-    #[arg(long, value_enum, default_value_t = OneFamily::Major)]
-    pub(crate) family: OneFamily,
+    #[arg(long, default_value = Family::Major.word(), value_parser = choice::<Family>())]
+    pub(crate) family: Family,
     /// How far noise is smeared to each side, cells (smaller sides); with --hyper along the longer axis.
     #[arg(long, value_name = "CELLS", default_value = "5", value_parser = parse_smear)]
     pub(crate) half_length: f64,
@@ -198,8 +144,8 @@ pub(crate) struct FtleArgs {
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Which lines.
-    #[arg(long, value_enum, default_value_t = OneFamily::Major)]
-    pub(crate) family: OneFamily,
+    #[arg(long, default_value = Family::Major.word(), value_parser = choice::<Family>())]
+    pub(crate) family: Family,
     /// Length of the lines to each side, cells (smaller sides).
     #[arg(long, value_name = "CELLS", default_value = "10", value_parser = parse_reach)]
     pub(crate) length: f64,
@@ -221,18 +167,18 @@ pub(crate) struct GlyphsArgs {
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// What stands for a tensor.
-    #[arg(long, value_enum, default_value_t = KindName::Ellipse)]
-    pub(crate) kind: KindName,
+    #[arg(long, default_value = GlyphKind::Ellipse.word(), value_parser = choice::<GlyphKind>())]
+    pub(crate) kind: GlyphKind,
     /// Sharpness of superquadrics; 3 by default.
     #[arg(long, value_name = "F", value_parser = parse_gamma)]
     pub(crate) gamma: Option<f64>,
     /// How glyphs are scaled against each other.
-    #[arg(long, value_enum, default_value_t = ScaleName::Field)]
-    pub(crate) scale: ScaleName,
+    #[arg(long, default_value = GlyphScale::Field.word(), value_parser = choice::<GlyphScale>())]
+    pub(crate) scale: GlyphScale,
     /// What colours mean; by default the signs where the field is symmetric (but for rounding), the anisotropy
     /// otherwise.
-    #[arg(long, value_enum)]
-    pub(crate) colour: Option<ColourName>,
+    #[arg(long, value_parser = choice::<GlyphColour>())]
+    pub(crate) colour: Option<GlyphColour>,
     /// A glyph for every n-th cell; by default as many as stay readable, and all in a .vtp.
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) every: Option<usize>,
@@ -277,61 +223,6 @@ pub(crate) struct RidgesArgs {
     /// Summary as JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-/// One of the two axes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum OneFamily {
-    /// The larger one, see --major.
-    Major,
-    /// The other one.
-    Minor,
-}
-
-impl From<OneFamily> for Family {
-    fn from(name: OneFamily) -> Self {
-        match name {
-            OneFamily::Major => Self::Major,
-            OneFamily::Minor => Self::Minor,
-        }
-    }
-}
-
-/// Kinds of glyphs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum KindName {
-    /// The ellipse that the tensor makes of the unit circle.
-    Ellipse,
-    /// A rectangle along the semi-axes.
-    Box,
-    /// A superellipse: round where isotropic, boxier the more anisotropic (Kindlmann 2004).
-    Superquadric,
-    /// The normal component in every direction: filled lobes for tension, hollow ones for compression.
-    Signed,
-    /// Arrows along the principal axes: outwards for tension, inwards for compression.
-    Arrows,
-    /// The ellipse and the angle by which a tensor that is not symmetric turns.
-    Asymmetric,
-}
-
-/// Scaling of glyphs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ScaleName {
-    /// The largest of the field fills a cell.
-    Field,
-    /// By the square root, the largest filling a cell.
-    Root,
-    /// Every one fills its cell.
-    Glyph,
-}
-
-/// Meaning of colours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ColourName {
-    /// Tension and compression; of asymmetric glyphs the sense of rotation.
-    Sign,
-    /// Linear anisotropy.
-    Anisotropy,
 }
 
 /// Shortest and longest step, cells.

@@ -47,17 +47,16 @@ pub(crate) struct CheckArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ReviewArgs {
-    /// What was before: a results folder, as `reproduce --out` writes it, or a git revision, which is built and run.
+    /// What was before: a results folder, as `reproduce --out` writes it.
     #[arg(required_unless_present = "snapshots", conflicts_with = "snapshots")]
-    pub(crate) base: Option<String>,
-    /// What is now, in the same way.
+    pub(crate) base: Option<PathBuf>,
+    /// What is now: another one.
     #[arg(required_unless_present = "snapshots", conflicts_with = "snapshots")]
-    pub(crate) head: Option<String>,
+    pub(crate) head: Option<PathBuf>,
     /// Folder for the page and the summary, review.html and review.json.
     #[arg(long, value_name = "DIR", default_value = "review")]
     pub(crate) out: PathBuf,
-    /// Only the experiment of this name, its file without folder and ending; repeatable. Of revisions only these are
-    /// run.
+    /// Only the experiment of this name, its file without folder and ending; repeatable.
     #[arg(long, value_name = "SLUG", conflicts_with = "snapshots")]
     pub(crate) only: Vec<String>,
     /// Largest relative change of a number that is no movement.

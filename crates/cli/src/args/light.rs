@@ -2,13 +2,14 @@
 
 use super::reading::ReadingArgs;
 use super::values::{
-    parse_bytes, parse_count, parse_directions, parse_normalization, parse_seconds, parse_shard, parse_side,
-    parse_threads, parse_threshold,
+    choice, parse_bytes, parse_count, parse_directions, parse_normalization, parse_seconds, parse_shard,
+    parse_side, parse_threads, parse_threshold,
 };
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use tigereye_core::{Directions, Normalization};
-use tigereye_ltg::Shard;
+use tigereye_core::{Choice, Directions, Normalization};
+use tigereye_ltg::{Precision, Shard};
+use tigereye_transport::StopMeasure;
 
 /// What a computation may use.
 #[derive(Clone, Debug, Args)]
@@ -34,24 +35,13 @@ pub(crate) struct SchemeArgs {
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) max_iterations: usize,
     /// What the threshold is compared with.
-    #[arg(long, value_enum, default_value_t = StopRule::Flux)]
-    pub(crate) stop: StopRule,
+    #[arg(long, default_value = StopMeasure::Flux.word(), value_parser = choice::<StopMeasure>())]
+    pub(crate) stop: StopMeasure,
     /// global, local, local-above:F or local-above-global:F; `local` for generators and .txt, `global` otherwise.
     #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
     pub(crate) normalization: Option<Normalization>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
-}
-
-/// Stopping rules.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum StopRule {
-    /// Change of the total transported flux between two steps, W.
-    Flux,
-    /// Sum of the changes of all profiles, W.
-    Distribution,
-    /// That sum over the energy at most 1e-10; ignores --threshold and --max-iterations.
-    Stationary,
 }
 
 #[derive(Debug, Args)]
@@ -110,7 +100,7 @@ pub(crate) struct LtgArgs {
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) slices: Option<Vec<usize>>,
     /// Precision of the computation.
-    #[arg(long, value_enum, default_value_t = Precision::F64)]
+    #[arg(long, default_value = Precision::F64.word(), value_parser = choice::<Precision>())]
     pub(crate) precision: Precision,
     #[command(flatten)]
     pub(crate) resources: Resources,
@@ -126,15 +116,6 @@ pub(crate) struct LtgArgs {
     /// Summary as JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-/// Precision of a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Precision {
-    /// Double precision.
-    F64,
-    /// Single precision: faster, and less than 1e-4 off in the fields that the tests compare.
-    F32,
 }
 
 #[derive(Debug, Args)]

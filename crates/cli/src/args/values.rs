@@ -1,7 +1,9 @@
 //! Values of options: from their words, or what was expected.
 
-use tigereye_core::{Below, Directions, Normalization};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use tigereye_core::{Choice, CoreError, Directions, Normalization};
 use tigereye_fields::images::MAX_SIGMA;
+use tigereye_lines::Family;
 use tigereye_ltg::Shard;
 
 pub(crate) fn parse_side(text: &str) -> Result<usize, String> {
@@ -78,17 +80,28 @@ pub(crate) fn parse_bytes(text: &str) -> Result<u64, String> {
 }
 
 pub(crate) fn parse_normalization(text: &str) -> Result<Normalization, String> {
-    let fraction = |f: &str, below| match f.parse::<f64>() {
-        Ok(fraction) if (0.0..=1.0).contains(&fraction) => Ok(Normalization::LocalAbove { fraction, below }),
-        _ => Err(format!("`{f}` is no fraction: expected a number from 0 to 1")),
-    };
-    match text.split_once(':') {
-        None if text == "global" => Ok(Normalization::Global),
-        None if text == "local" => Ok(Normalization::Local),
-        Some(("local-above", f)) => fraction(f, Below::Absorb),
-        Some(("local-above-global", f)) => fraction(f, Below::Global),
-        _ => Err("expected global, local, local-above:F or local-above-global:F".to_owned()),
-    }
+    text.parse().map_err(|e: CoreError| e.to_string())
+}
+
+/// The parser of a choice by its words; help texts say what each means.
+pub(crate) fn choice<T: Choice>() -> impl TypedValueParser<Value = T> {
+    let words = PossibleValuesParser::new(T::ALL.iter().map(|value| possible(*value)));
+    words.try_map(|word| T::of_word(&word).ok_or("expected one of the words"))
+}
+
+/// Either family of axes, or both.
+pub(crate) fn families() -> impl TypedValueParser<Value = &'static [Family]> {
+    let one = Family::ALL.iter().map(|family| possible(*family));
+    let words = PossibleValuesParser::new(one.chain([PossibleValue::new("both").help("Both")]));
+    words.map(|word| match Family::ALL.iter().position(|f| f.word() == word) {
+        Some(i) => &Family::ALL[i..=i],
+        None => Family::ALL,
+    })
+}
+
+fn possible(value: impl Choice) -> PossibleValue {
+    // Without the full stop, as clap leaves it out of comments.
+    PossibleValue::new(value.word()).help(value.meaning().trim_end_matches('.'))
 }
 
 #[cfg(test)]
@@ -124,12 +137,5 @@ mod tests {
         for wrong in ["3/3", "0/0", "1", "-1/3", "a/b", "0/3/4", "", "0/99999999999999999999"] {
             assert!(parse_shard(wrong).is_err_and(|e| e.contains("K/N")), "{wrong}");
         }
-    }
-
-    #[test]
-    fn normalisations_are_spelled_as_documented() {
-        assert_eq!(parse_normalization("global"), Ok(Normalization::Global));
-        assert!(matches!(parse_normalization("local-above:0.25"), Ok(Normalization::LocalAbove { .. })));
-        assert!(parse_normalization("local-above:2").is_err() && parse_normalization("nothing").is_err());
     }
 }

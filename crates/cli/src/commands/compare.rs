@@ -6,7 +6,7 @@ use crate::error::CliError;
 use crate::input::{Input, Source};
 use crate::{files, interrupt};
 use std::path::Path;
-use tigereye_core::{Field, Tensor2};
+use tigereye_core::{Difference, Field, Tensor2};
 use tigereye_input::{Content, Reading, TensorFile};
 use tigereye_io::volume::lattice_from_image;
 use tigereye_io::{ChoiceError, IoError, Rows, Wanted, npy, vti};
@@ -43,8 +43,8 @@ pub(crate) fn compare(args: &CompareArgs) -> Result<u8, CliError> {
         let problem = format!("{} has the slices {x:?}, {} has {y:?}: expected the same", args.a, args.b);
         return Err(CliError::Input(problem));
     }
-    let difference = Difference::between(&a, &b);
-    print_text(&difference.text(&a))?;
+    let difference = Difference::between(&a.values, &b.values);
+    print_text(&text(&difference, &a))?;
     Ok(u8::from(!difference.is_within(args.tolerance)))
 }
 
@@ -148,87 +148,29 @@ impl Numbers {
     }
 }
 
-struct Difference {
-    largest: f64,
-    at: usize,
-    /// Largest difference over the largest magnitude of A.
-    largest_relative: f64,
-    /// L2 norm of the difference over that of A.
-    l2_relative: f64,
-    /// Values that are not a number on one side only.
-    unmatched: usize,
-}
-
-impl Difference {
-    fn between(a: &Numbers, b: &Numbers) -> Self {
-        let (mut largest, mut at, mut unmatched) = (0.0, 0, 0);
-        let (mut square, mut norm, mut top): (f64, f64, f64) = (0.0, 0.0, 0.0);
-        for (i, (&x, &y)) in a.values.iter().zip(&b.values).enumerate() {
-            if x.is_nan() || y.is_nan() {
-                unmatched += usize::from(x.is_nan() != y.is_nan());
-                continue;
-            }
-            let off = if x == y { 0.0 } else { (x - y).abs() };
-            if off > largest {
-                (largest, at) = (off, i);
-            }
-            square += off * off;
-            norm += x * x;
-            top = top.max(x.abs());
-        }
-        let relative = |x: f64, y: f64| match (x, y) {
-            (0.0, _) => 0.0,
-            (_, 0.0) => f64::INFINITY,
-            _ => x / y,
-        };
-        let l2_relative = relative(square.sqrt(), norm.sqrt());
-        Self { largest, at, largest_relative: relative(largest, top), l2_relative, unmatched }
-    }
-
-    fn is_within(&self, tolerance: f64) -> bool {
-        self.unmatched == 0 && self.l2_relative <= tolerance && self.largest_relative <= tolerance
-    }
-
-    fn text(&self, a: &Numbers) -> String {
-        let place = if self.largest > 0.0 { format!(" at {:?}", a.place(self.at)) } else { String::new() };
-        let unmatched = match self.unmatched {
-            0 => String::new(),
-            n => format!("\n{n} values are not a number on one side only"),
-        };
-        format!(
-            "{} of shape {:?}\nlargest difference {:e} ({:e} of the largest value){place}\nrelative L2 difference {:e}{unmatched}\n",
-            a.what, a.shape, self.largest, self.largest_relative, self.l2_relative
-        )
-    }
+/// What is said of a difference from `a`.
+fn text(difference: &Difference, a: &Numbers) -> String {
+    let place =
+        if difference.largest > 0.0 { format!(" at {:?}", a.place(difference.at)) } else { String::new() };
+    let unmatched = match difference.unmatched {
+        0 => String::new(),
+        n => format!("\n{n} values are not a number on one side only"),
+    };
+    format!(
+        "{} of shape {:?}\nlargest difference {:e} ({:e} of the largest value){place}\nrelative L2 difference {:e}{unmatched}\n",
+        a.what, a.shape, difference.largest, difference.largest_relative, difference.l2_relative
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn numbers(values: &[f64]) -> Numbers {
-        Numbers { what: "x".into(), shape: vec![2, values.len() / 2], slices: None, values: values.to_vec() }
-    }
-
     #[test]
-    fn differences_are_found_and_placed() {
-        let (a, b) = (numbers(&[1.0, 2.0, 3.0, 4.0]), numbers(&[1.0, 2.0, 3.5, 4.0]));
-        let d = Difference::between(&a, &b);
-        assert_eq!((d.largest, a.place(d.at), d.largest_relative), (0.5, vec![1, 0], 0.125));
-        assert!(!d.is_within(0.01) && d.is_within(0.2));
-        assert!(Difference::between(&a, &a).is_within(0.0));
-    }
-
-    #[test]
-    fn a_missing_number_is_never_within() {
-        let (a, b) = (numbers(&[1.0, f64::NAN]), numbers(&[1.0, 2.0]));
-        assert!(!Difference::between(&a, &b).is_within(1e9));
-        assert!(Difference::between(&a, &a).is_within(0.0));
-    }
-
-    #[test]
-    fn zero_against_something_is_infinitely_far() {
-        let (a, b) = (numbers(&[0.0, 0.0]), numbers(&[0.0, 1e-300]));
-        assert!(!Difference::between(&a, &b).is_within(1.0));
+    fn positions_have_one_index_an_axis() {
+        let numbers = Numbers { what: "x".into(), shape: vec![2, 2], slices: None, values: vec![0.0; 4] };
+        assert_eq!((numbers.place(2), numbers.place(3)), (vec![1, 0], vec![1, 1]));
+        let volume = Numbers { slices: Some(vec![4, 8]), ..numbers };
+        assert_eq!(volume.place(3), [8, 1]);
     }
 }

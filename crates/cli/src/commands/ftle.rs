@@ -6,7 +6,7 @@ use crate::error::CliError;
 use serde_json::json;
 use tigereye_input::provenance::with_rows;
 use tigereye_io::{Rows, vti};
-use tigereye_lines::{Family, FtleOptions};
+use tigereye_lines::FtleOptions;
 use tigereye_views::{ftle, image};
 
 pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
@@ -14,7 +14,7 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
     let following = args.of.following(&input)?;
     let axes = following.axes;
-    let family = Family::from(args.family);
+    let family = args.family;
     let (length, step, samples) = (args.length, args.step, args.samples);
     let options = FtleOptions { length, step, samples, ..FtleOptions::default() };
     let found = ftle::exponents(&input.field, following, family, &options)

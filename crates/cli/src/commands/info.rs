@@ -8,14 +8,9 @@ use crate::{files, geometry, interrupt};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
-use tigereye_core::{Anisotropy, Eigenvalues, Field, Svd, Symmetry, Tensor2, is_totally_anisotropic};
-use tigereye_input::{Content, Reading, TensorFile, suggested_local_above};
+use tigereye_input::{Content, FieldFacts, Range, Reading, TensorFile, suggested_local_above};
 use tigereye_io::volume::lattice_from_image;
 use tigereye_io::{ChoiceError, DataArray, IoError, PROVENANCE, Rows, Wanted, vti};
-use tigereye_lines::is_complex;
-
-/// Relative difference of the semi-axes below which a tensor counts as degenerate: files hold single precision.
-const DEGENERATE_BELOW: f64 = 1e-6;
 
 pub(crate) fn info(args: &InfoArgs) -> Result<u8, CliError> {
     if let Some(facts) = facts_of_result(args)? {
@@ -91,9 +86,8 @@ fn facts_of_result(args: &InfoArgs) -> Result<Option<Value>, CliError> {
 }
 
 fn array_facts(array: &DataArray) -> Value {
-    let low = array.values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = array.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    json!({ "name": array.name, "components": array.components, "min": low, "max": high })
+    let Range { min, max, .. } = Range::of(array.values.iter().copied());
+    json!({ "name": array.name, "components": array.components, "min": min, "max": max })
 }
 
 fn result_as_text(facts: &Value) -> String {
@@ -124,16 +118,11 @@ fn result_as_text(facts: &Value) -> String {
 }
 
 fn facts(input: &Input) -> Value {
-    let field = &input.field;
-    let grid = field.grid();
-    let symmetry = Symmetry::of(field);
-    // What rounding made asymmetric has real eigenvalues.
-    let plain = field.without_rounding();
-    let complex = plain.values().iter().filter(|t| is_complex(t)).count() as f64 / grid.cells() as f64;
+    let grid = input.field.grid();
+    let facts = FieldFacts::of(&input.field);
+    let [xx, xy, yx, yy] = facts.components.each_ref().map(lattice::range);
+    let [s1, s2] = facts.singular_values.each_ref().map(lattice::range);
     let [right, up, _] = input.geometry.flat().corner();
-    let share = |test: &dyn Fn(&Tensor2) -> bool| {
-        field.values().iter().filter(|t| test(t)).count() as f64 / grid.cells() as f64
-    };
     json!({
         "input": input.name,
         "kind": input.kind,
@@ -149,56 +138,16 @@ fn facts(input: &Input) -> Value {
         "assumptions": input.assumptions,
         "remarks": input.remarks.iter().chain(&input.oblong).collect::<Vec<_>>(),
         "input_blake3": input.blake3,
-        "components": {
-            "xx": range(field, Tensor2::xx), "xy": range(field, Tensor2::xy),
-            "yx": range(field, Tensor2::yx), "yy": range(field, Tensor2::yy),
-        },
-        "singular_values": { "s1": range(field, |t| Svd::of(t).s[0]), "s2": range(field, |t| Svd::of(t).s[1]) },
-        "planar_anisotropy": range(field, |t| Anisotropy::of(t).planar),
-        "fractional_anisotropy": range(field, fractional),
-        "fractional_anisotropy_above_1": lattice::above_one(field.values().iter().map(fractional)),
-        "fractional_anisotropy_histogram": lattice::histogram(field.values().iter().map(fractional)),
-        "negative_eigenvalues_histogram": negative_eigenvalues(field),
-        "suggested_local_above": suggested_local_above(field),
-        "shares": {
-            "zero": share(&Tensor2::is_zero),
-            "degenerate": share(&is_degenerate),
-            "asymmetric": share(&|t| !symmetry.has_symmetric(t)),
-            "complex": complex,
-            "indefinite": share(&|t| Eigenvalues::of(t).is_indefinite()),
-            "negative": share(&|t| Eigenvalues::of(t).negative() > 0),
-            "total_anisotropy": share(&|t| !t.is_zero() && is_totally_anisotropic(t)),
-        },
+        "components": { "xx": xx, "xy": xy, "yx": yx, "yy": yy },
+        "singular_values": { "s1": s1, "s2": s2 },
+        "planar_anisotropy": lattice::range(&facts.planar_anisotropy),
+        "fractional_anisotropy": lattice::range(&facts.fractional_anisotropy.range),
+        "fractional_anisotropy_above_1": facts.fractional_anisotropy.above_one,
+        "fractional_anisotropy_histogram": facts.fractional_anisotropy.histogram,
+        "negative_eigenvalues_histogram": facts.negative_eigenvalues,
+        "suggested_local_above": suggested_local_above(&input.field),
+        "shares": lattice::shares(&facts.shares),
     })
-}
-
-/// As of a volume of one layer.
-fn fractional(t: &Tensor2) -> f64 {
-    Anisotropy::of(t).fractional
-}
-
-/// Tensors with none, one and two eigenvalues (real parts) below zero by more than rounding.
-fn negative_eigenvalues(field: &Field<Tensor2>) -> [usize; 3] {
-    let mut counts = [0; 3];
-    for t in field.values() {
-        counts[Eigenvalues::of(t).negative()] += 1;
-    }
-    counts
-}
-
-/// Semi-axes of equal length: the direction of the tensor is undefined. Zero tensors are counted apart.
-fn is_degenerate(t: &Tensor2) -> bool {
-    !t.is_zero() && 1.0 - Svd::of(t).axis_ratio() <= DEGENERATE_BELOW
-}
-
-fn range(field: &Field<Tensor2>, f: impl Fn(&Tensor2) -> f64) -> Value {
-    let (mut low, mut high, mut sum) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
-    for v in field.values().iter().map(f) {
-        low = low.min(v);
-        high = high.max(v);
-        sum += v;
-    }
-    json!({ "min": low, "max": high, "mean": sum / field.grid().cells() as f64 })
 }
 
 fn as_text(facts: &Value) -> String {

@@ -1,119 +1,41 @@
 //! What a volume holds, for `info`.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
-use tigereye_core::{Eigenvalues, Symmetry, fractional_anisotropy3, symmetric_eigenvalues3};
-use tigereye_input::TensorFile;
+use tigereye_input::{Range, TensorFile, VolumeFacts};
 use tigereye_io::volume::{Lattice, TensorVolume};
 
-/// An eigenvalue below this times the largest component counts as negative: files hold single precision.
-const ROUNDING: f64 = Eigenvalues::ROUNDING;
-/// Relative difference of two eigenvalues below which a tensor counts as degenerate.
-const DEGENERATE_BELOW: f64 = 1e-6;
-/// What rounding may add to an anisotropy of 1; indefinite tensors have more.
-const FA_ROUNDING: f64 = 1e-9;
-/// Bars of a histogram over 0 to 1.
-const BARS: usize = 10;
-
-/// Smallest, largest and mean value.
-struct Range {
-    min: f64,
-    max: f64,
-    sum: f64,
-    count: usize,
+/// A range of numbers as JSON.
+pub(super) fn range(range: &Range) -> Value {
+    json!({ "min": range.min, "max": range.max, "mean": range.mean() })
 }
 
-impl Range {
-    const EMPTY: Self = Self { min: f64::INFINITY, max: f64::NEG_INFINITY, sum: 0.0, count: 0 };
-
-    fn add(&mut self, value: f64) {
-        self.min = self.min.min(value);
-        self.max = self.max.max(value);
-        self.sum += value;
-        self.count += 1;
-    }
-
-    fn json(&self) -> Value {
-        json!({ "min": self.min, "max": self.max, "mean": self.sum / self.count.max(1) as f64 })
-    }
-}
-
-/// Counts of values from 0 to 1 in ten bars; what is no number or outside is left out.
-pub(super) fn histogram(values: impl Iterator<Item = f64>) -> Vec<usize> {
-    let mut bars = vec![0; BARS];
-    for v in values.filter(|v| (-FA_ROUNDING..=1.0 + FA_ROUNDING).contains(v)) {
-        bars[((v * BARS as f64) as usize).min(BARS - 1)] += 1;
-    }
-    bars
-}
-
-/// How many values lie above 1.
-pub(super) fn above_one(values: impl Iterator<Item = f64>) -> usize {
-    values.filter(|v| *v > 1.0 + FA_ROUNDING).count()
+/// Shares by their names as JSON.
+pub(super) fn shares(shares: &[(&str, f64)]) -> Value {
+    shares.iter().map(|(name, share)| ((*name).to_owned(), json!(share))).collect::<Map<_, _>>().into()
 }
 
 /// Everything about a volume of tensors.
 pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
-    let lattice = volume.lattice();
     let (order, frame) = (volume.order(), volume.frame());
-    let (mut numbers, mut trace) = (Range::EMPTY, Range::EMPTY);
-    let mut eigenvalues = [Range::EMPTY, Range::EMPTY, Range::EMPTY];
-    let mut anisotropy = Vec::with_capacity(lattice.voxels());
-    // Tensors by their number of negative eigenvalues.
-    let mut signs = [0_usize; 4];
-    let [mut zero, mut strange, mut degenerate, mut asymmetric, mut indefinite, mut negative] = [0_usize; 6];
-    let measured = || (0..lattice.voxels()).filter_map(|voxel| volume.measured(voxel));
-    let finite = |t: &[f64; 9]| t.iter().all(|v| v.is_finite());
-    let largest_of_all = measured().filter(finite).flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
-    for t in measured() {
-        if !t.iter().all(|v| v.is_finite()) {
-            strange += 1;
-            continue;
-        }
-        let largest = t.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-        t.iter().for_each(|&v| numbers.add(v));
-        trace.add(t[0] + t[4] + t[8]);
-        let l = symmetric_eigenvalues3(&t);
-        eigenvalues.iter_mut().zip(l).for_each(|(range, v)| range.add(v));
-        anisotropy.push(fractional_anisotropy3(l));
-        let off = (t[1] - t[3]).abs().max((t[2] - t[6]).abs()).max((t[5] - t[7]).abs());
-        zero += usize::from(largest == 0.0);
-        let close = (l[0] - l[1]).min(l[1] - l[2]) <= DEGENERATE_BELOW * largest;
-        degenerate += usize::from(largest > 0.0 && close);
-        asymmetric += usize::from(off > Symmetry::ROUNDING * largest_of_all);
-        let below = l.iter().filter(|v| **v < -ROUNDING * largest).count();
-        signs[below] += 1;
-        negative += usize::from(below > 0);
-        indefinite += usize::from(l[2] < -ROUNDING * largest && l[0] > ROUNDING * largest);
-    }
-    let voxels = measured().count().max(1);
-    let share = |n: usize| n as f64 / voxels as f64;
-    let mut fa = Range::EMPTY;
-    anisotropy.iter().for_each(|&v| fa.add(v));
-    let mut facts = about(&file.name, file.kind, &file.blake3, lattice);
+    let found = VolumeFacts::of(volume);
+    let mut facts = about(&file.name, file.kind, &file.blake3, volume.lattice());
     let more = json!({
         "component_order": order.0.to_string(),
         "component_order_is": order.1.words(),
         "frame": frame.0.name(),
         "frame_is": frame.1.words(),
         "assumptions": volume.story(),
-        "range": numbers.json(),
-        "mean_trace": trace.sum / trace.count.max(1) as f64,
-        "zero_tensors": zero,
+        "range": range(&found.components),
+        "mean_trace": found.mean_trace,
+        "zero_tensors": found.zero,
         "masked": volume.masked_out(),
-        "eigenvalues": eigenvalues.each_ref().map(Range::json),
-        "fractional_anisotropy": fa.json(),
-        "negative_eigenvalues_histogram": signs,
-        "fractional_anisotropy_above_1": above_one(anisotropy.iter().copied()),
-        "fractional_anisotropy_histogram": histogram(anisotropy.into_iter()),
-        "shares": {
-            "zero": share(zero),
-            "not_finite": share(strange),
-            "degenerate": share(degenerate),
-            "asymmetric": share(asymmetric),
-            "indefinite": share(indefinite),
-            "negative": share(negative),
-        },
+        "eigenvalues": found.eigenvalues.each_ref().map(range),
+        "fractional_anisotropy": range(&found.fractional_anisotropy.range),
+        "negative_eigenvalues_histogram": found.negative_eigenvalues,
+        "fractional_anisotropy_above_1": found.fractional_anisotropy.above_one,
+        "fractional_anisotropy_histogram": found.fractional_anisotropy.histogram,
+        "shares": shares(&found.shares),
         "warning": file.warning(),
         "remarks": file.remarks(),
     });
@@ -123,8 +45,7 @@ pub(super) fn facts(file: &TensorFile, volume: &TensorVolume) -> Value {
 
 /// Everything about an image of numbers or vectors.
 pub(super) fn number_facts(file: &TensorFile, lattice: &Lattice) -> Value {
-    let mut range = Range::EMPTY;
-    lattice.values.iter().for_each(|&v| range.add(v));
+    let values = Range::of(lattice.values.iter().copied());
     let mut facts = about(&file.name, file.kind, &file.blake3, lattice);
     let mut story = lattice.story();
     if lattice.components > 1 {
@@ -133,7 +54,7 @@ pub(super) fn number_facts(file: &TensorFile, lattice: &Lattice) -> Value {
     }
     story.extend(lattice.warnings.iter().map(|w| format!("WARNING: {w}")));
     story.push("no tensors; commands that take tensors need --derive".to_owned());
-    let more = json!({ "assumptions": story, "range": range.json() });
+    let more = json!({ "assumptions": story, "range": range(&values) });
     merge(&mut facts, more);
     facts
 }

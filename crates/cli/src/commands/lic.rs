@@ -17,7 +17,7 @@ pub(crate) fn run(args: &LicArgs) -> Result<u8, CliError> {
     let following = args.of.following(&input)?;
     let request = TextureRequest {
         following,
-        family: args.family.into(),
+        family: args.family,
         hyper: args.hyper,
         options: ConvolutionOptions { samples, half_length, seed },
     };

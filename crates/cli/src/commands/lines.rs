@@ -89,7 +89,7 @@ fn request(args: &LinesArgs, input: &Input) -> Result<LinesRequest, CliError> {
     };
     Ok(LinesRequest {
         following,
-        families: args.family.families().to_vec(),
+        families: args.family.to_vec(),
         seeds,
         options: LineOptions {
             method,

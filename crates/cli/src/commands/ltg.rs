@@ -1,8 +1,8 @@
 //! `tigereye ltg`: the light transport gradient volume, or a shard of it.
 
-use crate::args::light::{self, LtgArgs};
+use crate::args::light::LtgArgs;
 use crate::checkpoint::Checkpoint;
-use crate::commands::propagate::{check_outputs, stop_name, stopping_of};
+use crate::commands::propagate::{check_outputs, stopping_of};
 use crate::commands::{command_line, print_json, print_text, volume};
 use crate::error::CliError;
 use crate::input::insert_reading;
@@ -13,9 +13,9 @@ use crate::{files, interrupt, system};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Instant;
-use tigereye_core::Normalization;
+use tigereye_core::{Choice, Normalization};
 use tigereye_ltg::{
-    LtgError, LtgSettings, PartialVolume, Precision, Shard, check_fit, omega_step_of_volumes, sweep_part,
+    LtgError, LtgSettings, PartialVolume, Shard, check_fit, omega_step_of_volumes, sweep_part,
 };
 use tigereye_transport::{Scattering, Scheme, SharedWeights};
 
@@ -168,10 +168,7 @@ fn settings_of(args: &LtgArgs) -> Result<LtgSettings, CliError> {
         slices: args.slices.clone(),
         memory_bytes: memory_bound(args).saturating_sub(PROGRAM_BYTES),
         level: system::level()?,
-        precision: match args.precision {
-            light::Precision::F64 => Precision::F64,
-            light::Precision::F32 => Precision::F32,
-        },
+        precision: args.precision,
     };
     settings.slices = Some(settings.checked_slices(args.scheme.directions).map_err(fault)?);
     Ok(settings)
@@ -184,7 +181,7 @@ fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: &str) -> Va
         "directions": args.scheme.directions.count(),
         "threshold": settings.stopping.rule.threshold(),
         "max_iterations": settings.stopping.max_iterations,
-        "stop": stop_name(args.scheme.stop),
+        "stop": args.scheme.stop.word(),
         "omega_step": settings.omega_step,
         "normalization": normalization,
         "slices": settings.slices,

@@ -1,6 +1,6 @@
 //! `tigereye propagate`: one light distribution.
 
-use crate::args::light::{Picture, PropagateArgs, SchemeArgs, StopRule};
+use crate::args::light::{Picture, PropagateArgs, SchemeArgs};
 use crate::commands::{command_line, counted, print_json, print_text};
 use crate::error::CliError;
 use crate::input::insert_reading;
@@ -12,7 +12,7 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use tigereye_core::{Cell, CellShape, Field, LightDistribution, PolarProfile, StopReason, Surface};
+use tigereye_core::{Cell, CellShape, Choice, Field, LightDistribution, PolarProfile, StopReason, Surface};
 use tigereye_experiments::lights::profile_of_expression;
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
@@ -261,22 +261,8 @@ fn light(text: &str, args: &PropagateArgs) -> Result<Light, CliError> {
 }
 
 /// The stopping rule of the options.
-pub(crate) fn stopping_of(args: &SchemeArgs) -> Stopping {
-    let rule = match args.stop {
-        StopRule::Flux => StoppingRule::FluxChange { threshold: args.threshold },
-        StopRule::Distribution => StoppingRule::DistributionChange { threshold: args.threshold },
-        StopRule::Stationary => return Stopping::STATIONARY,
-    };
-    Stopping { rule, max_iterations: args.max_iterations }
-}
-
-/// The name of a stopping rule as the option spells it.
-pub(crate) const fn stop_name(rule: StopRule) -> &'static str {
-    match rule {
-        StopRule::Flux => "flux",
-        StopRule::Distribution => "distribution",
-        StopRule::Stationary => "stationary",
-    }
+pub(crate) const fn stopping_of(args: &SchemeArgs) -> Stopping {
+    args.stop.stopping(args.threshold, args.max_iterations)
 }
 
 fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: &str) -> Value {
@@ -288,7 +274,7 @@ fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: &str) ->
         "directions": args.scheme.directions.count(),
         "threshold": stopping.rule.threshold(),
         "max_iterations": stopping.max_iterations,
-        "stop": stop_name(args.scheme.stop),
+        "stop": args.scheme.stop.word(),
         "normalization": normalization,
     });
     insert_reading(&mut parameters, &args.scheme.reading);

@@ -1,15 +1,10 @@
 //! `tigereye review`: what a change moved, as a page, as JSON and as a few lines.
 
-mod revision;
-
-pub(crate) use revision::abandon;
-
 use crate::args::experiments::ReviewArgs;
 use crate::commands::print_text;
 use crate::error::CliError;
 use crate::{files, interrupt};
-use revision::Workshop;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use tigereye_report::review::{self, MAX_FILE, Pending, Results, Review, Side};
 
 /// What `reproduce` writes for programs.
@@ -37,71 +32,28 @@ pub(crate) fn review(args: &ReviewArgs) -> Result<u8, CliError> {
     Ok(u8::from(review.moved()))
 }
 
-/// Where one side's results are.
-enum Place {
-    Folder(PathBuf),
-    /// A revision by its commit.
-    Revision(String),
-}
-
-impl Place {
-    fn find(name: &str) -> Result<Self, CliError> {
-        let folder = Path::new(name);
-        if folder.join(SUMMARY).exists() {
-            return Ok(Self::Folder(folder.to_path_buf()));
-        }
-        match revision::commit(name)? {
-            Some(commit) => Ok(Self::Revision(commit)),
-            None => {
-                let problem =
-                    format!("is no git revision, and there is no {name}/{SUMMARY}: expected either");
-                Err(CliError::input(name, problem))
-            }
-        }
-    }
-
-    /// The names of its experiments, found without building anything. A folder that cannot be read is a fault.
-    fn slugs(&self) -> Result<Vec<String>, CliError> {
-        match self {
-            Self::Folder(folder) => Ok(results(folder)?.slugs().map(str::to_owned).collect()),
-            Self::Revision(commit) => revision::slugs(commit),
-        }
-    }
-}
-
-fn of_results(names: [&String; 2], only: &[String], tolerance: f64) -> Result<Review, CliError> {
-    // Both are looked for, and folders read, before anything is built.
-    let places = [Place::find(names[0])?, Place::find(names[1])?];
-    let slugs = [places[0].slugs()?, places[1].slugs()?];
-    if let Some(unknown) = only.iter().find(|only| !slugs.concat().contains(only)) {
+fn of_results(folders: [&Path; 2], only: &[String], tolerance: f64) -> Result<Review, CliError> {
+    let names = folders.map(|folder| folder.display().to_string());
+    let (base, head) = (results(folders[0])?, results(folders[1])?);
+    if let Some(unknown) = only.iter().find(|only| !base.slugs().chain(head.slugs()).any(|s| s == **only)) {
         let [base, head] = names;
         return Err(CliError::Input(format!("--only {unknown}: no such experiment in {base} or {head}")));
     }
-    let mut workshop = Workshop::default();
-    let mut sides = Vec::new();
-    for ((name, place), slugs) in names.iter().zip(places).zip(&slugs) {
-        let wanted: Vec<String> = only.iter().filter(|only| slugs.contains(only)).cloned().collect();
-        // Where none of them is there, there is nothing to run.
-        let empty = !only.is_empty() && wanted.is_empty();
-        sides.push(match place {
-            _ if empty => None,
-            Place::Folder(folder) => Some(folder),
-            Place::Revision(commit) => Some(workshop.results(name, &commit, &wanted)?),
-        });
-    }
-    let read_side =
-        |side: &Option<PathBuf>| side.as_ref().map_or_else(|| Ok(Results::default()), |f| results(f));
-    let (base, head) = (read_side(&sides[0])?.only(only), read_side(&sides[1])?.only(only));
     let mut figure = |side, path: &str| {
         interrupt::check()?;
-        let folder = &sides[usize::from(side == Side::Head)];
-        read(&folder.as_deref().unwrap_or(Path::new("")).join(path))
+        read(&folders[usize::from(side == Side::Head)].join(path))
     };
-    review::results(names.map(String::as_str), &base, &head, tolerance, &mut figure)
+    let (base, head) = (base.only(only), head.only(only));
+    review::results(names.each_ref().map(String::as_str), &base, &head, tolerance, &mut figure)
 }
 
 fn results(folder: &Path) -> Result<Results, CliError> {
     let path = folder.join(SUMMARY);
+    if !path.exists() {
+        let problem =
+            format!("there is no {}: expected a folder of results, as `reproduce` writes it", path.display());
+        return Err(CliError::input(&folder.display().to_string(), problem));
+    }
     let text = files::text_of(&path, read(&path)?)?;
     Ok(review::read(&path.display().to_string(), &text)?)
 }

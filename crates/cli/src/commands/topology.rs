@@ -16,7 +16,7 @@ pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
     let length = args.length.unwrap_or(4.0 * following.longer_side(input.field.grid()));
     let options = LineOptions { step: args.step, length, ..LineOptions::default() };
     drawing::check_steps(length, args.step)?;
-    let families = args.family.families();
+    let families = args.family;
     let found = topology::topology(&input.field, following, families, &options);
     let names: Vec<&str> = families.iter().map(|f| f.name()).collect();
     let parameters = json!({

@@ -1,19 +1,18 @@
 //! Finished gradient volumes: files, pictures, and what is said about them.
 
-use crate::args::light::StopRule;
 use crate::commands::command_line;
-use crate::commands::propagate::{PNG_SCALE, stop_name};
+use crate::commands::propagate::PNG_SCALE;
 use crate::error::CliError;
 use crate::files;
 use crate::part_file::Identity;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use tigereye_core::{CellShape, Field, LtgVolume, Surface};
+use tigereye_core::{CellShape, Choice, Field, LtgVolume, Surface};
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{Rows, npy, vti};
 use tigereye_render::Scene;
-use tigereye_transport::Stopping;
+use tigereye_transport::{StopMeasure, Stopping};
 use tigereye_views::gradient;
 
 /// Endings of files that hold volumes, or pictures of them.
@@ -124,7 +123,7 @@ pub(super) fn sentence(summary: &Value, stop: &Value) -> String {
     }
     let limited = match summary["limited"].as_u64() {
         None | Some(0) => String::new(),
-        Some(n) if stop == stop_name(StopRule::Stationary) => {
+        Some(n) if stop == StopMeasure::Stationary.word() => {
             format!("; {n} sources did not converge within {CAUGHT} steps, and have the light after these")
         }
         Some(n) => format!("; {n} sources met --max-iterations before the threshold"),

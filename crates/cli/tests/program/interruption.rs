@@ -2,47 +2,38 @@
 
 use crate::support::Place;
 use std::process::{Child, Command};
-use std::time::{Duration, Instant};
-
-/// How long the program may take to notice.
-const PATIENCE: Duration = Duration::from_secs(20);
+use std::time::Duration;
+use tigereye_test_support::eventually;
 
 fn interrupt(child: &Child, signal: &str) {
     assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
 }
 
 /// Waits until the program watches for interrupts: before, a signal would kill it.
-fn wait_until_watching(child: &mut Child) {
-    let start = Instant::now();
+fn wait_until_watching(child: &Child) {
     let status = format!("/proc/{}/status", child.id());
-    while start.elapsed() < PATIENCE {
-        let Ok(text) = std::fs::read_to_string(&status) else {
-            // No such file system here: half a second is plenty.
-            std::thread::sleep(Duration::from_millis(500));
-            return;
-        };
+    if std::fs::read_to_string(&status).is_err() {
+        // No such file system here: half a second is plenty.
+        std::thread::sleep(Duration::from_millis(500));
+        return;
+    }
+    let is_watching = || {
+        let text = std::fs::read_to_string(&status).unwrap_or_default();
         let caught = text.lines().find_map(|l| l.strip_prefix("SigCgt:")).map(str::trim);
         // SIGINT is signal 2, bit 1.
-        if caught.and_then(|h| u64::from_str_radix(h, 16).ok()).is_some_and(|bits| bits & 2 != 0) {
-            std::thread::sleep(Duration::from_millis(200));
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    panic!("the program never watched for interrupts");
+        caught.and_then(|h| u64::from_str_radix(h, 16).ok()).is_some_and(|bits| bits & 2 != 0)
+    };
+    assert!(eventually(is_watching), "the program never watched for interrupts");
+    std::thread::sleep(Duration::from_millis(200));
 }
 
 /// The exit code and standard error, or a failure where the program goes on.
 #[track_caller]
 fn ending(mut child: Child) -> (Option<i32>, String) {
-    let start = Instant::now();
-    while child.try_wait().unwrap().is_none() {
-        if start.elapsed() > PATIENCE {
-            child.kill().unwrap();
-            child.wait().unwrap();
-            panic!("the program goes on after an interrupt");
-        }
-        std::thread::sleep(Duration::from_millis(10));
+    if !eventually(|| child.try_wait().unwrap().is_some()) {
+        child.kill().unwrap();
+        child.wait().unwrap();
+        panic!("the program goes on after an interrupt");
     }
     let output = child.wait_with_output().unwrap();
     assert_eq!(String::from_utf8_lossy(&output.stdout), "", "standard output");
@@ -58,7 +49,7 @@ fn leaves_everything(args: &[&str], signal: &str) {
     place.write("long.ron", LONG);
     let before = place.files();
     let mut child = place.command(args).spawn().unwrap();
-    wait_until_watching(&mut child);
+    wait_until_watching(&child);
     assert!(child.try_wait().unwrap().is_none(), "{args:?} ended before it could be interrupted");
     interrupt(&child, signal);
     let (code, stderr) = ending(child);
@@ -110,13 +101,13 @@ fn an_interrupted_reading_command_ends_with_130_too() {
 /// A command that waits for ever: nobody writes into its input.
 fn waiting(place: &Place) -> Child {
     assert!(Command::new("mkfifo").arg(place.path("pipe.txt")).status().unwrap().success());
-    let mut child = place.command(&["ltg", "pipe.txt", "-o", "kept.vti"]).spawn().unwrap();
-    wait_until_watching(&mut child);
+    let child = place.command(&["ltg", "pipe.txt", "-o", "kept.vti"]).spawn().unwrap();
+    wait_until_watching(&child);
     child
 }
 
 #[test]
-fn the_second_interrupt_ends_at_once() {
+fn the_second_interrupt_ends_a_program_that_waits() {
     let place = Place::new();
     place.write("kept.vti", "an earlier result");
     let mut child = waiting(&place);
@@ -126,10 +117,8 @@ fn the_second_interrupt_ends_at_once() {
     // Either the first one was enough, or the second one is.
     if child.try_wait().unwrap().is_none() {
         interrupt(&child, "-INT");
-        let start = Instant::now();
         let (code, _) = ending(child);
         assert_eq!(code, Some(130));
-        assert!(start.elapsed() < Duration::from_secs(2));
     }
     place.same_files(&before);
 }

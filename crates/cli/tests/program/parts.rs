@@ -3,10 +3,9 @@
 use crate::support::Place;
 use std::path::Path;
 use std::process::{Child, Command};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use tigereye_test_support::eventually;
 
-/// How long a child may take to get somewhere.
-const PATIENCE: Duration = Duration::from_secs(30);
 /// A sweep that is over at once.
 const SHORT: [&str; 4] = ["ltg", "random:width=9,height=8", "--directions", "16"];
 /// A sweep that takes a second or two.
@@ -257,11 +256,8 @@ fn what_killed_runs_left_is_removed() {
 }
 
 fn wait_for(path: &Path, child: &mut Child) {
-    let start = Instant::now();
-    while !path.exists() {
-        assert!(start.elapsed() < PATIENCE && child.try_wait().unwrap().is_none(), "no {}", path.display());
-        std::thread::sleep(Duration::from_millis(1));
-    }
+    let there_or_over = eventually(|| path.exists() || child.try_wait().unwrap().is_some());
+    assert!(there_or_over && path.exists(), "no {}", path.display());
 }
 
 fn interrupt(child: &Child) {
@@ -344,7 +340,7 @@ fn a_full_disk_is_named_and_the_checkpoint_before_stays() {
     // Files may have 8 blocks of at most 1 KiB; the signal that tells so is ignored.
     let script =
         format!("trap '' XFSZ; ulimit -f 8; exec {} {}", env!("CARGO_BIN_EXE_tigereye"), args.join(" "));
-    let output = Command::new("sh").args(["-c", &script]).current_dir(place.folder()).output().unwrap();
+    let output = Command::new("sh").args(["-c", &script]).current_dir(place.root()).output().unwrap();
     let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{stderr}");
     assert!(stderr.contains("c/checkpoint.part: writing failed"), "{stderr}");
@@ -363,7 +359,7 @@ fn the_cluster_scripts_compute_shards_and_merge_them() {
         let output = Command::new("bash")
             .arg(scripts.join(script))
             .args(args)
-            .current_dir(place.folder())
+            .current_dir(place.root())
             .env("PATH", &path)
             .env("TIGEREYE_PARTS", "parts")
             .env("TIGEREYE_MEMORY", "1G")

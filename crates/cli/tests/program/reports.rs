@@ -5,20 +5,10 @@ use crate::support::Place;
 use std::path::PathBuf;
 use tigereye_core::{Field, Svd, Tensor2};
 use tigereye_io::npy;
+use tigereye_test_support::data_folder;
 
 /// Relative error of numbers that files hold in single precision or with six digits.
 const DIGITS: f64 = 1e-5;
-
-fn folder() -> Option<PathBuf> {
-    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let data = std::env::var_os("TIGEREYE_DATA").map_or_else(beside, PathBuf::from);
-    let reports = data.join("reports");
-    if reports.is_dir() {
-        return Some(reports);
-    }
-    println!("skipped: no folder {} (set TIGEREYE_DATA)", reports.display());
-    None
-}
 
 /// What a command reads of a report, and what it says beside.
 struct Reports {
@@ -28,7 +18,7 @@ struct Reports {
 
 impl Reports {
     fn open() -> Option<Self> {
-        folder().map(|folder| Self { folder, place: Place::new() })
+        data_folder("reports").map(|folder| Self { folder, place: Place::new() })
     }
 
     fn path(&self, name: &str) -> String {

@@ -1,70 +1,26 @@
 //! Runs the built program in folders of its own and looks at everything it leaves.
 
 use serde_json::Value;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-use std::time::{Duration, Instant};
-use tempfile::TempDir;
+use std::ops::Deref;
+use std::process::{Command, Stdio};
 use tigereye_io::{ImageData, vti};
+use tigereye_test_support::Folder;
+pub(crate) use tigereye_test_support::Run;
 
-/// No command of these tests takes longer.
-const DEADLINE: Duration = Duration::from_secs(60);
+/// A folder for the program to work in, emptied at the end.
+pub(crate) struct Place(Folder);
 
-/// What a run of the program left.
-#[derive(Debug)]
-pub(crate) struct Run {
-    /// Exit code; -1 for a program killed by a signal.
-    pub(crate) code: i32,
-    pub(crate) stdout: String,
-    pub(crate) stderr: String,
-}
+impl Deref for Place {
+    type Target = Folder;
 
-impl Run {
-    pub(crate) fn of(output: Output) -> Self {
-        Self {
-            code: output.status.code().unwrap_or(-1),
-            stdout: String::from_utf8(output.stdout).unwrap(),
-            stderr: String::from_utf8(output.stderr).unwrap(),
-        }
-    }
-
-    /// Standard output, which must be one JSON value and nothing else.
-    #[track_caller]
-    pub(crate) fn json(&self) -> Value {
-        serde_json::from_str(&self.stdout)
-            .unwrap_or_else(|e| panic!("standard output is no JSON: {e}\n{}", self.stdout))
+    fn deref(&self) -> &Folder {
+        &self.0
     }
 }
-
-/// A folder to work in, emptied at the end.
-pub(crate) struct Place(TempDir);
 
 impl Place {
     pub(crate) fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    pub(crate) fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    pub(crate) fn folder(&self) -> &Path {
-        self.0.path()
-    }
-
-    pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
-        let path = self.path(name);
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(path, bytes).unwrap();
-    }
-
-    pub(crate) fn read(&self, name: &str) -> Vec<u8> {
-        std::fs::read(self.path(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
-    }
-
-    pub(crate) fn json(&self, name: &str) -> Value {
-        serde_json::from_slice(&self.read(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+        Self(Folder::new())
     }
 
     pub(crate) fn image(&self, name: &str) -> ImageData {
@@ -74,17 +30,14 @@ impl Place {
     /// The program, ready to start in this folder.
     pub(crate) fn command(&self, args: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_tigereye"));
-        command.args(args).current_dir(self.folder());
+        command.args(args).current_dir(self.root());
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         command
     }
 
     #[track_caller]
     pub(crate) fn tigereye(&self, args: &[&str]) -> Run {
-        let start = Instant::now();
-        let run = Run::of(self.command(args).output().unwrap());
-        assert!(start.elapsed() < DEADLINE, "{args:?} took {:?}", start.elapsed());
-        run
+        Run::of(self.command(args).output().unwrap())
     }
 
     /// Runs a command that must end with 0 and say nothing on standard error.
@@ -121,35 +74,6 @@ impl Place {
         let missing: Vec<_> = words.iter().filter(|w| !run.stderr.contains(*w)).collect();
         assert!(missing.is_empty(), "{args:?} says\n{}but not {missing:?}", run.stderr);
         self.same_files(&before);
-    }
-
-    /// Every file below the folder, hidden and temporary ones too, by name.
-    pub(crate) fn files(&self) -> BTreeMap<PathBuf, Vec<u8>> {
-        let mut found = BTreeMap::new();
-        let mut folders = vec![self.folder().to_path_buf()];
-        while let Some(folder) = folders.pop() {
-            for entry in std::fs::read_dir(folder).unwrap() {
-                let path = entry.unwrap().path();
-                let kind = path.symlink_metadata().unwrap().file_type();
-                if kind.is_dir() {
-                    folders.push(path);
-                } else {
-                    let bytes =
-                        if kind.is_file() { std::fs::read(&path).unwrap_or_default() } else { Vec::new() };
-                    found.insert(path, bytes);
-                }
-            }
-        }
-        found
-    }
-
-    #[track_caller]
-    pub(crate) fn same_files(&self, before: &BTreeMap<PathBuf, Vec<u8>>) {
-        let after = self.files();
-        let names = |files: &BTreeMap<PathBuf, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
-        assert_eq!(names(&after), names(before), "files left behind or lost");
-        let changed: Vec<_> = after.iter().filter(|(k, v)| before[*k] != **v).map(|(k, _)| k).collect();
-        assert!(changed.is_empty(), "changed: {changed:?}");
     }
 }
 

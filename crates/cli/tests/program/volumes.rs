@@ -2,10 +2,10 @@
 
 use crate::support::{Place, has_keys, unit_text};
 use serde_json::Value;
-use std::path::PathBuf;
 use tigereye_core::{Cell, Tensor2};
 use tigereye_io::volume::{PlaneChoice, Reading, lattice_from_image};
 use tigereye_io::{Wanted, matrices, npy};
+use tigereye_test_support::{data_folder, reference_folder};
 
 /// 3 x 2 x 2 voxels of diagonal tensors: xx counts voxels from 1, yy = 20, zz = 30; xz = 0.5.
 fn nrrd() -> String {
@@ -13,17 +13,6 @@ fn nrrd() -> String {
                 space: left-posterior-superior\nspace directions: none (2,0,0) (0,3,0) (0,0,4)\nencoding: ascii\n\n";
     let tuples: String = (1..=12).map(|v| format!("{v} 0 0.5 20 0 30\n")).collect();
     head.to_owned() + &tuples
-}
-
-/// Example files of other tools, where they are.
-fn data() -> Option<PathBuf> {
-    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = std::env::var_os("TIGEREYE_DATA").map_or_else(beside, PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no folder {} (set TIGEREYE_DATA)", folder.display());
-    None
 }
 
 #[test]
@@ -144,7 +133,7 @@ fn info_describes_whole_volumes() {
 /// Every example file is read, and converted where it holds tensors.
 #[test]
 fn example_files_work_with_every_command() {
-    let Some(data) = data() else { return };
+    let Some(data) = data_folder(".") else { return };
     let place = Place::new();
     let expected: Value =
         serde_json::from_slice(&std::fs::read(data.join("expected.json")).unwrap()).unwrap();
@@ -193,7 +182,7 @@ fn example_files_work_with_every_command() {
 
 #[test]
 fn wrong_orders_are_warned_of() {
-    let Some(data) = data() else { return };
+    let Some(data) = data_folder(".") else { return };
     let place = Place::new();
     let input = data.join("small_64D_tensor_fsl.nii.gz").display().to_string();
     let facts = place.succeeds(&["info", &input, "--json"]).json();
@@ -340,12 +329,7 @@ fn invariants_are_arrays_beside_the_tensors() {
 /// Measured slices go through every command; gradient volumes of others are described.
 #[test]
 fn reference_files_work_with_every_command() {
-    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/reference");
-    let folder = std::env::var_os("TIGEREYE_REFERENCE").map_or_else(beside, PathBuf::from);
-    if !folder.is_dir() {
-        println!("skipped: no folder {} (set TIGEREYE_REFERENCE)", folder.display());
-        return;
-    }
+    let Some(folder) = reference_folder(".") else { return };
     let place = Place::new();
     let manifest: Value =
         serde_json::from_slice(&std::fs::read(folder.join("manifest.json")).unwrap()).unwrap();

@@ -2,9 +2,8 @@
 
 use super::numbers::{Fraction, NonNegative};
 use serde::Deserialize;
-use tigereye_core::{Below, Field, Normalization, Tensor2};
-use tigereye_lines::{Axes, Family, Major, OrderedAxes, usual_axes};
-use tigereye_transport::{SharedWeights, Stopping, StoppingRule};
+use tigereye_core::{Below, Normalization};
+use tigereye_transport::{Stopping, StoppingRule};
 
 /// When something runs.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
@@ -29,16 +28,6 @@ pub enum NormalizationRule {
     LocalAbove(Fraction),
     /// Locally from this fraction of the largest mean, globally below.
     LocalAboveGlobal(Fraction),
-}
-
-/// Cone weights of the overlap of face and diagonal cones.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
-pub enum Weights {
-    /// The printed constants.
-    #[default]
-    Thesis,
-    /// The values their formula gives for beta = atan(1/2).
-    Geometric,
 }
 
 /// When a propagation ends.
@@ -88,40 +77,6 @@ pub enum OmegaStep {
     /// This many samples.
     Samples(usize),
 }
-/// The axes that lines follow.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
-pub enum AxesChoice {
-    /// Eigenvectors where the field is symmetric, semi-axes otherwise.
-    #[default]
-    Usual,
-    /// Semi-axes of the ellipse: what light sees.
-    Half,
-    /// Eigenvectors; pseudo-eigenvectors where eigenvalues are complex.
-    Eigen,
-    /// Dual eigenvectors.
-    Dual,
-}
-
-/// By what the major axis is the larger one; by default eigenvectors by value and semi-axes by magnitude. Dual
-/// eigenvectors have but one order, the longer first.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-pub enum MajorChoice {
-    /// By the value with its sign: tension before compression.
-    Value,
-    /// By the size of the value: the longer one.
-    Magnitude,
-}
-
-/// Which of the two axes.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
-pub enum FamilyChoice {
-    /// The larger one, in the sense of [`MajorChoice`].
-    #[default]
-    Major,
-    /// The other one.
-    Minor,
-}
-
 impl NormalizationRule {
     /// What it means for transmission profiles.
     #[must_use]
@@ -133,15 +88,6 @@ impl NormalizationRule {
             Self::LocalAboveGlobal(f) => {
                 Normalization::LocalAbove { fraction: f.get(), below: Below::Global }
             }
-        }
-    }
-}
-
-impl Weights {
-    pub(crate) const fn shared(self) -> SharedWeights {
-        match self {
-            Self::Thesis => SharedWeights::Thesis,
-            Self::Geometric => SharedWeights::Geometric,
         }
     }
 }
@@ -158,32 +104,6 @@ impl Stop {
             },
             Self::Stationary => Stopping::STATIONARY,
             Self::Steps(n) => Stopping::steps(n),
-        }
-    }
-}
-
-impl AxesChoice {
-    /// The axes for a field, in the order chosen or their usual one.
-    pub(crate) fn ordered(self, major: Option<MajorChoice>, field: &Field<Tensor2>) -> OrderedAxes {
-        let axes = match self {
-            Self::Usual => usual_axes(field),
-            Self::Half => Axes::HalfAxes,
-            Self::Eigen => Axes::Eigenvectors,
-            Self::Dual => Axes::DualEigenvectors,
-        };
-        match major {
-            None => axes.into(),
-            Some(MajorChoice::Value) => axes.by(Major::Value),
-            Some(MajorChoice::Magnitude) => axes.by(Major::Magnitude),
-        }
-    }
-}
-
-impl FamilyChoice {
-    pub(crate) const fn family(self) -> Family {
-        match self {
-            Self::Major => Family::Major,
-            Self::Minor => Family::Minor,
         }
     }
 }

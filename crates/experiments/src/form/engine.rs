@@ -1,5 +1,6 @@
 //! Engines by the names in the table of the transport crate.
 
+use super::words::Word;
 use serde::Deserialize;
 use serde::de::{Deserializer, EnumAccess, Error, VariantAccess, Visitor};
 use std::fmt;
@@ -58,27 +59,6 @@ impl<'de> Visitor<'de> for Choice {
             let known: Vec<String> = ENGINES.iter().map(|engine| format!("`{}`", engine.id())).collect();
             A::Error::custom(format!("unknown engine `{id}`: expected {}", known.join(" or ")))
         })
-    }
-}
-
-/// A word without quotes.
-struct Word(String);
-
-impl<'de> Deserialize<'de> for Word {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Letters;
-        impl Visitor<'_> for Letters {
-            type Value = Word;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a word")
-            }
-
-            fn visit_str<E: Error>(self, word: &str) -> Result<Word, E> {
-                Ok(Word(word.to_owned()))
-            }
-        }
-        deserializer.deserialize_identifier(Letters)
     }
 }
 

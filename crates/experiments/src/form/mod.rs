@@ -5,6 +5,7 @@
 //! quantities have a file each.
 
 mod choices;
+mod chosen;
 mod engine;
 mod field_source;
 mod light_source;
@@ -14,9 +15,8 @@ mod placed;
 mod scene_file;
 mod words;
 
-pub use choices::{
-    AxesChoice, FamilyChoice, MajorChoice, NormalizationRule, OmegaStep, Scope, Stop, Weights,
-};
+pub use choices::{NormalizationRule, OmegaStep, Scope, Stop};
+pub use chosen::{AxesChoice, Chosen};
 pub use engine::EngineChoice;
 pub use field_source::{DeriveRule, FieldFile, FieldSource, Parameter};
 pub use light_source::{EmissionKind, LightSource, ProfileShape};

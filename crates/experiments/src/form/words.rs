@@ -1,6 +1,10 @@
 //! The parser, and its faults in words.
 
 use ron::extensions::Extensions;
+use serde::Deserialize;
+use serde::de::{Deserializer, Error, Visitor};
+use std::borrow::Borrow;
+use std::fmt;
 use tigereye_report::shortened;
 
 /// The parser of all files: values need no `Some`, and a kind is written as `Kind(key: value)`.
@@ -10,14 +14,22 @@ pub(crate) fn options() -> ron::Options {
         .with_default_extension(Extensions::UNWRAP_VARIANT_NEWTYPES)
 }
 
+/// What is said of a name that is none of the `expected` ones.
+pub(crate) fn no_such_name(found: &str, expected: &[impl Borrow<str>]) -> String {
+    format!("there is no `{found}` here: expected {}", one_of(expected))
+}
+
+fn one_of(names: &[impl Borrow<str>]) -> String {
+    match names {
+        [] => "none".to_owned(),
+        [name] => format!("`{}`", name.borrow()),
+        names => format!("one of `{}`", names.join("`, `")),
+    }
+}
+
 /// What the parser says of `text`, without the names of types that do not stand there.
 pub(crate) fn words_of_fault(error: &ron::Error, text: &str) -> String {
     use ron::Error as E;
-    let one_of = |names: &[&str]| match names {
-        [] => "none".to_owned(),
-        [name] => format!("`{name}`"),
-        names => format!("one of `{}`", names.join("`, `")),
-    };
     let within = |outer: &Option<String>| match outer {
         Some(name) if text.contains(name.as_str()) => format!(" in `{name}`"),
         _ => String::new(),
@@ -38,9 +50,7 @@ pub(crate) fn words_of_fault(error: &ron::Error, text: &str) -> String {
         E::Eof => "the file ends within a value".to_owned(),
         E::ExceededRecursionLimit => "values are nested too deeply".to_owned(),
         E::TrailingCharacters => "expected the end of the file".to_owned(),
-        E::NoSuchEnumVariant { expected, found, .. } => {
-            format!("there is no `{found}` here: expected {}", one_of(expected))
-        }
+        E::NoSuchEnumVariant { expected, found, .. } => no_such_name(found, expected),
         E::NoSuchStructField { expected, found, outer } => {
             format!("there is no key `{found}`{}: expected {}", within(outer), one_of(expected))
         }
@@ -51,4 +61,25 @@ pub(crate) fn words_of_fault(error: &ron::Error, text: &str) -> String {
         other => other.to_string(),
     };
     shortened(&words)
+}
+
+/// A word without quotes.
+pub(crate) struct Word(pub(crate) String);
+
+impl<'de> Deserialize<'de> for Word {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Letters;
+        impl Visitor<'_> for Letters {
+            type Value = Word;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a word")
+            }
+
+            fn visit_str<E: Error>(self, word: &str) -> Result<Word, E> {
+                Ok(Word(word.to_owned()))
+            }
+        }
+        deserializer.deserialize_identifier(Letters)
+    }
 }

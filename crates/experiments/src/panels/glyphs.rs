@@ -1,11 +1,11 @@
 //! The tensors as ellipses.
 
-use crate::form::Placed;
+use crate::form::{Chosen, Placed};
 use crate::names::Names;
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_core::{Field, Tensor2};
-use tigereye_render::{GlyphOptions, GlyphScale, glyphs};
+use tigereye_render::{GlyphColour, GlyphOptions, GlyphScale, glyphs};
 
 /// The tensors as ellipses.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -14,29 +14,21 @@ pub struct Glyphs {
     /// Name of the field.
     field: Placed<String>,
     /// What the colours mean.
-    #[serde(default)]
-    colour: GlyphColour,
+    #[serde(default = "anisotropy")]
+    colour: Chosen<GlyphColour>,
     /// Heading of the panel.
     title: String,
 }
 
-/// What the colours of glyphs mean.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
-pub enum GlyphColour {
-    /// Linear anisotropy `(s1 - s2) / (s1 + s2)`.
-    #[default]
-    Anisotropy,
-    /// Tension and compression: for stresses. (The sign of a generator's rotated diagonal tensor means nothing.)
-    Sign,
+/// Signs mean something in stresses, but nothing in the rotated diagonal tensors of generators.
+const fn anisotropy() -> Chosen<GlyphColour> {
+    Chosen(GlyphColour::Anisotropy)
 }
 
 impl PanelKind for Glyphs {
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let field = names.field(&self.field)?;
-        let colour = match self.colour {
-            GlyphColour::Anisotropy => tigereye_render::GlyphColour::Anisotropy,
-            GlyphColour::Sign => tigereye_render::GlyphColour::AxisSign,
-        };
+        let Chosen(colour) = self.colour;
         Some(PlannedPanel::new(&self.title, move |drawing| {
             let named = drawing.results.field(field);
             let (field, cell) = (&named.field, named.cell);

@@ -1,10 +1,10 @@
 //! Lines along an axis, evenly spaced, with the degenerate points.
 
-use crate::form::{AxesChoice, FamilyChoice, MajorChoice, Placed};
+use crate::form::{AxesChoice, Chosen, Placed};
 use crate::names::Names;
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
-use tigereye_lines::{Family, Following, LineOptions};
+use tigereye_lines::{Family, Following, LineOptions, Major};
 use tigereye_views::lines::{LinesRequest, Seeds, lines};
 use tigereye_views::point_overlays;
 use tigereye_views::topology::topology;
@@ -23,10 +23,10 @@ pub struct Lines {
     axes: AxesChoice,
     /// By what the major one is larger.
     #[serde(default)]
-    major: Option<MajorChoice>,
+    major: Option<Chosen<Major>>,
     /// Which of the two; both when left out.
     #[serde(default)]
-    family: Option<FamilyChoice>,
+    family: Option<Chosen<Family>>,
     /// Heading of the panel.
     title: String,
 }
@@ -36,7 +36,7 @@ impl PanelKind for Lines {
         let field = names.field(&self.field)?;
         let named = names.named_field(field);
         let following = Following { axes: self.axes.ordered(self.major, &named.field), cell: named.cell };
-        let families = self.family.map_or(vec![Family::Major, Family::Minor], |f| vec![f.family()]);
+        let families = self.family.map_or(vec![Family::Major, Family::Minor], |f| vec![f.0]);
         Some(PlannedPanel::new(&self.title, move |drawing| {
             let field = &drawing.results.field(field).field;
             let longest = following.longer_side(field.grid());

@@ -1,10 +1,10 @@
 //! Noise smeared along an axis.
 
-use crate::form::{AxesChoice, FamilyChoice, MajorChoice, Placed};
+use crate::form::{AxesChoice, Chosen, Placed};
 use crate::names::Names;
 use crate::panels::kind::{PANEL_PX, PanelKind, PlannedPanel};
 use serde::Deserialize;
-use tigereye_lines::{ConvolutionOptions, Following};
+use tigereye_lines::{ConvolutionOptions, Family, Following, Major};
 use tigereye_views::lic::{self, TextureRequest};
 
 /// Noise smeared along an axis (line integral convolution).
@@ -18,10 +18,10 @@ pub struct Texture {
     axes: AxesChoice,
     /// By what the major one is larger.
     #[serde(default)]
-    major: Option<MajorChoice>,
+    major: Option<Chosen<Major>>,
     /// Which of the two.
     #[serde(default)]
-    family: FamilyChoice,
+    family: Chosen<Family>,
     /// Smeared along both axes, as far as each is long (HyperLIC).
     #[serde(default)]
     hyper: bool,
@@ -34,7 +34,7 @@ impl PanelKind for Texture {
         let field = names.field(&self.field)?;
         let named = names.named_field(field);
         let following = Following { axes: self.axes.ordered(self.major, &named.field), cell: named.cell };
-        let (family, hyper) = (self.family.family(), self.hyper);
+        let (family, hyper) = (self.family.0, self.hyper);
         Some(PlannedPanel::new(&self.title, move |drawing| {
             let field = &drawing.results.field(field).field;
             let longest = following.longer_side(field.grid()).ceil() as usize;

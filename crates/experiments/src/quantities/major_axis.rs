@@ -7,7 +7,7 @@ use crate::quantities::kind::{Measure, QuantityKind, measure};
 use serde::Deserialize;
 use tigereye_core::{Cell, Svd, Tensor2, math};
 use tigereye_fields::{ExpressionField, variables};
-use tigereye_lines::Family;
+use tigereye_lines::{Axes, Family};
 
 /// Semi-axes that differ by less count as equal: their direction is arbitrary.
 const ISOTROPIC_BELOW: f64 = 0.01;
@@ -55,7 +55,7 @@ pub struct MajorAxisError {
 
 /// What light sees.
 const fn semi_axes() -> AxesChoice {
-    AxesChoice::Half
+    AxesChoice::always(Axes::HalfAxes)
 }
 
 impl QuantityKind for MajorAxisError {

@@ -1,6 +1,6 @@
 //! The finite-time Lyapunov exponent of a field's lines.
 
-use crate::form::{AxesChoice, FamilyChoice, MajorChoice, Placed, Positive, Scope};
+use crate::form::{AxesChoice, Chosen, Placed, Positive, Scope};
 use crate::host::Host;
 use crate::ids::{FieldId, MediumId};
 use crate::media::Media;
@@ -13,7 +13,7 @@ use tigereye_core::{Cell, Field, Grid};
 use tigereye_input::provenance::{hash_of_field, provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{IoError, Rows, vti};
-use tigereye_lines::{Family, Following, FtleOptions};
+use tigereye_lines::{Family, Following, FtleOptions, Major};
 use tigereye_report::DataFile;
 use tigereye_views::{Placement, ftle, image};
 
@@ -31,10 +31,10 @@ pub struct Ftle {
     axes: AxesChoice,
     /// By what the major one is larger.
     #[serde(default)]
-    major: Option<MajorChoice>,
+    major: Option<Chosen<Major>>,
     /// Which of the two.
     #[serde(default)]
-    family: FamilyChoice,
+    family: Chosen<Family>,
     /// Length of the lines to each side, in the unit of the smaller side of a cell.
     length: Positive,
     /// Samples a cell along each side.
@@ -75,7 +75,7 @@ impl Ftle {
         }
         let named = run.media.field(field);
         let following = Following { axes: self.axes.ordered(self.major, &named.field), cell: named.cell };
-        Some(Plan { field, following, family: self.family.family(), length: self.length.get(), samples })
+        Some(Plan { field, following, family: self.family.0, length: self.length.get(), samples })
     }
 }
 

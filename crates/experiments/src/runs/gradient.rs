@@ -1,6 +1,6 @@
 //! The light transport gradient of a field.
 
-use crate::form::{DirectionCount, Finite, NormalizationRule, OmegaStep, Placed, Scope, Stop, Weights};
+use crate::form::{Chosen, DirectionCount, Finite, NormalizationRule, OmegaStep, Placed, Scope, Stop};
 use crate::host::Host;
 use crate::ids::MediumId;
 use crate::lights::sample_of;
@@ -20,7 +20,7 @@ use tigereye_ltg::{
     omega_step_of_volumes, sweep,
 };
 use tigereye_report::DataFile;
-use tigereye_transport::{Scattering, Scheme, StoppingRule};
+use tigereye_transport::{Scattering, Scheme, SharedWeights, StoppingRule};
 use tigereye_views::gradient::where_result;
 
 /// The light transport gradient of a field.
@@ -37,7 +37,7 @@ pub struct Gradient {
     normalization: NormalizationRule,
     /// Cone weights of the overlap.
     #[serde(default)]
-    weights: Weights,
+    weights: Chosen<SharedWeights>,
     /// When each propagation ends.
     #[serde(default)]
     stop: Stop,

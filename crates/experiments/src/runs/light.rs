@@ -1,7 +1,7 @@
 //! Light from some cells.
 
 use crate::form::{
-    DirectionCount, EngineChoice, LightSource, NormalizationRule, Placed, Scope, Stop, Weights,
+    Chosen, DirectionCount, EngineChoice, LightSource, NormalizationRule, Placed, Scope, Stop,
 };
 use crate::host::Host;
 use crate::ids::MediumId;
@@ -20,7 +20,7 @@ use tigereye_core::{Cell, Field, LightDistribution, StopReason, Surface, Transmi
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{IoError, image_from_light, vti};
 use tigereye_report::DataFile;
-use tigereye_transport::{Problem, Scheme, StepView, StoppingRule, TransportError};
+use tigereye_transport::{Problem, Scheme, SharedWeights, StepView, StoppingRule, TransportError};
 use tigereye_views::Reel;
 
 /// Light from some cells.
@@ -37,7 +37,7 @@ pub struct Light {
     normalization: NormalizationRule,
     /// Cone weights of the overlap.
     #[serde(default)]
-    weights: Weights,
+    weights: Chosen<SharedWeights>,
     /// The lights; a scene's own where there are none.
     #[serde(default)]
     lights: Vec<LightSource>,

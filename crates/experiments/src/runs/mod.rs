@@ -15,7 +15,6 @@ mod setup;
 pub(crate) use digest::{FtleDigest, GradientDigest, LightDigest, PulsesDigest, rounded};
 pub use error::RunError;
 pub(crate) use setup::RunResolver;
-pub use setup::normalization_name;
 
 use crate::form::Scope;
 use crate::host::Host;

@@ -1,6 +1,6 @@
 //! How pulses come to rest: the stopping rule's state, plain steps and the solver, compared.
 
-use crate::form::{DirectionCount, Finite, NormalizationRule, Placed, Scope, Stop, Weights};
+use crate::form::{Chosen, DirectionCount, Finite, NormalizationRule, Placed, Scope, Stop};
 use crate::host::Host;
 use crate::ids::MediumId;
 use crate::lights::sample_of;
@@ -16,8 +16,8 @@ use tigereye_core::{Cell, Field, StopReason, TransmissionField};
 use tigereye_io::IoError;
 use tigereye_report::DataFile;
 use tigereye_transport::{
-    EightLobe, Engine, Level, Light, Problem, PulseDistribution, PulseSolver, Scattering, Scheme, Stopping,
-    StoppingRule, TransportError,
+    EightLobe, Engine, Level, Light, Problem, PulseDistribution, PulseSolver, Scattering, Scheme,
+    SharedWeights, Stopping, StoppingRule, TransportError,
 };
 
 /// A number of a pulse. What it compares are the fluxes between cells; the injected sample itself does not count. Not a
@@ -106,7 +106,7 @@ pub struct Pulses {
     normalization: NormalizationRule,
     /// Cone weights of the overlap.
     #[serde(default)]
-    weights: Weights,
+    weights: Chosen<SharedWeights>,
     /// The rule that is compared with the stationary state.
     #[serde(default)]
     stop: Stop,
@@ -340,14 +340,9 @@ mod tests {
     use crate::ids::FieldId;
     use crate::media::NamedField;
     use tigereye_core::{CellShape, Directions, Grid, Normalization, Svd, Tensor2};
-    use tigereye_transport::SharedWeights;
 
-    struct Nothing;
-
-    impl Host for Nothing {
-        fn read(&self, path: &str) -> Result<Vec<u8>, String> {
-            Err(path.to_owned())
-        }
+    fn no_file(path: &str) -> Result<Vec<u8>, String> {
+        Err(path.to_owned())
     }
 
     fn records(field: &Field<Tensor2>, pulses: &[(Cell, usize)]) -> Vec<PulseRecord> {
@@ -360,7 +355,7 @@ mod tests {
         };
         let named = NamedField { name: String::new(), field: field.clone(), cell: CellShape::SQUARE };
         let media = Media { fields: vec![named], scenes: Vec::new() };
-        Plan { setup, pulses: pulses.to_vec() }.run("run", &media, 0, &Nothing).expect("pulses").records
+        Plan { setup, pulses: pulses.to_vec() }.run("run", &media, 0, &no_file).expect("pulses").records
     }
 
     #[test]

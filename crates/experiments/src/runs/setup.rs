@@ -1,17 +1,17 @@
 //! What runs of light share, and how they are resolved.
 
 use crate::fault::Faults;
-use crate::form::{DirectionCount, NormalizationRule, Placed, Stop, Weights};
+use crate::form::{Chosen, DirectionCount, NormalizationRule, Placed, Stop};
 use crate::ids::{FieldId, MediumId};
 use crate::media::Media;
 use crate::medium::Medium;
 use crate::runs::error::RunError;
 use serde_json::{Value, json};
-use tigereye_core::{Directions, Normalization, TransmissionField};
+use tigereye_core::{Choice, Directions, Normalization, TransmissionField};
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::Rows;
 use tigereye_io::volume::PlaneGeometry;
-use tigereye_transport::{SharedWeights, Stopping, StoppingRule};
+use tigereye_transport::{SharedWeights, Stopping};
 
 /// What runs of light, gradients and pulses share.
 #[derive(Clone, Debug)]
@@ -37,45 +37,24 @@ impl Setup {
 
     /// How a result came about: the parameters that all have and those of its kind.
     pub(crate) fn story(&self, command: &str, media: &Media, own: Value) -> String {
-        let stop = match self.stopping.rule {
-            StoppingRule::FluxChange { .. } => "flux",
-            StoppingRule::DistributionChange { .. } => "distribution",
-            StoppingRule::Converged { .. } => "stationary",
-            StoppingRule::Steps(_) => "steps",
-        };
         let normalization = match self.medium {
             MediumId::Scene(_) => "scene".to_owned(),
-            MediumId::Field(_) => normalization_name(self.normalization),
+            MediumId::Field(_) => self.normalization.to_string(),
         };
         let mut parameters = json!({
             "field": media.name(self.medium),
             "directions": self.directions.count(),
             "normalization": normalization,
-            "stop": stop,
+            "stop": self.stopping.rule.name(),
             "threshold": self.stopping.rule.threshold(),
             "max_iterations": self.stopping.max_iterations,
-            "weights": format!("{:?}", self.weights),
+            "weights": self.weights.file_name(),
         });
         if let (Some(all), Value::Object(own)) = (parameters.as_object_mut(), own) {
             all.extend(own);
         }
         let parameters = with_rows(parameters, Rows::of_results(&PlaneGeometry::UNPLACED));
         provenance(command, &parameters, &media.medium(self.medium).blake3())
-    }
-}
-
-/// The name of a normalisation as options spell it.
-#[must_use]
-pub fn normalization_name(normalization: Normalization) -> String {
-    match normalization {
-        Normalization::Global => "global".to_owned(),
-        Normalization::Local => "local".to_owned(),
-        Normalization::LocalAbove { fraction, below: tigereye_core::Below::Absorb } => {
-            format!("local-above:{fraction}")
-        }
-        Normalization::LocalAbove { fraction, below: tigereye_core::Below::Global } => {
-            format!("local-above-global:{fraction}")
-        }
     }
 }
 
@@ -113,7 +92,7 @@ impl RunResolver<'_, '_> {
         field: &Placed<String>,
         directions: DirectionCount,
         normalization: NormalizationRule,
-        weights: Weights,
+        weights: Chosen<SharedWeights>,
         stop: Stop,
     ) -> Option<Setup> {
         let medium = self.medium(field)?;
@@ -125,7 +104,7 @@ impl RunResolver<'_, '_> {
             medium,
             directions: directions.0,
             normalization: normalization.normalization(),
-            weights: weights.shared(),
+            weights: weights.0,
             stopping: stop.stopping(),
         })
     }

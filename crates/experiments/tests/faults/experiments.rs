@@ -94,19 +94,15 @@ const GOOD: &str = r#"// Claim: this file is in order.
 "#;
 
 /// A world without files.
-struct Nothing;
-
-impl Host for Nothing {
-    fn read(&self, path: &str) -> Result<Vec<u8>, String> {
-        Err(format!("no file {path}"))
-    }
+fn nothing(path: &str) -> Result<Vec<u8>, String> {
+    Err(format!("no file {path}"))
 }
 
 /// All faults of a text.
 fn faults(text: &str, full: bool) -> Vec<SpecError> {
     match load(FILE, text) {
         Err(e) => vec![e],
-        Ok(experiment) => plan(FILE, text, &experiment, full, &Nothing).err().unwrap_or_default(),
+        Ok(experiment) => plan(FILE, text, &experiment, full, &nothing).err().unwrap_or_default(),
     }
 }
 
@@ -414,7 +410,7 @@ fn rows_of_another_scope_are_left_out_but_missing_times_are_told() {
         .replace("slices_deg: [0, 45],", "slices_deg: [0, 45], scope: Full,");
     let tables = |full| {
         let experiment = load(FILE, &text).unwrap();
-        let plan = plan(FILE, &text, &experiment, full, &Nothing).ok().unwrap();
+        let plan = plan(FILE, &text, &experiment, full, &nothing).ok().unwrap();
         plan.tables().map(str::to_owned).collect::<Vec<_>>()
     };
     assert_eq!(
@@ -654,12 +650,9 @@ fn experiment_files() -> Vec<PathBuf> {
 }
 
 /// The project's own data: beside the file, above it, and among what the program carries.
-struct Folder(PathBuf);
-
-impl Host for Folder {
-    fn read(&self, path: &str) -> Result<Vec<u8>, String> {
-        let candidates = self.0.ancestors().take(4).map(|f| f.join(path));
-        let found = candidates.into_iter().find_map(|p| std::fs::read(p).ok());
+fn around(folder: &Path) -> impl Host {
+    move |path: &str| {
+        let found = folder.ancestors().take(4).find_map(|above| std::fs::read(above.join(path)).ok());
         found.or_else(|| library::data(path).map(<[u8]>::to_vec)).ok_or_else(|| format!("no file {path}"))
     }
 }
@@ -676,7 +669,7 @@ fn every_experiment_has_a_header_a_check_and_a_figure() {
             problems.push(format!("{name}: no header comment"));
         }
         for full in [true, false] {
-            let host = Folder(path.parent().unwrap().to_path_buf());
+            let host = around(path.parent().unwrap());
             let experiment = load(&name, &text).map_err(|e| vec![e]);
             // The snapshots resolve those whose data are not part of the project, where these are there.
             if experiment.as_ref().is_ok_and(|e| e.needs.iter().any(|file| !host.has(file))) {

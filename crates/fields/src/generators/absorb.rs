@@ -8,7 +8,7 @@
 //! Not of determinant 1: meant for global normalisation. Source: the thesis's synthetic test fields.
 
 use crate::geometry::{Place, index_field};
-use crate::{Generator, Parameter, Settings};
+use crate::{Generator, Known, Mirror, Parameter, Settings};
 use tigereye_core::{Field, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -24,6 +24,10 @@ pub(crate) const GENERATOR: Generator = Generator {
     )],
     determinant_one: false,
     symmetric: true,
+    known: &[
+        Known::Symmetries("", &[Mirror::LeftRight, Mirror::UpDown]),
+        Known::Symmetries("size=12", &[Mirror::LeftRight, Mirror::UpDown]),
+    ],
     build,
 };
 

@@ -9,7 +9,7 @@
 
 use crate::geometry::{Place, glyph_along, index_field};
 use crate::parameter::ANISOTROPY;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Mirror, Settings};
 use tigereye_core::{Field, Tensor2, math};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -19,6 +19,7 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY],
     determinant_one: true,
     symmetric: false,
+    known: &[Known::Symmetries("", &[Mirror::UpDown])],
     build,
 };
 

@@ -10,7 +10,7 @@
 //! follows from the grid: L = 2 c (width-1) / (height-1). Source: Timoshenko and Goodier, "Theory of Elasticity",
 //! article 21.
 
-use crate::{Generator, Parameter, Settings};
+use crate::{Generator, Known, Parameter, Settings};
 use tigereye_core::{Field, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -23,6 +23,7 @@ pub(crate) const GENERATOR: Generator = Generator {
     ],
     determinant_one: false,
     symmetric: true,
+    known: &[Known::Tensor("size=5", [0, 2], Tensor2::symmetric(0.0, -0.75, 0.0))],
     build,
 };
 

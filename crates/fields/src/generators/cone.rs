@@ -9,7 +9,7 @@
 
 use crate::geometry::{Place, glyph, index_field};
 use crate::parameter::anisotropy;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Settings};
 use tigereye_core::{Field, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -19,6 +19,7 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[anisotropy(4)],
     determinant_one: true,
     symmetric: false,
+    known: &[Known::MajorAxis("size=7", [2, 2], 135.0), Known::Circles("size=7", 49 - 6)],
     build,
 };
 

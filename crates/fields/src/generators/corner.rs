@@ -9,7 +9,7 @@
 
 use crate::geometry::{Place, glyph_along, index_field};
 use crate::parameter::ANISOTROPY;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Settings};
 use tigereye_core::{Field, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -19,6 +19,10 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY],
     determinant_one: true,
     symmetric: false,
+    known: &[
+        Known::MajorAxis("size=13", [5, 5], 45.0),
+        Known::MajorAxis("size=13", [0, 1], 63.43494882292201),
+    ],
     build,
 };
 

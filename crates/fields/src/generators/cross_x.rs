@@ -11,7 +11,7 @@
 
 use crate::geometry::{Place, glyph, index_field};
 use crate::parameter::anisotropy;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Mirror, Settings};
 use tigereye_core::{Field, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -21,6 +21,12 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[anisotropy(4)],
     determinant_one: true,
     symmetric: false,
+    known: &[
+        Known::Symmetries("", &[Mirror::LeftRight, Mirror::UpDown, Mirror::QuarterTurn]),
+        Known::MajorAxis("size=13", [0, 0], 135.0),
+        Known::MajorAxis("size=13", [12, 0], 45.0),
+        Known::Circles("size=13", 169 - 24),
+    ],
     build,
 };
 

@@ -9,7 +9,7 @@
 
 use crate::geometry::{Place, glyph, index_field};
 use crate::parameter::ANISOTROPY;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Settings};
 use tigereye_core::{Field, Tensor2, math};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -19,6 +19,12 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY],
     determinant_one: true,
     symmetric: false,
+    known: &[
+        Known::MajorAxis("size=13", [12, 0], 45.0),
+        Known::MajorAxis("size=13", [0, 0], 0.0),
+        Known::MajorAxis("size=13", [12, 12], 90.0),
+        Known::MajorAxis("size=13", [0, 12], 45.0),
+    ],
     build,
 };
 

@@ -12,7 +12,7 @@
 //! Source: Shadden, Lekien and Marsden, "Definition and properties of Lagrangian coherent structures", Physica D 2005.
 
 use crate::geometry::{Place, index_field};
-use crate::{Generator, Parameter, Settings};
+use crate::{Generator, Known, Mirror, Parameter, Settings};
 use tigereye_core::math::{PI, TAU, cos, sin};
 use tigereye_core::{Field, Tensor2, runge_kutta_step};
 
@@ -31,6 +31,7 @@ pub(crate) const GENERATOR: Generator = Generator {
     ],
     determinant_one: false,
     symmetric: false,
+    known: &[Known::Symmetries("width=41,height=21,epsilon=0", &[Mirror::HalfTurn])],
     build,
 };
 

@@ -9,7 +9,7 @@
 
 use crate::geometry::{Place, glyph_along, index_field};
 use crate::parameter::ANISOTROPY;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Mirror, Settings};
 use tigereye_core::{Field, Tensor2, math::round_ties_even};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -19,6 +19,13 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY],
     determinant_one: true,
     symmetric: false,
+    known: &[
+        Known::Symmetries("", &[Mirror::LeftRight]),
+        // c = 6: the top row of drain is atan2(6, i - 6).
+        Known::MajorAxis("size=13", [0, 0], 135.0),
+        Known::MajorAxis("size=13", [12, 0], 45.0),
+        Known::MajorAxis("size=13", [6, 4], 90.0),
+    ],
     build,
 };
 

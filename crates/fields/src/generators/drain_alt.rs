@@ -10,7 +10,7 @@
 
 use crate::geometry::{Place, glyph, index_field};
 use crate::parameter::ANISOTROPY;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Mirror, Settings};
 use tigereye_core::{
     Field, Tensor2,
     math::{atan2, round_ties_even},
@@ -23,6 +23,12 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY],
     determinant_one: true,
     symmetric: false,
+    known: &[
+        Known::Symmetries("", &[Mirror::LeftRight]),
+        Known::MajorAxis("size=13", [12, 0], 0.0),
+        Known::MajorAxis("size=13", [0, 12], 90.0),
+        Known::Circles("size=13", 0),
+    ],
     build,
 };
 

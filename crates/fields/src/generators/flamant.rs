@@ -12,7 +12,7 @@
 //! Source: Flamant 1892; Timoshenko and Goodier, "Theory of Elasticity", article 36.
 
 use crate::geometry::Window;
-use crate::{Generator, Parameter, Settings};
+use crate::{Generator, Known, Mirror, Parameter, Settings};
 use tigereye_core::{Field, Tensor2, math};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -25,6 +25,7 @@ pub(crate) const GENERATOR: Generator = Generator {
     ],
     determinant_one: false,
     symmetric: true,
+    known: &[Known::Symmetries("", &[Mirror::LeftRight])],
     build,
 };
 

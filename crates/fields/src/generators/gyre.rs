@@ -11,7 +11,7 @@
 
 use crate::geometry::{Place, glyph, index_field};
 use crate::parameter::ANISOTROPY;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Mirror, Settings};
 use tigereye_core::{Field, Tensor2, math};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -21,6 +21,12 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY],
     determinant_one: true,
     symmetric: false,
+    known: &[
+        Known::Symmetries("size=53", &[Mirror::HalfTurn]),
+        Known::MajorAxis("size=13", [1, 1], 45.0),
+        Known::MajorAxis("size=13", [3, 1], 0.0),
+        Known::Circles("size=13", 13),
+    ],
     build,
 };
 

@@ -17,7 +17,7 @@
 //! Source: Kindlmann, "Superquadric tensor glyphs", VisSym 2004, and teem.
 
 use crate::geometry::{Plane, Window, plane_parameter};
-use crate::{Generator, Parameter, Settings};
+use crate::{Generator, Known, Parameter, Settings};
 use tigereye_core::{Field, Tensor2, math};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -45,6 +45,10 @@ pub(crate) const GENERATOR: Generator = Generator {
     ],
     determinant_one: false,
     symmetric: true,
+    known: &[
+        // The core passes upwards and to the back.
+        Known::Tensor("size=9,boundary=0", [6, 4], Tensor2::symmetric(0.001, 0.0, 0.005_632_001_326_598_5)),
+    ],
     build,
 };
 

@@ -9,7 +9,7 @@
 
 use crate::geometry::{Place, glyph_along, index_field};
 use crate::parameter::ANISOTROPY;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Mirror, Settings};
 use tigereye_core::{Field, Tensor2, math::round_ties_even};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -19,6 +19,16 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY],
     determinant_one: true,
     symmetric: false,
+    known: &[
+        Known::Symmetries("", &[Mirror::LeftRight, Mirror::UpDown]),
+        Known::Symmetries("size=12", &[Mirror::LeftRight, Mirror::UpDown]),
+        Known::Symmetries("width=21,height=9", &[Mirror::LeftRight, Mirror::UpDown]),
+        Known::MajorAxis("size=13", [12, 0], 135.0),
+        Known::MajorAxis("size=13", [6, 0], 90.0),
+        Known::Circles("size=13", 1),
+        Known::Circles("size=12", 4),
+        Known::Index("", -1.0),
+    ],
     build,
 };
 

@@ -2,7 +2,7 @@
 //!
 //! Formula: `phi = 0`, both axes 1. Source: the thesis's synthetic test fields.
 
-use crate::Generator;
+use crate::{Generator, Known, Mirror};
 use tigereye_core::{Field, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -12,5 +12,6 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[],
     determinant_one: true,
     symmetric: true,
+    known: &[Known::Symmetries("", &[Mirror::LeftRight, Mirror::UpDown, Mirror::QuarterTurn])],
     build: |s| Field::from_fn(s.grid(), |_| Tensor2::IDENTITY),
 };

@@ -9,7 +9,7 @@
 //! is 3 s. Source: Kirsch 1898; Timoshenko and Goodier, "Theory of Elasticity", article 35.
 
 use crate::geometry::Window;
-use crate::{Generator, Parameter, Settings};
+use crate::{Generator, Known, Mirror, Parameter, Settings};
 use tigereye_core::{Field, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -23,6 +23,7 @@ pub(crate) const GENERATOR: Generator = Generator {
     ],
     determinant_one: false,
     symmetric: true,
+    known: &[Known::Symmetries("", &[Mirror::LeftRight, Mirror::UpDown])],
     build,
 };
 

@@ -14,7 +14,7 @@
 //! Source: Boussinesq 1885; Saada, "Elasticity: Theory and Applications", chapter 14.
 
 use crate::geometry::{Plane, Window, plane_parameter};
-use crate::{Generator, Parameter, Settings};
+use crate::{Generator, Known, Mirror, Parameter, Settings};
 use tigereye_core::{Field, Tensor2, math};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -30,6 +30,10 @@ pub(crate) const GENERATOR: Generator = Generator {
     ],
     determinant_one: false,
     symmetric: true,
+    known: &[
+        Known::Symmetries("", &[Mirror::LeftRight]),
+        Known::Symmetries("plane=xy,offset=3", &[Mirror::LeftRight, Mirror::UpDown, Mirror::QuarterTurn]),
+    ],
     build,
 };
 

@@ -9,7 +9,7 @@
 //! not known. Source: the thesis's synthetic test fields.
 
 use crate::geometry::{Place, index_field};
-use crate::{Generator, Parameter, Settings};
+use crate::{Generator, Known, Parameter, Settings};
 use tigereye_core::{Field, SplitMix64, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -22,6 +22,14 @@ pub(crate) const GENERATOR: Generator = Generator {
     ],
     determinant_one: false,
     symmetric: true,
+    known: &[
+        // From another implementation.
+        Known::Tensor(
+            "size=9,seed=1",
+            [0, 0],
+            Tensor2::symmetric(0.133_123_150_344_561_8, 0.942_005_507_173_592_4, 0.491_563_514_525_402_6),
+        ),
+    ],
     build,
 };
 

@@ -13,7 +13,7 @@
 use super::curve::{Curve, MARGIN};
 use crate::geometry::glyph;
 use crate::parameter::ANISOTROPY;
-use crate::{Generator, Parameter, Settings};
+use crate::{Generator, Known, Mirror, Parameter, Settings};
 use tigereye_core::math::{FRAC_PI_2, radians};
 use tigereye_core::{Field, Tensor2};
 
@@ -24,6 +24,17 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY, Parameter::flag("total", "total anisotropy: axes 1 and 0")],
     determinant_one: true,
     symmetric: false,
+    known: &[
+        Known::Symmetries("", &[Mirror::QuarterTurn]),
+        Known::MajorAxis("size=13", [12, 6], 90.0),
+        Known::MajorAxis("size=13", [6, 0], 0.0),
+        // The diagonal cell (3, 3) from the centre catches theta = 45 degrees best.
+        Known::MajorAxis("size=13", [9, 3], 135.0),
+        Known::Circles("size=13", 1),
+        // Eight cells beyond radius 32 catch no point of a whole degree.
+        Known::Circles("size=51", 9),
+        Known::Index("", 1.0),
+    ],
     build,
 };
 

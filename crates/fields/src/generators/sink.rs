@@ -8,8 +8,8 @@
 //! Source: the thesis's synthetic test fields.
 
 use super::star::star;
-use crate::Generator;
 use crate::parameter::ANISOTROPY;
+use crate::{Generator, Known, Mirror};
 use tigereye_core::Tensor2;
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -19,5 +19,6 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY],
     determinant_one: false,
     symmetric: false,
+    known: &[Known::Symmetries("", &[Mirror::LeftRight, Mirror::UpDown, Mirror::QuarterTurn])],
     build: |s| star(s, Tensor2::ZERO),
 };

@@ -9,7 +9,7 @@
 use super::curve::Curve;
 use crate::geometry::glyph;
 use crate::parameter::ANISOTROPY;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Settings};
 use tigereye_core::math::{FRAC_PI_2, radians};
 use tigereye_core::{Field, Tensor2};
 
@@ -23,6 +23,7 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY],
     determinant_one: true,
     symmetric: false,
+    known: &[Known::Circles("size=13", 1), Known::Index("", 1.0)],
     build,
 };
 

@@ -9,7 +9,7 @@
 
 use crate::geometry::{Place, glyph, index_field};
 use crate::parameter::ANISOTROPY;
-use crate::{Generator, Parameter, Settings};
+use crate::{Generator, Known, Mirror, Parameter, Settings};
 use tigereye_core::math::{atan2, round_ties_even};
 use tigereye_core::{Field, Tensor2};
 
@@ -23,6 +23,13 @@ pub(crate) const GENERATOR: Generator = Generator {
     ],
     determinant_one: true,
     symmetric: false,
+    known: &[
+        Known::Symmetries("", &[Mirror::LeftRight, Mirror::UpDown, Mirror::QuarterTurn]),
+        Known::MajorAxis("size=13", [12, 0], 45.0),
+        Known::MajorAxis("size=13", [0, 6], 0.0),
+        Known::Circles("size=13", 1),
+        Known::Index("", 1.0),
+    ],
     build: |s| star(s, if s.is_set("sink") { Tensor2::ZERO } else { Tensor2::IDENTITY }),
 };
 

@@ -8,7 +8,7 @@
 //! second-order tensor fields", IEEE Visualization 1994.
 
 use super::degenerate_point;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Mirror, Settings};
 use tigereye_core::{Field, Tensor2};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -18,6 +18,7 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[degenerate_point::MEAN],
     determinant_one: false,
     symmetric: true,
+    known: &[Known::Symmetries("", &[Mirror::UpDown]), Known::Index("", -0.5)],
     build,
 };
 

@@ -8,7 +8,7 @@
 
 use crate::geometry::{Place, glyph, index_field};
 use crate::parameter::ANISOTROPY;
-use crate::{Generator, Settings};
+use crate::{Generator, Known, Mirror, Settings};
 use tigereye_core::{Field, Tensor2, math::radians};
 
 pub(crate) const GENERATOR: Generator = Generator {
@@ -18,6 +18,13 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY],
     determinant_one: true,
     symmetric: false,
+    known: &[
+        Known::Symmetries("", &[Mirror::LeftRight]),
+        Known::Symmetries("size=12", &[Mirror::LeftRight]),
+        Known::MajorAxis("size=13", [0, 5], 60.0),
+        Known::MajorAxis("size=13", [6, 5], 90.0),
+        Known::MajorAxis("size=13", [7, 5], 120.0),
+    ],
     build,
 };
 

@@ -7,9 +7,9 @@
 //! ```
 //! Source: the thesis's synthetic test fields.
 
-use crate::Generator;
 use crate::geometry::{glyph, index_field};
 use crate::parameter::ANISOTROPY;
+use crate::{Generator, Known, Mirror};
 
 pub(crate) const GENERATOR: Generator = Generator {
     name: "x",
@@ -18,5 +18,6 @@ pub(crate) const GENERATOR: Generator = Generator {
     own_parameters: &[ANISOTROPY],
     determinant_one: true,
     symmetric: true,
+    known: &[Known::Symmetries("", &[Mirror::LeftRight, Mirror::UpDown]), Known::MajorAxis("", [3, 9], 0.0)],
     build: |s| index_field(s, |_| glyph(s.number("anisotropy"), 0.0)),
 };

@@ -4,6 +4,7 @@ mod arguments;
 mod expression;
 mod flow;
 mod images;
+mod known;
 mod registry;
 mod stress;
 mod thesis;
@@ -11,13 +12,7 @@ mod topology;
 mod user_field;
 
 use tigereye_core::{Cell, Field, Svd, Tensor2};
-use tigereye_fields::{generate, parse_spec};
-
-/// The field of a specification that is right.
-fn field(spec: &str) -> Field<Tensor2> {
-    let parsed = parse_spec(spec).unwrap_or_else(|e| panic!("{spec}: {e}"));
-    generate(&parsed.name, &parsed.arguments).unwrap_or_else(|e| panic!("{spec}: {e}"))
-}
+use tigereye_test_support::field;
 
 /// Direction of the major semi-axis in degrees, 0 to 180.
 fn major_deg(t: &Tensor2) -> f64 {
@@ -37,13 +32,6 @@ fn same_ellipse(a: &Tensor2, b: &Tensor2, tolerance: f64) -> bool {
         [p * p + q * q, p * r + q * s, r * r + s * s]
     };
     square(a).iter().zip(square(b)).all(|(x, y)| (x - y).abs() <= tolerance)
-}
-
-fn assert_same_ellipses(a: &Field<Tensor2>, b: &Field<Tensor2>, law: &str) {
-    assert_eq!(a.grid(), b.grid(), "{law}");
-    for (cell, t) in a.iter() {
-        assert!(same_ellipse(t, b.at(cell), 1e-11), "{law}: {cell:?} {t:?} {:?}", b.at(cell));
-    }
 }
 
 fn at(field: &Field<Tensor2>, x: usize, y: usize) -> Tensor2 {

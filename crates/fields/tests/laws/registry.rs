@@ -1,15 +1,10 @@
-//! A generator is one file, one line and one known answer: messages name what is missing and how to add it.
+//! A generator is one file and one line: messages name what is missing and how to add it.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 use tigereye_fields::generators;
 
 const FOLDER: &str = "crates/fields/src/generators";
-const LAWS: &str = "crates/fields/tests/laws";
-
-/// Laws that name generators without saying what their fields are.
-const NO_ANSWERS: &[&str] = &["arguments", "expression", "main", "registry"];
-
 /// Texts of source files by their names without ending.
 type Sources = BTreeMap<String, String>;
 
@@ -76,32 +71,12 @@ fn faults_of_names(files: &Sources, registered: &[&str]) -> Vec<String> {
     faults
 }
 
-/// The generators without a law, one sentence each.
-fn unknown_answers(laws: &Sources, registered: &[&str]) -> Vec<String> {
-    let laws: Vec<&String> =
-        laws.iter().filter(|(name, _)| !NO_ANSWERS.contains(&name.as_str())).map(|(_, text)| text).collect();
-    let names = |text: &str, name: &str| {
-        // As a whole specification or with parameters.
-        text.contains(&format!("\"{name}\"")) || text.contains(&format!("\"{name}:"))
-    };
-    let lacking = registered.iter().filter(|name| !laws.iter().any(|text| names(text, name)));
-    lacking
-        .map(|name| {
-            format!(
-                "the generator `{name}` has no known answer: add a symmetry of it to `fields_have_their_symmetries`, or a \
-                 direction to `major_axes_point_where_the_formulas_say`, in {LAWS}/thesis.rs, or a test of its own beside"
-            )
-        })
-        .collect()
-}
-
 #[test]
-fn generators_are_registered_described_and_known() {
+fn generators_are_registered_and_described() {
     let registered: Vec<&str> = generators().iter().map(|g| g.name).collect();
     let files = sources("src/generators");
     let mut faults = faults_of_files(&files, &registered);
     faults.extend(faults_of_names(&files, &registered));
-    faults.extend(unknown_answers(&sources("tests/laws"), &registered));
     assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
 }
 
@@ -127,7 +102,6 @@ fn a_complete_generator_lacks_nothing() {
     let files = made_up(&[("fan", COMPLETE), ("curve", "//! Help."), ("mod", list)]);
     assert_eq!(faults_of_files(&files, &["fan"]), [""; 0]);
     assert_eq!(faults_of_names(&files, &["fan"]), [""; 0]);
-    assert_eq!(unknown_answers(&made_up(&[("flow", "(\"fan:size=5\", 1)")]), &["fan"]), [""; 0]);
 }
 
 #[test]
@@ -168,11 +142,4 @@ fn a_name_unlike_its_file_is_reported() {
 fn lines_out_of_order_name_the_one_to_move() {
     let files = made_up(&[("fan", COMPLETE), ("gyre", COMPLETE)]);
     one_fault(&faults_of_names(&files, &["gyre", "fan"]), &["`fan` must not stand after `gyre`", "mod.rs"]);
-}
-
-#[test]
-fn missing_answers_name_where_they_go() {
-    let laws = made_up(&[("arguments", "\"fan\""), ("thesis", "\"fandango\", \"gyre:size=5\"")]);
-    let faults = unknown_answers(&laws, &["fan", "gyre"]);
-    one_fault(&faults, &["`fan` has no known answer", "laws/thesis.rs", "fields_have_their_symmetries"]);
 }

@@ -276,11 +276,10 @@ fn cut_volumes_are_refused() {
     }
 }
 
-/// Four hundred bytes that declare more than there can be.
+/// Four hundred bytes that declare more than there can be. What would be allocated for them, `memory.rs` measures.
 #[test]
-fn small_volumes_with_many_voxels_are_refused_at_once() {
+fn small_volumes_with_many_voxels_are_refused() {
     let limits = Limits { cells: u64::MAX, values: u64::MAX };
-    let start = std::time::Instant::now();
     for size in [
         "10000 10000 10000",
         "99999999999 99999999999 99999999999",
@@ -316,7 +315,6 @@ fn small_volumes_with_many_voxels_are_refused_at_once() {
         nifti::read_with_limits(&nifti_large, limits),
         Err(IoError::Data(DataError::Truncated { .. }))
     ));
-    assert!(start.elapsed().as_secs() < 1);
 }
 
 /// Headers that ask for files elsewhere, or for what is not read.

@@ -1,6 +1,6 @@
 //! Files written by other tools, read to the values their own readers give.
 
-use crate::support::{bytes, folder, json};
+use crate::support::{bytes, json};
 use serde_json::Value;
 use tigereye_core::{Cell, Field, Tensor2};
 use tigereye_io::volume::{
@@ -10,6 +10,7 @@ use tigereye_io::volume::{
 use tigereye_io::{
     DataArray, ImageData, Wanted, legacy, ltg_from_image, matrices, nifti, npy, nrrd, vti, vtp,
 };
+use tigereye_test_support::{data_folder, reference_folder};
 
 /// Relative to the range: the files hold f32, text files fewer digits.
 const RANGE_TOLERANCE: f64 = 1e-6;
@@ -76,7 +77,7 @@ fn tensor_array(image: &ImageData) -> &DataArray {
 
 #[test]
 fn numpy_files_have_their_published_values() {
-    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let Some(data) = data_folder(".") else { return };
     let expected = json(&data, "expected.json");
     let entries = entries(&expected, ".npy");
     assert_eq!(entries.len(), 4);
@@ -92,7 +93,7 @@ fn numpy_files_have_their_published_values() {
 
 #[test]
 fn image_files_have_their_published_values() {
-    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let Some(data) = data_folder(".") else { return };
     let expected = json(&data, "expected.json");
     let entries = entries(&expected, ".vti");
     assert_eq!(entries.len(), 11);
@@ -107,7 +108,7 @@ fn image_files_have_their_published_values() {
 /// The 2D images hold the same tensors as the arrays; only the rows run the other way.
 #[test]
 fn images_are_arrays_with_rows_reversed() {
-    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let Some(data) = data_folder(".") else { return };
     let names =
         ["camera_structure_tensor_128", "mni152_hessian_slice", "piv_velocity_gradient", "plate_hole_stress"];
     for name in names {
@@ -123,7 +124,7 @@ fn images_are_arrays_with_rows_reversed() {
 
 #[test]
 fn all_encodings_give_the_same_tensors() {
-    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let Some(data) = data_folder(".") else { return };
     let read = |kind: &str| vti::read(&bytes(&data, &format!("pointload_{kind}.vti"))).unwrap();
     let first = read("app_raw_none");
     let others =
@@ -164,7 +165,7 @@ fn order_of(file: &str) -> Option<&'static str> {
 
 #[test]
 fn volumes_have_their_published_values() {
-    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let Some(data) = data_folder(".") else { return };
     let expected = json(&data, "expected.json");
     let mut seen = 0;
     for extension in [".vti", ".vtk", ".nii.gz", ".nrrd"] {
@@ -185,7 +186,7 @@ fn volumes_have_their_published_values() {
 
 #[test]
 fn scalar_images_have_their_published_values() {
-    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let Some(data) = data_folder(".") else { return };
     let expected = json(&data, "expected.json");
     let entry = &entries(&expected, "small_64D_fa.nii.gz")[0];
     let lattice = nifti::read(&bytes(&data, "small_64D_fa.nii.gz")).unwrap();
@@ -205,7 +206,7 @@ fn scalar_images_have_their_published_values() {
 /// Every slice of the volume, in the five layouts of one field.
 #[test]
 fn layouts_of_one_field_give_one_slice() {
-    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let Some(data) = data_folder(".") else { return };
     let name = |kind: &str| format!("small_64D_tensor_{kind}");
     let dipy = volume(&data, &name("dipy.nii.gz"), Some("dipy"));
     let scale = 0.005;
@@ -229,7 +230,7 @@ fn layouts_of_one_field_give_one_slice() {
 
 #[test]
 fn wrong_orders_look_wrong() {
-    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let Some(data) = data_folder(".") else { return };
     for tool in ["dipy", "fsl", "mrtrix"] {
         let file = format!("small_64D_tensor_{tool}.nii.gz");
         assert_eq!(volume(&data, &file, Some(tool)).suspicion(), None, "{file}");
@@ -242,7 +243,7 @@ fn wrong_orders_look_wrong() {
 
 #[test]
 fn layers_need_a_plane() {
-    let Some(data) = folder("TIGEREYE_DATA", "data") else { return };
+    let Some(data) = data_folder(".") else { return };
     let image = vti::read(&bytes(&data, "pointload_ascii.vti")).unwrap();
     let error = crate::support::field_of(&image, None).unwrap_err();
     assert_eq!(error, tigereye_io::IoError::Plane(PlaneError::Needed { size: [20; 3] }));
@@ -250,7 +251,7 @@ fn layers_need_a_plane() {
 
 #[test]
 fn published_volumes_have_their_statistics_and_probes() {
-    let Some(reference) = folder("TIGEREYE_REFERENCE", "reference") else { return };
+    let Some(reference) = reference_folder(".") else { return };
     let manifest = json(&reference, "manifest.json");
     for entry in list(&manifest["volumes"]) {
         let name = entry["volume"].as_str().unwrap();
@@ -275,7 +276,7 @@ fn published_volumes_have_their_statistics_and_probes() {
 
 #[test]
 fn text_fields_have_their_published_counts() {
-    let Some(reference) = folder("TIGEREYE_REFERENCE", "reference") else { return };
+    let Some(reference) = reference_folder(".") else { return };
     let manifest = json(&reference, "manifest.json");
     for entry in list(&manifest["fields"]) {
         let name = entry["file"].as_str().unwrap();
@@ -292,7 +293,7 @@ fn text_fields_have_their_published_counts() {
 /// file's).
 #[test]
 fn measured_slices_have_their_published_values() {
-    let Some(reference) = folder("TIGEREYE_REFERENCE", "reference") else { return };
+    let Some(reference) = reference_folder(".") else { return };
     let manifest = json(&reference, "manifest.json");
     for entry in list(&manifest["real"]) {
         let file = entry["file"].as_str().unwrap();

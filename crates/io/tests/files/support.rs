@@ -3,25 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
 use std::io::Write as _;
-use std::path::PathBuf;
 use tigereye_core::{Field, Tensor2};
 use tigereye_io::volume::{
     Frame, Lattice, PlaneChoice, PlaneGeometry, Reading, Slice, TensorVolume, image_from_volume,
     lattice_from_image, lattice_from_points, points_from_image,
 };
 use tigereye_io::{ImageData, IoError, Wanted, legacy, nifti, nrrd, vti, vtp};
-
-/// The folder named by the environment variable, or `../shared/<name>` beside the workspace; `None`, and a line that
-/// says so, where it is absent.
-pub(crate) fn folder(variable: &str, name: &str) -> Option<PathBuf> {
-    let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared").join(name);
-    let folder = std::env::var_os(variable).map_or_else(beside, PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("skipped: no folder {} (set {variable})", folder.display());
-    None
-}
 
 pub(crate) fn bytes(folder: &std::path::Path, file: &str) -> Vec<u8> {
     std::fs::read(folder.join(file)).unwrap_or_else(|e| panic!("{file}: {e}"))

@@ -3,19 +3,14 @@
 use euclid::Vector2D;
 use rayon::prelude::*;
 use tigereye_core::{Cell, Cells, Field, Grid, Point, Tensor2, length, math};
-use tigereye_fields::{generate, parse_spec};
 use tigereye_lines::{
     Axes, Family, Ftle, FtleOptions, Interpolated, NearestSegment, Polyline, Polylines, RidgeOptions,
     SamplingError, Threshold, advected, ellipse_tensors, exponents, ftle, ridge_lines,
 };
+use tigereye_test_support::field;
 
 /// A displacement in cells, or in the units of a flow.
 type Displacement = Vector2D<f64, Cells>;
-
-fn field(spec: &str) -> Field<Tensor2> {
-    let spec = parse_spec(spec).expect("a generator");
-    generate(&spec.name, &spec.arguments).expect("a field")
-}
 
 fn of(field: &Field<Tensor2>, family: Family, length: f64, samples: usize) -> Ftle {
     let options = FtleOptions { length, samples, step: 0.1, ..FtleOptions::default() };

@@ -2,16 +2,11 @@
 
 use core::f64::consts::TAU;
 use tigereye_core::{CellShape, Field, Point, Tensor2, Vector, length, math};
-use tigereye_fields::{generate, parse_spec};
 use tigereye_lines::{
     Axes, Family, Interpolated, LineEnd, LineOptions, Method, TensorLine, ellipse_tensors, half_line_end,
     tensor_line,
 };
-
-fn field(spec: &str) -> Field<Tensor2> {
-    let spec = parse_spec(spec).expect("a generator");
-    generate(&spec.name, &spec.arguments).expect("a field")
-}
+use tigereye_test_support::field;
 
 fn line(field: &Field<Tensor2>, seed: Point, family: Family, extent: f64) -> TensorLine {
     let between = Interpolated::new(field).with_axes(Axes::Eigenvectors);

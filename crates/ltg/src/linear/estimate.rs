@@ -1,17 +1,18 @@
 //! What the sketches of a gradient add up to.
 //!
-//! Each sketch gives one Cauchy number per difference, whose scale is the L1 norm of that difference. The mean logarithm
-//! of N of them estimates it: `exp(mean log |z . v|) cos(pi / (2 N))^N` is free of bias. All sums are of whole numbers:
-//! the order in which sketches are added, and on which machine, leaves no trace.
+//! Each sketch gives one Cauchy number per difference, whose scale is the L1 norm of that difference. The mean
+//! logarithm of N of them estimates it: `exp(mean log |z . v|) cos(pi / (2 N))^N` is free of bias. All sums are of
+//! whole numbers: the order in which sketches are added, and on which machine, leaves no trace.
 
 use super::logarithms::{GROUPS, OF_ZERO, STEPS};
 use super::pulses::Comparisons;
 use super::random::BATCH;
 use crate::{LtgError, Shard};
 use core::f64::consts::{FRAC_PI_2, LN_2};
-use tigereye_core::{Cell, Directions, Grid, LtgVolume};
+use tigereye_core::{Cell, Directions, Grid, LtgVolume, math};
 
-/// Logarithms are squared in coarser steps than they are added, so that sums fit into 53 bits: `2^SQUARED_SHIFT` of them.
+/// Logarithms are squared in coarser steps than they are added, so that sums fit into 53 bits: `2^SQUARED_SHIFT` of
+/// them.
 const SQUARED_SHIFT: u32 = 6;
 
 /// A gradient estimated from sketches.
@@ -27,9 +28,9 @@ pub struct Estimate {
     pub sketches: u32,
 }
 
-/// What one cell adds up, in this order: sums of the logarithms along x and along y of each moved class and of each turn;
-/// their squares; products of those along x and y of each class; products of those along x and in direction, and along
-/// y and in direction, of each value.
+/// What one cell adds up, in this order: sums of the logarithms along x and along y of each moved class and of each
+/// turn; their squares; products of those along x and y of each class; products of those along x and in direction, and
+/// along y and in direction, of each value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
     /// Moved classes, turns and distinct values of a cell.
@@ -63,8 +64,8 @@ impl Layout {
         2 * self.differences() + self.moved + 2 * self.values.len()
     }
 
-    /// Adds a batch's logarithms of a cell (in steps, by difference) to its sums. Only the first `pairs` groups hold two
-    /// sketches; others say nothing about the scatter.
+    /// Adds a batch's logarithms of a cell (in steps, by difference) to its sums. Only the first `pairs` groups hold
+    /// two sketches; others say nothing about the scatter.
     #[inline(always)]
     pub(crate) fn add(&self, logarithms: &mut [[i32; GROUPS]], pairs: usize, sums: &mut [i64]) {
         let n = self.differences();
@@ -231,9 +232,6 @@ impl SketchSums {
     pub(crate) const fn seed(&self) -> u64 {
         self.seed
     }
-    pub(crate) const fn layout(&self) -> &Layout {
-        &self.layout
-    }
     /// The sums of the inner cells of each inner row.
     pub(crate) fn rows_mut(&mut self) -> (&Layout, std::slice::ChunksMut<'_, i64>) {
         let row = (self.grid.width().saturating_sub(2) * self.layout.sums()).max(1);
@@ -294,10 +292,10 @@ fn value_and_error(layout: &Layout, sums: &[i64], value: usize, sketches: u32) -
     let groups = (count / 2.0).floor();
     // Mean logarithm of a sketch, octaves.
     let means = at.map(|i| sums[i] as f64 / (f64::from(STEPS) * count));
-    let bias = (FRAC_PI_2 / count).cos().powf(count);
+    let bias = math::pow(math::cos(FRAC_PI_2 / count), count);
     let norms = means.map(|mean| {
         // Nothing but zeros.
-        if mean < f64::from(OF_ZERO) + 1.0 { 0.0 } else { 0.5 * (LN_2 * mean).exp() * bias }
+        if mean < f64::from(OF_ZERO) + 1.0 { 0.0 } else { 0.5 * math::exp(LN_2 * mean) * bias }
     });
     let square = norms.iter().map(|g| g * g).sum::<f64>();
     if square == 0.0 {

@@ -1,7 +1,8 @@
 //! The exact gradient of the linear scheme, from eight responses a cell.
 //!
-//! The sweep goes down the grid. The responses of a cell are compared with those of the cell two rows above, whose place
-//! they then take, and with those two columns away; pulses of one cell in different directions need no other cell.
+//! The sweep goes down the grid. The responses of a cell are compared with those of the cell two rows above, whose
+//! place they then take, and with those two columns away; pulses of one cell in different directions need no other
+//! cell.
 
 use super::Pool;
 use super::pulses::Comparisons;

@@ -1,9 +1,10 @@
 //! Which pulses of a cell differ, and which of them are compared.
 //!
-//! A pulse in sample t sends `2 pi Tbar w_k(t)` to neighbour k. The cone weights are constant over the cores of the four
-//! face cones and over the eight overlaps with the diagonal cones, and special in the four directions where two overlaps
-//! meet: no more than sixteen pulses of a cell differ, however many samples there are. Only where a cell transmits
-//! nothing in some samples (total anisotropy) do pulses of one class differ: there, every sample is a class of its own.
+//! A pulse in sample t sends `2 pi Tbar w_k(t)` to neighbour k. The cone weights are constant over the cores of the
+//! four face cones and over the eight overlaps with the diagonal cones, and special in the four directions where two
+//! overlaps meet: no more than sixteen pulses of a cell differ, however many samples there are. Only where a cell
+//! transmits nothing in some samples (total anisotropy) do pulses of one class differ: there, every sample is a class
+//! of its own.
 
 use crate::LtgError;
 use crate::settings::check_slices;

@@ -1,9 +1,9 @@
 //! The gradient from random receivers.
 //!
-//! With independent Cauchy numbers z, one for each cell and sample, `z . v` is a Cauchy number whose scale is the L1 norm
-//! of v (Indyk 2006). A sketch asks the whole field what each flux is worth to the receivers z: one solution of the
-//! adjoint problem. The number `z . (b1 - b2)` of every difference in the gradient is then a sum of a few of these worths.
-//! N sketches give each norm with the relative standard error `pi / (2 sqrt N)`.
+//! With independent Cauchy numbers z, one for each cell and sample, `z . v` is a Cauchy number whose scale is the L1
+//! norm of v (Indyk 2006). A sketch asks the whole field what each flux is worth to the receivers z: one solution of
+//! the adjoint problem. The number `z . (b1 - b2)` of every difference in the gradient is then a sum of a few of these
+//! worths. N sketches give each norm with the relative standard error `pi / (2 sqrt N)`.
 //!
 //! Only single precision is used: the errors of rounding are thousands of times smaller than those of sampling.
 
@@ -223,7 +223,8 @@ impl<'a> SketchedGradient<'a> {
                 return Ok(sums);
             }
             // The error falls with the root of the number; two per cent more, since it is itself measured.
-            let wanted = (f64::from(sums.sketches()) * (found / target).powi(2) * 1.02).ceil();
+            let ratio = found / target;
+            let wanted = (f64::from(sums.sketches()) * (ratio * ratio) * 1.02).ceil();
             if wanted > f64::from(MOST_SKETCHES) {
                 return Err(LtgError::Sketches { sketches: wanted as u64 });
             }

@@ -1,6 +1,6 @@
 //! Kinds, scales and colours of glyphs.
 
-use tigereye_core::{PrincipalAxes, Svd, Tensor2};
+use tigereye_core::{PrincipalAxes, Svd, Tensor2, choice};
 
 /// The glyph of a tensor. In every kind, zero tensors are small hollow dots and non-finite tensors small crosses;
 /// semi-axes are the singular values unless stated otherwise.
@@ -41,6 +41,17 @@ pub enum GlyphKind {
     /// shows its invariant direction.
     Asymmetric,
 }
+
+choice!(GlyphKind {
+    Ellipse = "ellipse": "The ellipse that the tensor makes of the unit circle.",
+    Box = "box": "A rectangle along the semi-axes.",
+    Superquadric { gamma: Self::GAMMA } = "superquadric":
+        "A superellipse: round where isotropic, boxier the more anisotropic (Kindlmann 2004).",
+    Signed = "signed":
+        "The normal component in every direction: filled lobes for tension, hollow ones for compression.",
+    Arrows = "arrows": "Arrows along the principal axes: outwards for tension, inwards for compression.",
+    Asymmetric = "asymmetric": "The ellipse and the angle by which a tensor that is not symmetric turns.",
+});
 
 impl GlyphKind {
     /// The usual sharpness of superquadrics (Kindlmann 2004).
@@ -107,6 +118,12 @@ pub enum GlyphScale {
     Glyph,
 }
 
+choice!(GlyphScale {
+    Field = "field": "The largest of the field fills a cell.",
+    SquareRoot = "root": "By the square root, the largest filling a cell.",
+    Glyph = "glyph": "Every one fills its cell.",
+});
+
 /// The meaning of the colour of glyphs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum GlyphColour {
@@ -117,3 +134,8 @@ pub enum GlyphColour {
     /// Linear anisotropy `(s1 - s2) / (s1 + s2)`.
     Anisotropy,
 }
+
+choice!(GlyphColour {
+    AxisSign = "sign": "Tension and compression; of asymmetric glyphs the sense of rotation.",
+    Anisotropy = "anisotropy": "Linear anisotropy.",
+});

@@ -2,8 +2,8 @@
 //!
 //! An *edge* is the light that enters a cell in one of eight directions: the number `8 cell + k` holds it. A block has
 //! edges that enter it, edges that leave it (they enter cells outside), and edges between its halves. Every edge inside
-//! the grid passes between the halves of exactly one block. Blocks of equal size at equal sides of the grid have the same
-//! edges relative to their first cell, so these lists are made once per shape.
+//! the grid passes between the halves of exactly one block. Blocks of equal size at equal sides of the grid have the
+//! same edges relative to their first cell, so these lists are made once per shape.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -20,8 +20,8 @@ pub(super) struct Shape {
     pub(super) halves: Option<Halves>,
 }
 
-/// What passes between the two halves of a block, and how their edges become those of the block: those of the first half
-/// that do not lead to the second, then those of the second.
+/// What passes between the two halves of a block, and how their edges become those of the block: those of the first
+/// half that do not lead to the second, then those of the second.
 #[derive(Clone, Debug)]
 pub(super) struct Halves {
     shapes: [usize; 2],

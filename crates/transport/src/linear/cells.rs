@@ -48,8 +48,8 @@ impl<'a> LinearScattering<'a> {
         self.field
     }
 
-    /// `P[k][j]` of a cell: the part of the light in lobe j that leaves towards neighbour k. Columns add up to `Tbar`, or
-    /// to the reflectance of a wall.
+    /// `P[k][j]` of a cell: the part of the light in lobe j that leaves towards neighbour k. Columns add up to `Tbar`,
+    /// or to the reflectance of a wall.
     #[must_use]
     pub fn matrix(&self, cell: Cell) -> [[f64; 8]; 8] {
         if let Some(wall) = self.transmission().reflection(cell) {
@@ -81,9 +81,9 @@ impl<'a> LinearScattering<'a> {
         std::array::from_fn(|j| (0..8).map(|k| p[k][j] * b[k]).sum())
     }
 
-    /// The flux towards each neighbour (W) of a light in `cell` with the intensity `profile` (W/rad, S samples): each of
-    /// its samples leaves with the cone weights and the cell's `Tbar`; samples that the cell transmits nothing of, and
-    /// lights in walls, are lost.
+    /// The flux towards each neighbour (W) of a light in `cell` with the intensity `profile` (W/rad, S samples): each
+    /// of its samples leaves with the cone weights and the cell's `Tbar`; samples that the cell transmits nothing of,
+    /// and lights in walls, are lost.
     #[must_use]
     pub fn emitted(&self, cell: Cell, profile: &[f64]) -> [f64; 8] {
         emitted(self.scheme(), self.transmission(), cell, profile)

@@ -6,6 +6,7 @@
 use super::parallel::Parallel;
 use crate::real::Real;
 use crate::simd::{Level, Proven, Task, Vector};
+use std::cmp::Ordering;
 use std::ops::Range;
 use std::sync::Mutex;
 
@@ -305,7 +306,8 @@ impl<T: Real, const N: usize> Task for Elimination<'_, T, N> {
         let (zero, one) = (T::default(), T::from_f64(1.0));
         for p in 0..self.rows.len() {
             let pivot = self.rows[p].0[p];
-            if !(pivot > self.smallest) {
+            // Not `<=`: NaN is refused, too.
+            if pivot.partial_cmp(&self.smallest) != Some(Ordering::Greater) {
                 return Err(SmallPivot);
             }
             // The pivot's row is divided by it; the column of the inverse takes the place of the one eliminated.

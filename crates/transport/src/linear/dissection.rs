@@ -1,11 +1,11 @@
 //! The stationary light of any sources, directly: the grid is taken apart into blocks, and the way light passes to and
 //! fro between the halves of each is summed up in closed form.
 //!
-//! A block answers what enters it with what leaves it, a matrix. Two halves with the answers `R1` and `R2` pass light to
-//! and fro: what goes back from the second to the first is `b = (I - R2' R1')^-1 (...)`, where `R'` are the parts of the
-//! answers between the halves. So the answer of the whole follows from those of the halves (as in the adding method for
-//! layers: van de Hulst 1963; for sparse matrices: nested dissection, George 1973). All entries are parts of light, none
-//! is negative, and no pivoting is needed.
+//! A block answers what enters it with what leaves it, a matrix. Two halves with the answers `R1` and `R2` pass light
+//! to and fro: what goes back from the second to the first is `b = (I - R2' R1')^-1 (...)`, where `R'` are the parts of
+//! the answers between the halves. So the answer of the whole follows from those of the halves (as in the adding method
+//! for layers: van de Hulst 1963; for sparse matrices: nested dissection, George 1973). All entries are parts of light,
+//! none is negative, and no pivoting is needed.
 //!
 //! With the answers known, sources take two passes through the blocks. From the cells to the whole, each block learns
 //! what the sources inside it send between its halves and out of it while nothing enters; from the whole to the cells,

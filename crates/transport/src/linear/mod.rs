@@ -1,5 +1,5 @@
-//! The linear scheme: every photon for itself (thesis, eq. 3.15). Light superposes, the stationary state is the solution
-//! of a linear system, and every question has an adjoint: "where does the light here come from?".
+//! The linear scheme: every photon for itself (thesis, eq. 3.15). Light superposes, the stationary state is the
+//! solution of a linear system, and every question has an adjoint: "where does the light here come from?".
 
 mod blocks;
 mod cells;

@@ -2,7 +2,8 @@
 
 /// Runs independent tasks, side by side or one after the other. This crate starts no threads: who calls it decides.
 pub trait Parallel: Sync {
-    /// Calls `task` with each of `0..count` once and returns when all have returned. Results must not depend on the order.
+    /// Calls `task` with each of `0..count` once and returns when all have returned. Results must not depend on the
+    /// order.
     fn for_each(&self, count: usize, task: &(dyn Fn(usize) + Sync));
 }
 

@@ -1,10 +1,10 @@
 //! The stationary light of one source, by sweeps: for fields too large to be taken apart, or too few questions to be
 //! worth it.
 //!
-//! A sweep visits the cells in order and lets each pass on what it has received at once, so light crosses the field in a
-//! single sweep that goes its way; a round sweeps from all four corners. Rounds alone need more and more sweeps as fields
-//! grow (1000 and more for 256 x 256 cells), because light wanders. As the preconditioner of BiCGSTAB (van der Vorst
-//! 1992) a round settles 512 x 512 cells to 1e-6 in 170 to 250 sweeps on the thesis's fields.
+//! A sweep visits the cells in order and lets each pass on what it has received at once, so light crosses the field in
+//! a single sweep that goes its way; a round sweeps from all four corners. Rounds alone need more and more sweeps as
+//! fields grow (1000 and more for 256 x 256 cells), because light wanders. As the preconditioner of BiCGSTAB (van der
+//! Vorst 1992) a round settles 512 x 512 cells to 1e-6 in 170 to 250 sweeps on the thesis's fields.
 
 use super::cells::LinearScattering;
 use super::dissection::Course;

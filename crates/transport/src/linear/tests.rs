@@ -1,3 +1,5 @@
+//! Laws of the direct solution of the linear scheme.
+
 use super::*;
 use crate::{
     EightLobe, Engine, Level, Light, Problem, SampleSpace, Scattering, ScatteringRule, Scheme, SharedWeights,
@@ -5,7 +7,7 @@ use crate::{
 };
 use tigereye_core::{
     Cell, Directions, Field, Grid, LightDistribution, NEIGHBOUR_OFFSETS, Normalization, PolarProfile,
-    Reflection, Tensor2, TransmissionField,
+    Reflection, Tensor2, TransmissionField, math,
 };
 
 /// Tensors of all kinds.
@@ -14,7 +16,7 @@ fn transmission(width: usize, height: usize) -> TransmissionField {
     let grid = Grid::new(width, height).expect("a grid");
     let field = Field::from_fn(grid, |c| {
         let i = (c.x * 7 + c.y * 11 + c.x * c.y) as f64;
-        Tensor2::from_axes(0.37 * i, 1.0 + 9.0 * (0.71 * i).sin().abs(), 1.0)
+        Tensor2::from_axes(0.37 * i, 1.0 + 9.0 * math::sin(0.71 * i).abs(), 1.0)
     });
     TransmissionField::from_tensors(&field, directions, Normalization::Local).expect("a field")
 }
@@ -99,7 +101,8 @@ fn following_light_back_gives_the_adjoint() {
     with_linear(&transmission(11, 8), |field| {
         let grid = field.grid();
         let q = |lane| sources(grid, lane);
-        // What each edge is worth to a receiver. Light enters edge (cell, k) from the cell behind it, where it leaves towards k.
+        // What each edge is worth to a receiver. Light enters edge (cell, k) from the cell behind it, where it leaves
+        // towards k.
         let r = |lane| sources(grid, lane + 50);
         let back = |lane: usize| {
             let mut edges = vec![0.0; grid.cells() * 8];
@@ -169,7 +172,7 @@ fn importance_is_the_adjoint_of_light() {
     let field = LinearScattering::new(&scattering);
     let directions = scheme.directions();
     let h = directions.step_rad();
-    let sensitivity: Vec<f64> = (0..16).map(|t| 1.0 + (t as f64).sin().abs()).collect();
+    let sensitivity: Vec<f64> = (0..16).map(|t| 1.0 + math::sin(t as f64).abs()).collect();
     let receiver = Cell::new(9, 4);
     let (importance, _) = importance(&field, receiver, &sensitivity, 1e-13).expect("a receiver");
     let light =

@@ -14,6 +14,7 @@ const SOURCES: [Cell; 5] =
 
 /// No symmetry: random axes, weaker cells that absorb a part and some that absorb everything.
 fn rough_field(width: usize, height: usize) -> TransmissionField {
+    // The recorded bits below belong to the numbers of this generator, a linear congruential one.
     let mut seed = 7_u64;
     let mut random = move || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

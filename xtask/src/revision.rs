@@ -1,7 +1,7 @@
 //! Results of a git revision: a worktree of its own, built and run, and removed again.
 
-use crate::error::CliError;
-use crate::{commands::quoted, interrupt};
+use crate::error::Fault;
+use crate::interrupt;
 use std::ffi::{OsStr, OsString};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -10,8 +10,6 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use tempfile::TempDir;
-use tigereye_experiments::library::is_experiment;
-use tigereye_experiments::slug_of;
 
 /// How often a running program is looked at.
 const PAUSE: Duration = Duration::from_millis(50);
@@ -23,25 +21,31 @@ const ATTEMPTS: usize = 40;
 static RUNNING: AtomicU32 = AtomicU32::new(0);
 
 /// The commit of a revision; none where git knows no such revision.
-pub(super) fn commit(name: &str) -> Result<Option<String>, CliError> {
+pub(crate) fn commit(name: &str) -> Result<Option<String>, Fault> {
     if name.is_empty() || name.starts_with('-') {
         return Ok(None);
     }
     let mut git = Command::new("git");
     git.args(["rev-parse", "--verify", "--quiet", "--end-of-options", &format!("{name}^{{commit}}")]);
-    let output = git.stdin(Stdio::null()).output().map_err(|e| not_started("git", &e))?;
+    let output = git.stdin(Stdio::null()).output().map_err(not_run("git"))?;
     let commit = String::from_utf8_lossy(&output.stdout).trim().to_owned();
     let is_commit = commit.len() >= 40 && commit.bytes().all(|b| b.is_ascii_hexdigit());
     Ok((output.status.success() && is_commit).then_some(commit))
 }
 
 /// The names of a commit's experiments.
-pub(super) fn slugs(commit: &str) -> Result<Vec<String>, CliError> {
+pub(crate) fn slugs(commit: &str) -> Result<Vec<String>, Fault> {
     let mut git = Command::new("git");
     git.args(["ls-tree", "-r", "-z", "--full-tree", "--name-only", commit, "experiments/"]);
-    let output = git.stdin(Stdio::null()).output().map_err(|e| not_started("git", &e))?;
+    let output = git.stdin(Stdio::null()).output().map_err(not_run("git"))?;
     let paths = String::from_utf8_lossy(&output.stdout).into_owned();
-    Ok(paths.split('\0').filter(|path| is_experiment(path)).map(slug_of).collect())
+    Ok(paths.split('\0').filter_map(slug_of).collect())
+}
+
+/// The name of an experiment's file. What is called `NAME.KIND.ron` is a field or a scene.
+fn slug_of(path: &str) -> Option<String> {
+    let slug = path.rsplit('/').next()?.strip_suffix(".ron")?;
+    (!slug.contains('.')).then(|| slug.to_owned())
 }
 
 /// The folder of a [`Workshop`], for a process that ends at once; see [`abandon`].
@@ -54,7 +58,7 @@ fn folder_made() -> MutexGuard<'static, Option<PathBuf>> {
 /// A temporary folder for everything that revisions need, made for the first of them. Their common parts are built
 /// once.
 #[derive(Default)]
-pub(super) struct Workshop {
+pub(crate) struct Workshop {
     folder: Option<TempDir>,
     /// Revisions made so far.
     made: usize,
@@ -62,7 +66,7 @@ pub(super) struct Workshop {
 
 impl Workshop {
     /// The results of a commit, of the experiments `only` or of all, in a folder that lasts as long as this.
-    pub(super) fn results(&mut self, name: &str, commit: &str, only: &[String]) -> Result<PathBuf, CliError> {
+    pub(crate) fn results(&mut self, name: &str, commit: &str, only: &[String]) -> Result<PathBuf, Fault> {
         let folder = self.folder()?;
         self.made += 1;
         let worktree = Worktree { path: folder.join(format!("worktree-{}", self.made)) };
@@ -88,18 +92,15 @@ impl Workshop {
         Ok(results)
     }
 
-    fn folder(&mut self) -> Result<PathBuf, CliError> {
+    fn folder(&mut self) -> Result<PathBuf, Fault> {
         if let Some(folder) = &self.folder {
             return Ok(folder.path().to_path_buf());
         }
-        let fault = |source| CliError::File {
-            path: std::env::temp_dir().display().to_string(),
-            action: "making a folder",
-            source,
-        };
-        let folder = tempfile::Builder::new().prefix("tigereye-review-").tempdir().map_err(fault)?;
+        let above = std::env::temp_dir();
+        let fault = || Fault::file(&above, "making a folder");
+        let folder = tempfile::Builder::new().prefix("tigereye-review-").tempdir().map_err(fault())?;
         // As git writes it: without links.
-        let path = folder.path().canonicalize().map_err(fault)?;
+        let path = folder.path().canonicalize().map_err(fault())?;
         *folder_made() = Some(path.clone());
         self.folder = Some(folder);
         Ok(path)
@@ -145,34 +146,32 @@ fn git_succeeds(args: &[&OsStr]) -> bool {
 }
 
 /// Runs a program to its end; an interrupt ends it, too.
-fn succeeds(name: &str, mut command: Command, codes: &[i32]) -> Result<(), CliError> {
+fn succeeds(name: &str, mut command: Command, codes: &[i32]) -> Result<(), Fault> {
     interrupt::check()?;
     let program =
         Path::new(command.get_program()).file_name().unwrap_or_default().to_string_lossy().into_owned();
     let words: Vec<String> = std::iter::once(program.clone())
-        .chain(command.get_args().map(|w| quoted(&w.to_string_lossy())))
+        .chain(command.get_args().map(|w| w.to_string_lossy().into_owned()))
         .collect();
     command.stdin(Stdio::null()).stdout(Stdio::null());
     in_own_group(&mut command);
-    let mut child = command.spawn().map_err(|e| not_started(&program, &e))?;
+    let mut child = command.spawn().map_err(not_run(&program))?;
     RUNNING.store(child.id(), Ordering::SeqCst);
-    let status = wait(&mut child);
+    let status = wait(&mut child, &program);
     RUNNING.store(0, Ordering::SeqCst);
     let status = status?;
     if status.code().is_some_and(|c| codes.contains(&c)) {
         Ok(())
     } else {
-        Err(CliError::input(name, format!("`{}` ended with {status}", words.join(" "))))
+        Err(Fault::Ended { name: name.to_owned(), command: words.join(" "), status })
     }
 }
 
-fn wait(child: &mut Child) -> Result<ExitStatus, CliError> {
-    let fault =
-        |source| CliError::File { path: "a program".to_owned(), action: "waiting for its end", source };
+fn wait(child: &mut Child, program: &str) -> Result<ExitStatus, Fault> {
     let mut asked = false;
     loop {
-        if let Some(status) = child.try_wait().map_err(fault)? {
-            return if asked { Err(CliError::Interrupted) } else { Ok(status) };
+        if let Some(status) = child.try_wait().map_err(not_run(program))? {
+            return if asked { Err(Fault::Interrupted) } else { Ok(status) };
         }
         if interrupt::asked() && !asked {
             asked = true;
@@ -216,6 +215,7 @@ fn end_group(id: u32, signal: &str) {
     }
 }
 
-fn not_started(program: &str, error: &std::io::Error) -> CliError {
-    CliError::Input(format!("cannot run {program}: {error}"))
+fn not_run(program: &str) -> impl FnOnce(std::io::Error) -> Fault {
+    let program = program.to_owned();
+    move |source| Fault::NotRun { program, source }
 }

@@ -28,8 +28,8 @@ mod sweep;
 
 pub use error::LtgError;
 pub use linear::{
-    Estimate, FEWEST_SKETCHES, MOST_SKETCHES, SketchObserver, SketchSettings, SketchSums, SketchedGradient,
-    check_linear_fit, linear_sweep_part,
+    Estimate, FEWEST_SKETCHES, MOST_SKETCHES, SketchObserver, SketchSettings, SketchShape, SketchSums,
+    SketchedGradient, check_linear_fit, linear_sweep_part,
 };
 pub use observer::{Phase, SweepObserver};
 pub use partial::{Finished, LtgOutcome, PartialVolume};

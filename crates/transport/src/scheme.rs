@@ -58,19 +58,10 @@ pub enum ScatteringRule {
     Linear,
 }
 
-impl ScatteringRule {
-    /// Both rules.
-    pub const ALL: [Self; 2] = [Self::Joint, Self::Linear];
-
-    /// `joint` or `linear`.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Joint => "joint",
-            Self::Linear => "linear",
-        }
-    }
-}
+choice!(ScatteringRule {
+    Joint = "joint": "All light in a cell is normalised at once, as in the thesis's results.",
+    Linear = "linear": "Every photon goes its own way: light superposes.",
+});
 
 /// Half-angle of a diagonal cone, `beta = atan(1/2)`, radians.
 #[must_use]

@@ -4,12 +4,14 @@
 //! logarithm of N of them estimates it: `exp(mean log |z . v|) cos(pi / (2 N))^N` is free of bias. All sums are of
 //! whole numbers: the order in which sketches are added, and on which machine, leaves no trace.
 
+use super::limits::{FEWEST_SKETCHES, MOST_SKETCHES};
 use super::logarithms::{GROUPS, OF_ZERO, STEPS};
 use super::pulses::Comparisons;
 use super::random::BATCH;
 use crate::{LtgError, Shard};
 use core::f64::consts::{FRAC_PI_2, LN_2};
 use tigereye_core::{Cell, Directions, Grid, LtgVolume, math};
+use tigereye_transport::{Scheme, SharedWeights};
 
 /// Logarithms are squared in coarser steps than they are added, so that sums fit into 53 bits: `2^SQUARED_SHIFT` of
 /// them.
@@ -105,59 +107,72 @@ fn product(a: &[i32; GROUPS], b: &[i32; GROUPS]) -> i64 {
     sum
 }
 
+/// What sums of sketches are of: everything that determines their number and meaning but the field itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SketchShape {
+    /// The grid.
+    pub grid: Grid,
+    /// The angular sampling.
+    pub directions: Directions,
+    /// The slices, ascending, each once.
+    pub slices: Vec<usize>,
+    /// Half-width K of the angular central difference, in samples.
+    pub omega_step: usize,
+    /// Whether pulses of all samples are told apart: needed where cells transmit nothing in some samples.
+    pub every_sample: bool,
+    /// How many sketches there are when all batches are done.
+    pub sketches: u32,
+    /// Seed of the random numbers.
+    pub seed: u64,
+}
+
 /// The sums of some batches of sketches of a gradient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SketchSums {
-    grid: Grid,
-    directions: Directions,
-    slices: Vec<usize>,
+    shape: SketchShape,
     layout: Layout,
-    seed: u64,
-    /// How many sketches there are when all batches are done.
-    sketches: u32,
     sums: Vec<i64>,
     done: Vec<bool>,
 }
 
 impl SketchSums {
-    /// No sketch yet of `sketches` in all.
-    pub(crate) fn empty(
-        grid: Grid,
-        directions: Directions,
-        slices: Vec<usize>,
-        layout: Layout,
-        seed: u64,
-        sketches: u32,
-    ) -> Self {
-        let cells = grid.width().saturating_sub(2) * grid.height().saturating_sub(2);
+    /// No sketch yet.
+    pub(crate) fn empty(shape: SketchShape, layout: Layout) -> Self {
+        let cells = shape.grid.width().saturating_sub(2) * shape.grid.height().saturating_sub(2);
         let sums = vec![0; cells * layout.sums()];
-        let done = vec![false; (sketches as usize).div_ceil(BATCH)];
-        Self { grid, directions, slices, layout, seed, sketches, sums, done }
+        let done = vec![false; (shape.sketches as usize).div_ceil(BATCH)];
+        Self { shape, layout, sums, done }
+    }
+
+    /// What an earlier run has finished: as many numbers as the shape needs, whole ones.
+    ///
+    /// # Errors
+    /// [`LtgError::Length`] and [`LtgError::Sum`] where the numbers are not those of such sums; [`LtgError::Sketches`],
+    /// [`LtgError::OmegaStep`], [`LtgError::NoSlices`] and [`LtgError::Slice`] where there is no such shape. Nothing is
+    /// allocated for sizes that do not fit.
+    pub fn restored(shape: SketchShape, values: &[f64], done: Vec<bool>) -> Result<Self, LtgError> {
+        if !(FEWEST_SKETCHES..=MOST_SKETCHES).contains(&shape.sketches) {
+            return Err(LtgError::Sketches { sketches: shape.sketches.into() });
+        }
+        let scheme = Scheme::new(shape.directions, SharedWeights::Thesis);
+        let comparisons = Comparisons::new(&scheme, shape.every_sample, &shape.slices, shape.omega_step)?;
+        let layout = Layout::new(&comparisons);
+        let cells = shape.grid.width().saturating_sub(2) * shape.grid.height().saturating_sub(2);
+        let check = |what, found: usize, expected: u128| {
+            if found as u128 == expected { Ok(()) } else { Err(LtgError::Length { what, found, expected }) }
+        };
+        check("values", values.len(), cells as u128 * layout.sums() as u128)?;
+        check("marks", done.len(), (shape.sketches as usize).div_ceil(BATCH) as u128)?;
+        let whole = |v: f64| v == v.trunc() && v.abs() <= (1_u64 << 53) as f64;
+        if let Some(index) = values.iter().position(|v| !whole(*v)) {
+            return Err(LtgError::Sum { index, value: values[index] });
+        }
+        Ok(Self { shape, layout, sums: values.iter().map(|v| *v as i64).collect(), done })
     }
 
     /// Bytes of the sums.
     pub(crate) fn bytes(grid: Grid, layout: &Layout) -> u128 {
         (grid.cells() * layout.sums() * size_of::<i64>()) as u128
-    }
-
-    /// Takes over what an earlier run has finished of the same sketches.
-    ///
-    /// # Errors
-    /// [`LtgError::Length`] and [`LtgError::Value`] where the numbers are not those of such sums.
-    pub fn restore(&mut self, values: &[f64], done: Vec<bool>) -> Result<(), LtgError> {
-        let check = |what, found: usize, expected: usize| {
-            let expected = expected as u128;
-            if found as u128 == expected { Ok(()) } else { Err(LtgError::Length { what, found, expected }) }
-        };
-        check("values", values.len(), self.sums.len())?;
-        check("marks", done.len(), self.done.len())?;
-        let whole = |v: f64| v == v.trunc() && v.abs() <= (1_u64 << 53) as f64;
-        if let Some(index) = values.iter().position(|v| !whole(*v)) {
-            return Err(LtgError::Sum { index, value: values[index] });
-        }
-        self.sums = values.iter().map(|v| *v as i64).collect();
-        self.done = done;
-        Ok(())
     }
 
     /// The sums as numbers: whole, below 2^53.
@@ -170,10 +185,10 @@ impl SketchSums {
     pub fn done(&self) -> &[bool] {
         &self.done
     }
-    /// The grid.
+    /// What the sums are of.
     #[must_use]
-    pub const fn grid(&self) -> Grid {
-        self.grid
+    pub const fn shape(&self) -> &SketchShape {
+        &self.shape
     }
     /// How many sketches are in the sums.
     #[must_use]
@@ -183,7 +198,7 @@ impl SketchSums {
     /// How many sketches there are in a batch: fewer than 32 in the last one, perhaps.
     pub(crate) const fn sketches_of(&self, batch: u32) -> u32 {
         let before = batch * BATCH as u32;
-        let rest = self.sketches - before;
+        let rest = self.shape.sketches - before;
         if rest < BATCH as u32 { rest } else { BATCH as u32 }
     }
     /// How many batches of `shard` are missing.
@@ -205,13 +220,15 @@ impl SketchSums {
     /// # Errors
     /// [`LtgError::Unlike`] for parts of different gradients or seeds, [`LtgError::SketchedTwice`].
     pub fn merged(mut self, other: &Self) -> Result<Self, LtgError> {
+        let (a, b) = (&self.shape, &other.shape);
         let differs = [
-            (self.grid != other.grid, "grids"),
-            (self.directions != other.directions, "numbers of directions"),
-            (self.slices != other.slices, "slices"),
-            (self.layout != other.layout, "angular steps or fields"),
-            (self.seed != other.seed, "seeds"),
-            (self.sketches != other.sketches, "numbers of sketches"),
+            (a.grid != b.grid, "grids"),
+            (a.directions != b.directions, "numbers of directions"),
+            (a.slices != b.slices, "slices"),
+            (a.omega_step != b.omega_step, "angular steps"),
+            (a.seed != b.seed, "seeds"),
+            (a.sketches != b.sketches, "numbers of sketches"),
+            (a != b, "fields"),
         ];
         if let Some(&(_, what)) = differs.iter().find(|(differs, _)| *differs) {
             return Err(LtgError::Unlike { what });
@@ -230,11 +247,11 @@ impl SketchSums {
         shard.range(self.done.len()).filter(|&b| !self.done[b]).map(|b| b as u32).collect()
     }
     pub(crate) const fn seed(&self) -> u64 {
-        self.seed
+        self.shape.seed
     }
     /// The sums of the inner cells of each inner row.
     pub(crate) fn rows_mut(&mut self) -> (&Layout, std::slice::ChunksMut<'_, i64>) {
-        let row = (self.grid.width().saturating_sub(2) * self.layout.sums()).max(1);
+        let row = (self.shape.grid.width().saturating_sub(2) * self.layout.sums()).max(1);
         (&self.layout, self.sums.chunks_mut(row))
     }
     pub(crate) fn mark(&mut self, batch: u32) {
@@ -242,8 +259,11 @@ impl SketchSums {
     }
     /// Room for more sketches. Batches must be whole until then.
     pub(crate) fn extend_to(&mut self, sketches: u32) {
-        debug_assert!((self.sketches as usize).is_multiple_of(BATCH), "whole batches");
-        self.sketches = sketches;
+        debug_assert!(
+            self.done.is_empty() || (self.shape.sketches as usize).is_multiple_of(BATCH),
+            "whole batches"
+        );
+        self.shape.sketches = sketches;
         self.done.resize((sketches as usize).div_ceil(BATCH), false);
     }
 
@@ -256,8 +276,9 @@ impl SketchSums {
         if sketches == 0 {
             return Err(LtgError::NoSketches);
         }
-        let (grid, cells) = (self.grid, self.grid.cells());
-        let mut values = vec![0.0; cells * self.slices.len()];
+        let SketchShape { grid, directions, slices, .. } = &self.shape;
+        let (grid, cells) = (*grid, grid.cells());
+        let mut values = vec![0.0; cells * slices.len()];
         let mut errors = values.clone();
         let (mut squares, mut lit) = (0.0, 0_u64);
         let columns = grid.width().saturating_sub(2);
@@ -276,7 +297,7 @@ impl SketchSums {
                 }
             }
         }
-        let volume = |values| LtgVolume::new(grid, self.directions, self.slices.clone(), values);
+        let volume = |values| LtgVolume::new(grid, *directions, slices.clone(), values);
         let relative_error = if lit > 0 { (squares / lit as f64).sqrt() } else { 0.0 };
         Ok(Estimate { volume: volume(values), error: volume(errors), relative_error, sketches })
     }

@@ -4,8 +4,8 @@
 //! place they then take, and with those two columns away; pulses of one cell in different directions need no other
 //! cell.
 
-use super::Pool;
-use super::pulses::Comparisons;
+use super::pool::Pool;
+use super::pulses::{Comparisons, has_dark_samples};
 use crate::observer::{Phase, SweepObserver};
 use crate::partial::PartialVolume;
 use crate::{LtgError, LtgSettings, Precision, Shard};
@@ -140,7 +140,7 @@ fn run<T: Real, const N: usize>(
     observer: &dyn SweepObserver,
 ) -> Result<PartialVolume, LtgError> {
     let grid = field.grid();
-    let comparisons = Comparisons::new(field, slices, settings.omega_step)?;
+    let comparisons = Comparisons::new(field.scheme(), has_dark_samples(field), slices, settings.omega_step)?;
     let strips = strips::<T, N>(grid, field.scheme().directions(), slices.len(), settings.memory_bytes)?;
     let targets = volume.all_targets(shard);
     let wanted = |x: usize, y: usize| targets[y * grid.width() + x];

@@ -6,23 +6,14 @@
 
 mod estimate;
 mod exact;
+mod limits;
 mod logarithms;
+mod pool;
 mod pulses;
 mod random;
 mod sketch;
 
-pub use estimate::{Estimate, SketchSums};
+pub use estimate::{Estimate, SketchShape, SketchSums};
 pub use exact::{check_linear_fit, linear_sweep_part};
-pub use sketch::{FEWEST_SKETCHES, MOST_SKETCHES, SketchObserver, SketchSettings, SketchedGradient};
-
-use rayon::prelude::*;
-use tigereye_transport::Parallel;
-
-/// Rayon's current thread pool.
-pub(crate) struct Pool;
-
-impl Parallel for Pool {
-    fn for_each(&self, count: usize, task: &(dyn Fn(usize) + Sync)) {
-        (0..count).into_par_iter().with_max_len(1).for_each(task);
-    }
-}
+pub use limits::{FEWEST_SKETCHES, MOST_SKETCHES};
+pub use sketch::{SketchObserver, SketchSettings, SketchedGradient};

@@ -9,7 +9,7 @@
 use crate::LtgError;
 use crate::settings::check_slices;
 use tigereye_core::{Cell, math};
-use tigereye_transport::LinearScattering;
+use tigereye_transport::{LinearScattering, Scheme};
 
 /// Classes of equal pulses, and the comparisons that a gradient needs of each cell.
 #[derive(Clone, Debug)]
@@ -27,21 +27,21 @@ pub(crate) struct Comparisons {
 }
 
 impl Comparisons {
-    /// The comparisons for these slices (ascending, each once) and the angular step K.
+    /// The comparisons for these slices (ascending, each once) and the angular step K. With `every_sample`, each sample
+    /// is a class of its own.
     pub(crate) fn new(
-        field: &LinearScattering<'_>,
+        scheme: &Scheme,
+        every_sample: bool,
         slices: &[usize],
         omega_step: usize,
     ) -> Result<Self, LtgError> {
-        let scheme = field.scheme();
         let directions = scheme.directions();
         check_slices(directions, slices, omega_step)?;
         let s = directions.count();
-        let has_dark_samples = has_dark_samples(field);
         let (mut classes, mut samples): (Vec<[f64; 8]>, Vec<usize>) = (Vec::new(), Vec::new());
         let mut class_of = |t: usize| {
             let weights = *scheme.weights(t);
-            let known = if has_dark_samples {
+            let known = if every_sample {
                 samples.iter().position(|known| *known == t)
             } else {
                 classes.iter().position(|known| *known == weights)
@@ -92,7 +92,7 @@ fn place_of<T: PartialEq>(list: &mut Vec<T>, value: T) -> usize {
 }
 
 /// Whether some cell that passes light on transmits nothing in some sample.
-fn has_dark_samples(field: &LinearScattering<'_>) -> bool {
+pub(crate) fn has_dark_samples(field: &LinearScattering<'_>) -> bool {
     let transmission = field.transmission();
     let passes = |cell: &Cell| transmission.reflection(*cell).is_none() && transmission.rate(*cell) > 0.0;
     field.grid().iter().filter(passes).any(|cell| transmission.shape(cell).iter().any(|v| *v <= 0.0))
@@ -102,7 +102,7 @@ fn has_dark_samples(field: &LinearScattering<'_>) -> bool {
 mod tests {
     use super::*;
     use tigereye_core::{Directions, Field, Grid, Normalization, Tensor2, TransmissionField};
-    use tigereye_transport::{Scattering, Scheme, SharedWeights};
+    use tigereye_transport::{Scattering, SharedWeights};
 
     fn comparisons(s: usize, k: usize, tensor: Tensor2) -> Comparisons {
         let directions = Directions::new(s).expect("directions");
@@ -111,7 +111,8 @@ mod tests {
         let scheme = Scheme::new(directions, SharedWeights::Thesis);
         let scattering = Scattering::new(&scheme, &t);
         let slices: Vec<usize> = (0..s).collect();
-        Comparisons::new(&LinearScattering::new(&scattering), &slices, k).expect("comparisons")
+        let dark = has_dark_samples(&LinearScattering::new(&scattering));
+        Comparisons::new(&scheme, dark, &slices, k).expect("comparisons")
     }
 
     #[test]

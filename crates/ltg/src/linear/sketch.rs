@@ -7,10 +7,11 @@
 //!
 //! Only single precision is used: the errors of rounding are thousands of times smaller than those of sampling.
 
-use super::Pool;
-use super::estimate::{Layout, SketchSums};
+use super::estimate::{Layout, SketchShape, SketchSums};
+use super::limits::{FEWEST_SKETCHES, MOST_SKETCHES};
 use super::logarithms::{GROUPS, log2_of_groups};
-use super::pulses::Comparisons;
+use super::pool::Pool;
+use super::pulses::{Comparisons, has_dark_samples};
 use super::random::{BATCH, cauchy_numbers};
 use crate::observer::Phase;
 use crate::{LtgError, Shard};
@@ -20,11 +21,6 @@ use tigereye_core::{Cell, Grid};
 use tigereye_transport::{
     ArrayLoop, Course, Dissection, Lanes, Level, LinearScattering, Workspace, sector_lobes,
 };
-
-/// The fewest sketches: with fewer the standard error is 40 % and more, and cannot be measured.
-pub const FEWEST_SKETCHES: u32 = 16;
-/// The most sketches: more than a million would be no faster than the exact gradient.
-pub const MOST_SKETCHES: u32 = 1 << 20;
 
 /// Settings of a sketched gradient.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +60,7 @@ pub struct SketchedGradient<'a> {
     field: &'a LinearScattering<'a>,
     settings: SketchSettings,
     slices: Vec<usize>,
+    every_sample: bool,
     comparisons: Comparisons,
     layout: Layout,
 }
@@ -88,9 +85,10 @@ impl<'a> SketchedGradient<'a> {
             settings.slices.clone().unwrap_or_else(|| (0..field.scheme().directions().count()).collect());
         slices.sort_unstable();
         slices.dedup();
-        let comparisons = Comparisons::new(field, &slices, settings.omega_step)?;
+        let every_sample = has_dark_samples(field);
+        let comparisons = Comparisons::new(field.scheme(), every_sample, &slices, settings.omega_step)?;
         let layout = Layout::new(&comparisons);
-        let made = Self { field, settings, slices, comparisons, layout };
+        let made = Self { field, settings, slices, every_sample, comparisons, layout };
         made.plan()?;
         Ok(made)
     }
@@ -98,9 +96,21 @@ impl<'a> SketchedGradient<'a> {
     /// Sums of no sketch yet.
     #[must_use]
     pub fn sums(&self) -> SketchSums {
-        let (grid, directions) = (self.field.grid(), self.field.scheme().directions());
-        let Self { settings, slices, layout, .. } = self;
-        SketchSums::empty(grid, directions, slices.clone(), layout.clone(), settings.seed, settings.sketches)
+        SketchSums::empty(self.shape(), self.layout.clone())
+    }
+
+    /// What the sums are of.
+    #[must_use]
+    pub fn shape(&self) -> SketchShape {
+        SketchShape {
+            grid: self.field.grid(),
+            directions: self.field.scheme().directions(),
+            slices: self.slices.clone(),
+            omega_step: self.settings.omega_step,
+            every_sample: self.every_sample,
+            sketches: self.settings.sketches,
+            seed: self.settings.seed,
+        }
     }
 
     fn plan(&self) -> Result<Plan, LtgError> {

@@ -1,14 +1,14 @@
 //! A folder in which a sweep keeps what is finished.
 
 use crate::error::CliError;
-use crate::part_file::{self, Costs, Identity, PartFile};
+use crate::part_file::{self, Costs, Identity, Kept, PartFile};
 use crate::{files, interrupt};
 use std::fs::{File, TryLockError};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
-use tigereye_ltg::{PartialVolume, Shard};
+use tigereye_ltg::Shard;
 
 /// Name of the file in the folder.
 const FILE: &str = "checkpoint.part";
@@ -76,27 +76,26 @@ impl Checkpoint {
                 return Err(CliError::input(&path.display().to_string(), problem));
             }
         }
-        let missing = found.as_ref().map(|f| f.volume.missing(Shard::WHOLE));
+        let missing = found.as_ref().map(|f| f.content.kept().missing(Shard::WHOLE));
         let state = Mutex::new(State { missing, ..State::default() });
         Ok((Self { path, command, identity, shard, state, _lock: lock }, found))
     }
 
     /// Writes what is finished where it is time to. `Break` where that failed.
-    pub(crate) fn offer(&self, volume: &PartialVolume, costs: impl FnOnce() -> Costs) -> ControlFlow<()> {
+    pub(crate) fn offer(&self, kept: &dyn Kept, costs: impl FnOnce() -> Costs) -> ControlFlow<()> {
         let mut state = self.state();
         if state.fault.is_some() {
             return ControlFlow::Break(());
         }
-        let missing = volume.missing(Shard::WHOLE);
+        let missing = kept.missing(Shard::WHOLE);
         let pause = PAUSE.max(state.took * PAUSE_OVER_DURATION);
         let is_due = state.last.is_none_or(|last| last.elapsed() >= pause);
-        if state.missing == Some(missing)
-            || !(is_due || interrupt::asked() || volume.missing(self.shard) == 0)
+        if state.missing == Some(missing) || !(is_due || interrupt::asked() || kept.missing(self.shard) == 0)
         {
             return ControlFlow::Continue(());
         }
         let start = Instant::now();
-        let bytes = part_file::encoded(&self.command, &self.identity, self.shard, volume, &costs());
+        let bytes = part_file::encoded(&self.command, &self.identity, self.shard, kept, &costs());
         match files::write_through(&self.path, &bytes, TEMPORARY) {
             Ok(()) => {
                 *state = State {

@@ -3,12 +3,13 @@
 use crate::error::CliError;
 use crate::{files, geometry};
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::path::Path;
-use tigereye_core::{Directions, Grid, SweepWork};
+use tigereye_core::{Directions, Grid, LtgVolume, SweepWork};
 use tigereye_input::provenance::VERSION;
 use tigereye_io::part;
 use tigereye_io::volume::PlaneGeometry;
-use tigereye_ltg::{Finished, LtgError, NUMERICS, PartialVolume, Shard};
+use tigereye_ltg::{Estimate, Finished, LtgError, NUMERICS, PartialVolume, Shard, SketchShape, SketchSums};
 
 /// Parameters that do not show in the result. The input and its mask are known by their hash; what they are called may
 /// change.
@@ -45,7 +46,83 @@ pub(crate) struct PartFile {
     pub(crate) identity: Identity,
     pub(crate) shard: Shard,
     pub(crate) costs: Costs,
-    pub(crate) volume: PartialVolume,
+    pub(crate) content: Content,
+}
+
+/// What is finished of a gradient.
+#[derive(Clone, Debug)]
+pub(crate) enum Content {
+    /// Differences of the exact gradient.
+    Exact(PartialVolume),
+    /// Sketches of it.
+    Sketched(SketchSums),
+}
+
+/// A finished gradient, with the standard error of its values if it is an estimate.
+pub(crate) struct Gradient {
+    pub(crate) volume: LtgVolume,
+    pub(crate) error: Option<LtgVolume>,
+}
+
+/// What parts and checkpoints keep.
+pub(crate) trait Kept {
+    /// How much of a shard is missing: cells and sets of directions, or batches of sketches.
+    fn missing(&self, shard: Shard) -> usize;
+    /// What its parts are called.
+    fn unit(&self) -> &'static str;
+    /// Numbers, and for each part whether it is in them.
+    fn numbers(&self) -> (Cow<'_, [f64]>, &[bool]);
+    /// The summary, as `--json` prints it.
+    fn summary(&self, identity: &Identity, costs: &Costs) -> Value;
+}
+
+impl Content {
+    pub(crate) fn kept(&self) -> &dyn Kept {
+        match self {
+            Self::Exact(volume) => volume,
+            Self::Sketched(sums) => sums,
+        }
+    }
+
+    pub(crate) fn exact(self) -> Option<PartialVolume> {
+        match self {
+            Self::Exact(volume) => Some(volume),
+            Self::Sketched(_) => None,
+        }
+    }
+
+    pub(crate) fn sketched(self) -> Option<SketchSums> {
+        match self {
+            Self::Exact(_) => None,
+            Self::Sketched(sums) => Some(sums),
+        }
+    }
+
+    /// The shards of `count` that lack something, ascending.
+    pub(crate) fn missing_shards(&self, count: usize) -> Vec<usize> {
+        match self {
+            Self::Exact(volume) => volume.missing_shards(count),
+            Self::Sketched(sums) => sums.missing_shards(count),
+        }
+    }
+
+    pub(crate) fn merged(self, other: &Self) -> Result<Self, LtgError> {
+        match (self, other) {
+            (Self::Exact(one), Self::Exact(other)) => one.merged(other).map(Self::Exact),
+            (Self::Sketched(one), Self::Sketched(other)) => one.merged(other).map(Self::Sketched),
+            _ => Err(LtgError::Unlike { what: "methods: one is exact, one an estimate" }),
+        }
+    }
+
+    pub(crate) fn into_gradient(self) -> Result<Gradient, LtgError> {
+        match self {
+            Self::Exact(volume) => Ok(Gradient { volume: volume.into_outcome()?.volume, error: None }),
+            Self::Sketched(sums) => {
+                let Estimate { volume, error, .. } = sums.estimate()?;
+                Ok(Gradient { volume, error: Some(error) })
+            }
+        }
+    }
 }
 
 impl Identity {
@@ -115,20 +192,75 @@ fn plain(value: &Value) -> String {
     }
 }
 
-/// The summary of what is finished, as `--json` prints it.
-pub(crate) fn summary(volume: &PartialVolume, identity: &Identity, costs: &Costs) -> Value {
-    let (finished, grid) = (volume.finished(), volume.grid());
-    let values = || finished.squares.iter().map(|square| square.sqrt());
-    let work = &finished.work;
+impl Kept for PartialVolume {
+    fn missing(&self, shard: Shard) -> usize {
+        Self::missing(self, shard)
+    }
+    fn unit(&self) -> &'static str {
+        "cells and sets"
+    }
+    fn numbers(&self) -> (Cow<'_, [f64]>, &[bool]) {
+        (Cow::Borrowed(&self.finished().squares), &self.finished().done)
+    }
+
+    fn summary(&self, identity: &Identity, costs: &Costs) -> Value {
+        let finished = self.finished();
+        let work = &finished.work;
+        let mut summary = common_summary(
+            self.grid(),
+            self.directions(),
+            || finished.squares.iter().map(|square| square.sqrt()),
+            identity,
+            costs,
+        );
+        summary["sources"] = json!(work.sources);
+        summary["iterations_total"] = json!(work.iterations_total);
+        summary["iterations_max"] = json!(work.iterations_max);
+        summary["cell_updates"] = json!(work.cell_updates);
+        summary["limited"] = json!(finished.limited);
+        summary
+    }
+}
+
+impl Kept for SketchSums {
+    fn missing(&self, shard: Shard) -> usize {
+        Self::missing(self, shard)
+    }
+    fn unit(&self) -> &'static str {
+        "batches of sketches"
+    }
+    fn numbers(&self) -> (Cow<'_, [f64]>, &[bool]) {
+        (Cow::Owned(self.values()), self.done())
+    }
+
+    fn summary(&self, identity: &Identity, costs: &Costs) -> Value {
+        let shape = self.shape();
+        let estimate = self.estimate().ok();
+        let values = || estimate.iter().flat_map(|e| e.volume.values().iter().copied());
+        let mut summary = common_summary(shape.grid, shape.directions, values, identity, costs);
+        summary["estimate"] = json!(self.sketches());
+        summary["seed"] = json!(shape.seed);
+        summary["relative_error"] = json!(estimate.as_ref().map(|e| e.relative_error));
+        // Solved directly: one solution per sketch, and no sweep.
+        summary["solutions"] = json!(self.sketches());
+        summary["sweeps"] = json!(0);
+        summary["every_sample"] = json!(shape.every_sample);
+        summary
+    }
+}
+
+/// What summaries of all gradients say.
+fn common_summary<I: Iterator<Item = f64>>(
+    grid: Grid,
+    directions: Directions,
+    values: impl Fn() -> I,
+    identity: &Identity,
+    costs: &Costs,
+) -> Value {
     json!({
         "width": grid.width(),
         "height": grid.height(),
-        "directions": volume.directions().count(),
-        "sources": work.sources,
-        "iterations_total": work.iterations_total,
-        "iterations_max": work.iterations_max,
-        "cell_updates": work.cell_updates,
-        "limited": finished.limited,
+        "directions": directions.count(),
         "seconds": {
             "total": costs.total,
             "propagation": costs.propagation,
@@ -139,7 +271,7 @@ pub(crate) fn summary(volume: &PartialVolume, identity: &Identity, costs: &Costs
         "precision": identity.parameters["precision"],
         "backend": costs.backend,
         "max": values().fold(0.0, f64::max),
-        "mean": values().sum::<f64>() / finished.squares.len() as f64,
+        "mean": values().sum::<f64>() / values().count().max(1) as f64,
     })
 }
 
@@ -148,7 +280,7 @@ pub(crate) fn encoded(
     command: &str,
     identity: &Identity,
     shard: Shard,
-    volume: &PartialVolume,
+    kept: &dyn Kept,
     costs: &Costs,
 ) -> Vec<u8> {
     let header = json!({
@@ -159,10 +291,10 @@ pub(crate) fn encoded(
         "input_blake3": identity.input_blake3,
         "geometry": geometry::to_json(&identity.geometry),
         "shard": shard.to_string(),
-        "summary": summary(volume, identity, costs),
+        "summary": kept.summary(identity, costs),
     });
-    let finished = volume.finished();
-    part::write(&header.to_string(), &finished.squares, &finished.done)
+    let (values, done) = kept.numbers();
+    part::write(&header.to_string(), &values, done)
 }
 
 /// Reads a part.
@@ -204,21 +336,37 @@ fn decoded(part: part::Part) -> Result<PartFile, (usize, String)> {
     let slices = slices.ok_or_else(|| lacks("whole numbers at /parameters/slices"))?;
     let grid = Grid::new(size("/summary/width")?, size("/summary/height")?).map_err(|e| meaning(&e))?;
     let directions = Directions::new(size("/parameters/directions")?).map_err(|e| meaning(&e))?;
-    let work = SweepWork {
-        sources: integer("/summary/sources")?,
-        iterations_total: integer("/summary/iterations_total")?,
-        iterations_max: integer("/summary/iterations_max")?,
-        cell_updates: integer("/summary/cell_updates")?,
-    };
-    let limited = integer("/summary/limited")?;
-    let finished = Finished { squares: part.values, done: part.marks, work, limited };
     let omega_step = size("/parameters/omega_step")?;
-    let volume =
-        PartialVolume::restored(grid, directions, slices, omega_step, finished).map_err(|e| match e {
-            // Where the numbers are counted.
-            LtgError::Length { what, .. } => (if what == "marks" { 32 } else { 24 }, e.to_string()),
-            e => meaning(&e),
-        })?;
+    let sketches = header.pointer("/parameters/estimate").filter(|n| !n.is_null());
+    let content = if sketches.is_some() {
+        let sketches = integer("/parameters/estimate")?;
+        let shape = SketchShape {
+            grid,
+            directions,
+            slices,
+            omega_step,
+            every_sample: header.pointer("/summary/every_sample").and_then(Value::as_bool) == Some(true),
+            sketches: u32::try_from(sketches)
+                .map_err(|_| lacks("a smaller number at /parameters/estimate"))?,
+            seed: integer("/parameters/seed")?,
+        };
+        SketchSums::restored(shape, &part.values, part.marks).map(Content::Sketched)
+    } else {
+        let work = SweepWork {
+            sources: integer("/summary/sources")?,
+            iterations_total: integer("/summary/iterations_total")?,
+            iterations_max: integer("/summary/iterations_max")?,
+            cell_updates: integer("/summary/cell_updates")?,
+        };
+        let limited = integer("/summary/limited")?;
+        let finished = Finished { squares: part.values, done: part.marks, work, limited };
+        PartialVolume::restored(grid, directions, slices, omega_step, finished).map(Content::Exact)
+    };
+    let content = content.map_err(|e| match e {
+        // Where the numbers are counted.
+        LtgError::Length { what, .. } => (if what == "marks" { 32 } else { 24 }, e.to_string()),
+        e => meaning(&e),
+    })?;
     let shard = text("/shard")?;
     let shard =
         crate::args::values::parse_shard(&shard).map_err(|e| lacks(&format!("a shard at /shard: {e}")))?;
@@ -241,6 +389,6 @@ fn decoded(part: part::Part) -> Result<PartFile, (usize, String)> {
             threads: size("/summary/threads")?,
             backend: text("/summary/backend")?,
         },
-        volume,
+        content,
     })
 }

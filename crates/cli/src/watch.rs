@@ -1,6 +1,7 @@
 //! The clock, the progress line and the checkpoint of a sweep.
 
 use crate::checkpoint::Checkpoint;
+use crate::error::CliError;
 use crate::part_file::Costs;
 use crate::{interrupt, system};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -8,16 +9,20 @@ use std::cell::Cell;
 use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
-use tigereye_ltg::{PartialVolume, Phase, SweepObserver};
+use tigereye_ltg::{PartialVolume, Phase, SketchObserver, SketchSums, SweepObserver};
 
 thread_local! {
     /// What the thread is busy with, and since when.
     static BUSY: Cell<Option<(Phase, Instant)>> = const { Cell::new(None) };
 }
 
+/// Writes what there is of an estimate.
+pub(crate) type Preview<'a> = dyn Fn(&SketchSums) -> Result<(), CliError> + Sync + 'a;
+
 /// Watches a sweep.
-pub(crate) struct Watch {
+pub(crate) struct Watch<'a> {
     bar: ProgressBar,
     start: Instant,
     checkpoint: Option<Checkpoint>,
@@ -28,9 +33,18 @@ pub(crate) struct Watch {
     /// Nanoseconds of all threads together.
     propagation: AtomicU64,
     difference: AtomicU64,
+    preview: Option<&'a Preview<'a>>,
+    previewed: Mutex<Previewed>,
 }
 
-impl Watch {
+/// What was previewed last.
+#[derive(Default)]
+struct Previewed {
+    sketches: u32,
+    fault: Option<CliError>,
+}
+
+impl<'a> Watch<'a> {
     /// `start` is when the run began; `threads` the number of threads of the pool.
     pub(crate) fn new(
         name: &str,
@@ -42,10 +56,23 @@ impl Watch {
     ) -> Self {
         // Hidden by indicatif where standard error is no terminal.
         let bar = ProgressBar::new(0);
-        bar.set_style(style());
+        bar.set_style(style("sources"));
         bar.set_message(name.to_owned());
         let (propagation, difference) = (AtomicU64::new(0), AtomicU64::new(0));
-        Self { bar, start, checkpoint, before, threads, backend, propagation, difference }
+        let previewed = Mutex::new(Previewed::default());
+        let preview = None;
+        Self { bar, start, checkpoint, before, threads, backend, propagation, difference, preview, previewed }
+    }
+
+    /// Writes previews of an estimate with `preview`.
+    pub(crate) fn with_preview(self, preview: &'a Preview<'a>) -> Self {
+        Self { preview: Some(preview), ..self }
+    }
+
+    /// What went wrong with writing a checkpoint or a preview.
+    pub(crate) fn fault(&self) -> Option<CliError> {
+        let preview = self.previewed.lock().unwrap_or_else(PoisonError::into_inner).fault.take();
+        preview.or_else(|| self.checkpoint.as_ref().and_then(Checkpoint::fault))
     }
 
     /// Costs until now, those of earlier runs among them.
@@ -72,10 +99,10 @@ impl Watch {
 }
 
 /// A line with rate and time left.
-fn style() -> ProgressStyle {
-    let rate = |state: &ProgressState, out: &mut dyn Write| {
+fn style(unit: &'static str) -> ProgressStyle {
+    let rate = move |state: &ProgressState, out: &mut dyn Write| {
         // A line that cannot be formatted is no loss.
-        let _ = write!(out, "{:.0} sources/s", state.per_sec());
+        let _ = write!(out, "{:.0} {unit}/s", state.per_sec());
     };
     ProgressStyle::with_template("{msg} [{bar:30}] {percent:>3} % {rate}, {eta} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar())
@@ -83,7 +110,7 @@ fn style() -> ProgressStyle {
         .progress_chars("=> ")
 }
 
-impl SweepObserver for Watch {
+impl SweepObserver for Watch<'_> {
     fn busy(&self, with: Option<Phase>) {
         let now = Instant::now();
         if let Some((phase, since)) = BUSY.replace(with.map(|phase| (phase, now))) {
@@ -110,5 +137,40 @@ impl SweepObserver for Watch {
     fn finished(&self, volume: &PartialVolume) -> ControlFlow<()> {
         let Some(checkpoint) = &self.checkpoint else { return ControlFlow::Continue(()) };
         checkpoint.offer(volume, || self.costs())
+    }
+}
+
+impl SketchObserver for Watch<'_> {
+    fn busy(&self, with: Option<Phase>) {
+        SweepObserver::busy(self, with);
+    }
+
+    fn pulse(&self) -> ControlFlow<()> {
+        if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn finished(&self, sums: &SketchSums) -> ControlFlow<()> {
+        let (done, total) = (sums.sketches(), sums.shape().sketches);
+        if self.bar.length() != Some(total.into()) {
+            self.bar.set_style(style("sketches"));
+            self.bar.set_length(total.into());
+            self.bar.reset_eta();
+        }
+        self.bar.set_position(done.into());
+        if let Some(preview) = self.preview {
+            let mut previewed = self.previewed.lock().unwrap_or_else(PoisonError::into_inner);
+            // Four times as many sketches halve the error.
+            if done >= 4 * previewed.sketches {
+                previewed.sketches = done;
+                previewed.fault = preview(sums).err();
+                if previewed.fault.is_some() {
+                    return ControlFlow::Break(());
+                }
+            }
+        }
+        match &self.checkpoint {
+            Some(checkpoint) => checkpoint.offer(sums, || self.costs()),
+            None => ControlFlow::Continue(()),
+        }
     }
 }

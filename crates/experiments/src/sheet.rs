@@ -7,14 +7,16 @@ use tigereye_core::{
 };
 use tigereye_fields::{FieldError, images::resampled};
 use tigereye_lines::{Family, Interpolated, LineOptions, degenerate_points, ellipse_tensors, evenly_spaced};
-use tigereye_ltg::{LtgError, LtgSettings, SweepObserver, omega_step_of_slices, sweep};
+use tigereye_ltg::{
+    LtgError, LtgSettings, Shard, SweepObserver, linear_sweep_part, omega_step_of_slices, sweep,
+};
 use tigereye_render::{
     GlyphColour, GlyphOptions, HeatOptions, HeatScale, OrientationOptions, Overlay, Scene as Picture, glyphs,
     heat_map, orientation_map, small_multiples,
 };
 use tigereye_transport::{
-    EightLobe, Engine, Level, Light, Problem, Scattering, Scheme, SharedWeights, Stopping, StoppingRule,
-    TransportError,
+    EightLobe, Engine, Level, Light, LinearScattering, Problem, Scattering, ScatteringRule, Scheme,
+    SharedWeights, Stopping, StoppingRule, TransportError,
 };
 use tigereye_views::{gradient as gradient_view, light, line_overlay, point_overlays};
 
@@ -25,6 +27,8 @@ pub struct SheetOptions {
     pub title: String,
     /// How transmission profiles are scaled.
     pub normalization: Normalization,
+    /// What a cell does to light from several sides.
+    pub scattering: ScatteringRule,
     /// The cell that shines; where nobody says, the one nearest to the middle whose tensor is not zero.
     pub light: Option<Cell>,
     /// Direction of the gradient's slice, degrees, a multiple of 22.5.
@@ -185,8 +189,12 @@ fn lit(
         Cell::new(place(at.x, before.width(), after.width()), place(at.y, before.height(), after.height()));
     let field = &coarse;
     let transmission = TransmissionField::from_tensors(field, directions, options.normalization)?;
-    let scheme = Scheme::new(directions, SharedWeights::Thesis);
-    let stopping = Stopping { rule: StoppingRule::FluxChange { threshold: 1e-3 }, max_iterations: STEPS };
+    let scheme = Scheme::new(directions, SharedWeights::Thesis).with_scattering(options.scattering);
+    let rule = match options.scattering {
+        ScatteringRule::Joint => StoppingRule::FluxChange { threshold: 1e-3 },
+        ScatteringRule::Linear => StoppingRule::Converged { tolerance: 1e-6 },
+    };
+    let stopping = Stopping { rule, max_iterations: STEPS };
     let lights = [Light::continuous(source, PolarProfile::constant(directions, 1.0))];
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
     let outcome = EightLobe.propagate(&problem)?;
@@ -241,7 +249,14 @@ fn gradient(
         stopping: Stopping { max_iterations: PULSE_STEPS, ..Stopping::REFERENCE },
         ..LtgSettings::reference(directions)
     };
-    let outcome = sweep(&Scattering::new(&scheme, &transmission), &settings, &Shared(observer))?;
+    let scattering = Scattering::new(&scheme, &transmission);
+    let outcome = match options.scattering {
+        ScatteringRule::Joint => sweep(&scattering, &settings, &Shared(observer))?,
+        ScatteringRule::Linear => {
+            let linear = LinearScattering::new(&scattering);
+            linear_sweep_part(&linear, &settings, Shard::WHOLE, None, &Shared(observer))?.into_outcome()?
+        }
+    };
     let slice = outcome.volume.slice(sample).unwrap_or_else(|| field.map(|_| 0.0));
     let request = gradient_view::Request { cell, ..gradient_view::Request::default() };
     let title = format!("light transport gradient, {}°{size}", options.slice_deg);
@@ -266,6 +281,7 @@ mod tests {
         SheetOptions {
             title: "a field".to_owned(),
             normalization: Normalization::Local,
+            scattering: ScatteringRule::Joint,
             light: None,
             slice_deg: 90.0,
             cell: CellShape::SQUARE,

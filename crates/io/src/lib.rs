@@ -42,8 +42,8 @@ mod xml;
 pub use array_error::ArrayError;
 pub(crate) use convert::choose_array;
 pub use convert::{
-    ArrayChoice, Association, ChoiceError, LTG_ARRAY, LtgImage, PROVENANCE, Rows, SLICES, TENSOR_ARRAY,
-    Wanted, image_from_light, image_from_ltg, image_of_energy, ltg_from_image,
+    ArrayChoice, Association, ChoiceError, LTG_ARRAY, LTG_ERROR_ARRAY, LtgImage, PROVENANCE, Rows, SLICES,
+    TENSOR_ARRAY, Wanted, add_ltg_error, image_from_light, image_from_ltg, image_of_energy, ltg_from_image,
 };
 pub use error::IoError;
 pub use image::{ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData};

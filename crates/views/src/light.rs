@@ -11,6 +11,8 @@ pub const DECADES: f64 = 4.0;
 pub struct Request {
     /// Heading.
     pub title: String,
+    /// Quantity and unit for the legend; `None` for the energy of a cell.
+    pub quantity: Option<String>,
     /// Decades below the brightest cell; `None` for a linear scale.
     pub decades: Option<f64>,
     /// Cells of the lights, which are marked.
@@ -31,7 +33,7 @@ impl Request {
     pub fn into_options(self) -> HeatOptions {
         HeatOptions {
             title: self.title,
-            quantity: "energy of a cell / W".to_owned(),
+            quantity: self.quantity.unwrap_or_else(|| "energy of a cell / W".to_owned()),
             scale: self.decades.map_or(HeatScale::Linear, |decades| HeatScale::Logarithmic { decades }),
             sources: self.sources,
             walls: self.walls,

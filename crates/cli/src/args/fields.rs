@@ -1,10 +1,11 @@
 //! The command line of the test fields.
 
 use super::reading::ReadingArgs;
-use super::values::{parse_cell, parse_normalization};
+use super::values::{choice, parse_cell, parse_normalization};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
-use tigereye_core::Normalization;
+use tigereye_core::{Choice, Normalization};
+use tigereye_transport::ScatteringRule;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum FieldCommand {
@@ -50,6 +51,9 @@ pub(crate) struct FieldShowArgs {
     /// Direction of the gradient, degrees, a multiple of 22.5.
     #[arg(long, value_name = "DEG", default_value_t = 90.0)]
     pub(crate) slice_deg: f64,
+    /// What a cell does to light from several sides.
+    #[arg(long, default_value = ScatteringRule::Joint.word(), value_parser = choice::<ScatteringRule>())]
+    pub(crate) scattering: ScatteringRule,
     /// Scaling of transmission profiles; as `ltg` by default.
     #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
     pub(crate) normalization: Option<Normalization>,

@@ -2,14 +2,14 @@
 
 use super::reading::ReadingArgs;
 use super::values::{
-    choice, parse_bytes, parse_count, parse_directions, parse_normalization, parse_seconds, parse_shard,
-    parse_side, parse_threads, parse_threshold,
+    choice, parse_bytes, parse_count, parse_directions, parse_normalization, parse_percentage, parse_seconds,
+    parse_seed, parse_shard, parse_side, parse_sketches, parse_threads, parse_threshold,
 };
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use tigereye_core::{Choice, Directions, Normalization};
 use tigereye_ltg::{Precision, Shard};
-use tigereye_transport::StopMeasure;
+use tigereye_transport::{ScatteringRule, Scheme, SharedWeights, StopMeasure};
 
 /// What a computation may use.
 #[derive(Clone, Debug, Args)]
@@ -28,20 +28,38 @@ pub(crate) struct SchemeArgs {
     /// Angular samples S, a multiple of 8.
     #[arg(long, value_name = "N", default_value = "32", value_parser = parse_directions)]
     pub(crate) directions: Directions,
+    /// What a cell does to light from several sides.
+    #[arg(long, default_value = ScatteringRule::Joint.word(), value_parser = choice::<ScatteringRule>())]
+    pub(crate) scattering: ScatteringRule,
     /// Stop when the stopping rule's measure falls below F; 0 never stops early.
     #[arg(long, value_name = "F", default_value = "0.5", value_parser = parse_threshold, allow_hyphen_values = true)]
     pub(crate) threshold: f64,
     /// At most N+1 steps.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) max_iterations: usize,
-    /// What the threshold is compared with.
-    #[arg(long, default_value = StopMeasure::Flux.word(), value_parser = choice::<StopMeasure>())]
-    pub(crate) stop: StopMeasure,
+    /// What the threshold is compared with; `stationary` by default with linear scattering, `flux` otherwise.
+    #[arg(long, value_parser = choice::<StopMeasure>())]
+    pub(crate) stop: Option<StopMeasure>,
     /// global, local, local-above:F or local-above-global:F; `local` for generators and .txt, `global` otherwise.
     #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
     pub(crate) normalization: Option<Normalization>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
+}
+
+impl SchemeArgs {
+    /// The stopping rule's measure, asked for or usual.
+    pub(crate) fn stop(&self) -> StopMeasure {
+        self.stop.unwrap_or(match self.scattering {
+            ScatteringRule::Joint => StopMeasure::Flux,
+            ScatteringRule::Linear => StopMeasure::Stationary,
+        })
+    }
+
+    /// Weights, lobes and scattering.
+    pub(crate) fn scheme(&self) -> Scheme {
+        Scheme::new(self.directions, SharedWeights::Thesis).with_scattering(self.scattering)
+    }
 }
 
 #[derive(Debug, Args)]
@@ -59,6 +77,10 @@ pub(crate) struct PropagateArgs {
     /// Exactly N steps instead of a stopping rule.
     #[arg(long, value_name = "N", value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) steps: Option<usize>,
+    /// Importance instead of light: how much of what each cell emits in each direction arrives at this cell. A receiver:
+    /// column, row and, after a further comma, its sensitivity as an expression in `theta` (default 1).
+    #[arg(long, value_name = "X,Y[,PROFILE]", allow_hyphen_values = true, conflicts_with_all = ["lights", "impulse", "steps"])]
+    pub(crate) towards: Option<String>,
     /// Outputs by their extensions: .vti, .npy, .png, .svg; .pvd has a frame for every step, in the folder NAME beside
     /// NAME.pvd; .apng is an animation of the energy, a frame for every step or every n-th.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
@@ -99,9 +121,23 @@ pub(crate) struct LtgArgs {
     /// Only these angular slices (sample indices: 90 degrees are S/4); the output then holds just them, ascending.
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) slices: Option<Vec<usize>>,
-    /// Precision of the computation.
-    #[arg(long, default_value = Precision::F64.word(), value_parser = choice::<Precision>())]
-    pub(crate) precision: Precision,
+    /// Precision of the computation; f64 by default, f32 for an estimate.
+    #[arg(long, value_parser = choice::<Precision>())]
+    pub(crate) precision: Option<Precision>,
+    /// Estimate the gradient of linear scattering from N random sketches (16 to 1048576), with its standard error in the
+    /// array LTG_error.
+    #[arg(long, value_name = "N", value_parser = parse_sketches, allow_hyphen_values = true)]
+    pub(crate) estimate: Option<u32>,
+    /// Estimate it with as many sketches as this relative error takes.
+    #[arg(long, value_name = "P%", value_parser = parse_percentage, allow_hyphen_values = true, conflicts_with_all = ["estimate", "shard", "checkpoint"])]
+    pub(crate) error: Option<f64>,
+    /// Seed of the sketches; 0 by default.
+    #[arg(long, value_name = "K", value_parser = parse_seed, allow_hyphen_values = true)]
+    pub(crate) seed: Option<u64>,
+    /// Write what there is of an estimate to FILE (.vti, .npy, .png, .svg) as soon as there is some, and again each time
+    /// the error has halved.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) preview: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) resources: Resources,
     /// Write NAME.view.py beside NAME.vti: it opens the volume in ParaView with contours and a slice.

@@ -4,7 +4,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use tigereye_core::{Choice, CoreError, Directions, Normalization};
 use tigereye_fields::images::MAX_SIGMA;
 use tigereye_lines::Family;
-use tigereye_ltg::Shard;
+use tigereye_ltg::{FEWEST_SKETCHES, MOST_SKETCHES, Shard};
 
 pub(crate) fn parse_side(text: &str) -> Result<usize, String> {
     match text.parse() {
@@ -35,6 +35,31 @@ pub(crate) fn parse_threshold(text: &str) -> Result<f64, String> {
 
 pub(crate) fn parse_count(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "expected a whole number from 0".to_owned())
+}
+
+pub(crate) fn parse_sketches(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(n @ FEWEST_SKETCHES..=MOST_SKETCHES) => Ok(n),
+        _ => Err(format!("expected {FEWEST_SKETCHES} to {MOST_SKETCHES}")),
+    }
+}
+
+/// Largest seed: JSON keeps whole numbers up to it.
+const LARGEST_SEED: u64 = (1 << 53) - 1;
+
+pub(crate) fn parse_seed(text: &str) -> Result<u64, String> {
+    match text.parse() {
+        Ok(n @ 0..=LARGEST_SEED) => Ok(n),
+        _ => Err(format!("expected 0 to {LARGEST_SEED}")),
+    }
+}
+
+/// `3%` or `3`, as 0.03.
+pub(crate) fn parse_percentage(text: &str) -> Result<f64, String> {
+    match text.strip_suffix('%').unwrap_or(text).trim().parse::<f64>() {
+        Ok(percent @ 0.1..=50.0) => Ok(percent / 100.0),
+        _ => Err("expected a percentage from 0.1% to 50%".to_owned()),
+    }
 }
 
 pub(crate) fn parse_threads(text: &str) -> Result<usize, String> {

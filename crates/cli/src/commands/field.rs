@@ -79,6 +79,7 @@ pub(crate) fn show(args: &FieldShowArgs) -> Result<u8, CliError> {
     let options = SheetOptions {
         title: input.title.clone().unwrap_or_else(|| input.name.clone()),
         normalization: input.normalization(args.normalization),
+        scattering: args.scattering,
         light: args.light.map(|[x, y]| Cell::new(x, y)),
         slice_deg: args.slice_deg,
         cell: CellShape::of(input.geometry.spacing()),

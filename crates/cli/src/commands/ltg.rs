@@ -7,7 +7,7 @@ use crate::commands::{command_line, print_json, print_text, volume};
 use crate::error::CliError;
 use crate::input::insert_reading;
 use crate::medium::MediumInput;
-use crate::part_file::{self, Costs, Identity};
+use crate::part_file::{self, Content, Costs, Identity};
 use crate::watch::Watch;
 use crate::{files, interrupt, system};
 use serde_json::{Value, json};
@@ -15,15 +15,18 @@ use std::path::Path;
 use std::time::Instant;
 use tigereye_core::{Choice, Normalization};
 use tigereye_ltg::{
-    LtgError, LtgSettings, PartialVolume, Shard, check_fit, omega_step_of_volumes, sweep_part,
+    LtgError, LtgSettings, Precision, Shard, SketchSettings, SketchSums, SketchedGradient, check_fit,
+    check_linear_fit, linear_sweep_part, omega_step_of_volumes, sweep_part,
 };
-use tigereye_transport::{Scattering, Scheme, SharedWeights};
+use tigereye_transport::{LinearScattering, Scattering, ScatteringRule, StopMeasure, TransportError};
 
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
+    check_method(args)?;
     check_places(args)?;
     let start = Instant::now();
     let input = MediumInput::open(&args.input, &args.scheme.reading)?;
     input.check_apart(&args.outputs)?;
+    input.check_apart(args.preview.as_slice())?;
     let settings = settings_of(args)?;
     let normalization = input.normalization(args.scheme.normalization)?;
     let parameters = parameters(args, &settings, &input.normalization_name(normalization));
@@ -32,14 +35,15 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
         compute(args, &settings, normalization, &input, &identity, start)
     })?;
     interrupt::check()?;
-    let summary = part_file::summary(&computed, &identity, &costs);
+    let summary = computed.kept().summary(&identity, &costs);
     match (args.shard, args.outputs.as_slice()) {
         (Some(shard), [output]) => {
-            files::write(output, &part_file::encoded(&command_line(), &identity, shard, &computed, &costs))?;
+            let part = part_file::encoded(&command_line(), &identity, shard, computed.kept(), &costs);
+            files::write(output, &part)?;
         }
         _ => {
-            let outcome = computed.into_outcome().map_err(fault)?;
-            volume::write(&args.outputs, &outcome.volume, input.surfaces(), input.title(), &identity)?;
+            let gradient = computed.into_gradient().map_err(fault)?;
+            volume::write(&args.outputs, &gradient, input.surfaces(), input.title(), &identity)?;
             if args.view {
                 volume::write_scripts(&args.outputs, input.geometry())?;
             }
@@ -53,9 +57,42 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     Ok(0)
 }
 
+/// Refuses options that belong to another method than the one asked for.
+fn check_method(args: &LtgArgs) -> Result<(), CliError> {
+    let sketched = args.estimate.is_some() || args.error.is_some();
+    if args.scheme.scattering == ScatteringRule::Joint {
+        let asked = [(args.estimate.is_some(), "--estimate"), (args.error.is_some(), "--error")];
+        if let Some((_, option)) = asked.iter().find(|(asked, _)| *asked) {
+            let problem = "only linear scattering can be sketched: expected --scattering linear";
+            return Err(CliError::input(option, problem));
+        }
+    } else if let Some(stop) = args.scheme.stop.filter(|stop| *stop != StopMeasure::Stationary) {
+        let problem =
+            "gradients of linear scattering are those of the stationary state: expected --stop stationary";
+        return Err(CliError::input(&format!("--stop {}", stop.word()), problem));
+    }
+    if !sketched {
+        let asked = [(args.seed.is_some(), "--seed"), (args.preview.is_some(), "--preview")];
+        if let Some((_, option)) = asked.iter().find(|(asked, _)| *asked) {
+            return Err(CliError::input(
+                option,
+                "belongs to an estimate: expected --estimate N or --error P%",
+            ));
+        }
+    } else if args.precision == Some(Precision::F64) {
+        let problem = "sketches are solved in single precision, far below their own error: expected f32";
+        return Err(CliError::input("--precision", problem));
+    }
+    Ok(())
+}
+
 /// Refuses outputs before anything is computed.
 fn check_places(args: &LtgArgs) -> Result<(), CliError> {
     let is_part = |output: &Path| files::extension(output) == "part";
+    if let Some(preview) = &args.preview {
+        let all: Vec<_> = args.outputs.iter().filter(|o| !is_part(o)).chain([preview]).cloned().collect();
+        check_outputs(&all, &volume::ENDINGS)?;
+    }
     if args.view && !args.outputs.iter().any(|o| files::extension(o) == "vti") {
         return Err(CliError::input("--view", "opens a volume: expected an output .vti"));
     }
@@ -86,11 +123,16 @@ fn compute(
     input: &MediumInput,
     identity: &Identity,
     start: Instant,
-) -> Result<(PartialVolume, Costs), CliError> {
+) -> Result<(Content, Costs), CliError> {
     let (directions, shard) = (args.scheme.directions, args.shard.unwrap_or(Shard::WHOLE));
+    let sketched = args.estimate.is_some() || args.error.is_some();
     // Before anything large is made.
-    check_fit(input.grid(), directions, input.reflecting(), settings)
-        .map_err(|e| fault(of_program(args, e)))?;
+    let fits = match args.scheme.scattering {
+        ScatteringRule::Joint => check_fit(input.grid(), directions, input.reflecting(), settings),
+        ScatteringRule::Linear if sketched => Ok(()),
+        ScatteringRule::Linear => check_linear_fit(input.grid(), directions, settings),
+    };
+    fits.map_err(|e| fault(of_program(args, e)))?;
     let (checkpoint, found) = match &args.checkpoint {
         Some(folder) => {
             let (checkpoint, found) = Checkpoint::open(folder, command_line(), identity.clone(), shard)?;
@@ -98,19 +140,38 @@ fn compute(
         }
         None => (None, None),
     };
-    let (before, found) = found.map_or((Costs::default(), None), |f| (f.costs, Some(f.volume)));
+    let (before, found) = found.map_or((Costs::default(), None), |f| (f.costs, Some(f.content)));
     let threads = rayon::current_num_threads();
+    let preview = |sums: &SketchSums| preview(args, input, identity, sums);
     let watch = Watch::new(&args.input, start, checkpoint, before, threads, settings.level.name());
+    let watch = if args.preview.is_some() { watch.with_preview(&preview) } else { watch };
     let computed = match found {
-        Some(volume) if volume.missing(shard) == 0 => Ok(volume),
+        Some(content) if content.kept().missing(shard) == 0 => Ok(content),
         found => {
             let transmission = input.transmission(directions, normalization)?;
-            let scheme = Scheme::new(directions, SharedWeights::Thesis);
+            let scheme = args.scheme.scheme();
             let scattering = Scattering::new(&scheme, &transmission);
-            sweep_part(&scattering, settings, shard, found, &watch)
+            match (args.scheme.scattering, found) {
+                (ScatteringRule::Joint, found) => {
+                    let found = found.and_then(Content::exact);
+                    sweep_part(&scattering, settings, shard, found, &watch).map(Content::Exact)
+                }
+                (ScatteringRule::Linear, found) if sketched => {
+                    let linear = LinearScattering::new(&scattering);
+                    sketches(args, settings, &linear, found, &watch).map(Content::Sketched)
+                }
+                (ScatteringRule::Linear, found) => {
+                    let found = found.and_then(Content::exact);
+                    let linear = LinearScattering::new(&scattering);
+                    linear_sweep_part(&linear, settings, shard, found, &watch).map(Content::Exact)
+                }
+            }
         }
     };
     watch.finish();
+    if let Some(fault) = watch.fault() {
+        return Err(fault);
+    }
     if let Some(fault) = watch.checkpoint().and_then(Checkpoint::fault) {
         return Err(fault);
     }
@@ -119,8 +180,49 @@ fn compute(
         Err(LtgError::Interrupted { .. }) => {
             Err(watch.checkpoint().map_or(CliError::Interrupted, Checkpoint::interrupted))
         }
-        Err(e) => Err(fault(e)),
+        Err(e) => Err(fault(of_program(args, e))),
     }
+}
+
+/// Adds the sketches that an earlier run has not.
+fn sketches(
+    args: &LtgArgs,
+    settings: &LtgSettings,
+    field: &LinearScattering<'_>,
+    found: Option<Content>,
+    watch: &Watch<'_>,
+) -> Result<SketchSums, LtgError> {
+    let of_program = SketchSettings {
+        // For an error, a first guess at what it takes.
+        sketches: args.estimate.unwrap_or(PILOT_SKETCHES),
+        seed: args.seed.unwrap_or(0),
+        omega_step: settings.omega_step,
+        slices: settings.slices.clone(),
+        memory_bytes: settings.memory_bytes,
+        level: settings.level,
+    };
+    let gradient = SketchedGradient::new(field, of_program)?;
+    match args.error {
+        Some(error) => gradient.run_to_error(error, watch),
+        None => {
+            let found = found.and_then(Content::sketched).unwrap_or_else(|| gradient.sums());
+            gradient.run(args.shard.unwrap_or(Shard::WHOLE), found, watch)
+        }
+    }
+}
+
+/// Sketches that say how many a given error takes.
+const PILOT_SKETCHES: u32 = 128;
+
+/// Writes the estimate so far.
+fn preview(
+    args: &LtgArgs,
+    input: &MediumInput,
+    identity: &Identity,
+    sums: &SketchSums,
+) -> Result<(), CliError> {
+    let gradient = Content::Sketched(sums.clone()).into_gradient().map_err(fault)?;
+    volume::write(args.preview.as_slice(), &gradient, input.surfaces(), input.title(), identity)
 }
 
 /// Names the option behind a refusal.
@@ -130,6 +232,7 @@ fn fault(error: LtgError) -> CliError {
         LtgError::OmegaStep { .. } => CliError::input("--omega-step", error),
         LtgError::Slice { .. } | LtgError::NoSlices => CliError::input("--slices", error),
         LtgError::Memory { .. } => CliError::input("--memory", error),
+        LtgError::Stopping(TransportError::Trapped { .. }) => CliError::input("--scattering linear", error),
         LtgError::Stopping(_) => CliError::input("--threshold", error),
         LtgError::Sketches { .. } | LtgError::NoSketches => CliError::input("--estimate", error),
         LtgError::Shard { .. } => CliError::input("--shard", error),
@@ -168,7 +271,11 @@ fn settings_of(args: &LtgArgs) -> Result<LtgSettings, CliError> {
         slices: args.slices.clone(),
         memory_bytes: memory_bound(args).saturating_sub(PROGRAM_BYTES),
         level: system::level()?,
-        precision: args.precision,
+        precision: args.precision.unwrap_or(if args.estimate.is_some() || args.error.is_some() {
+            Precision::F32
+        } else {
+            Precision::F64
+        }),
     };
     settings.slices = Some(settings.checked_slices(args.scheme.directions).map_err(fault)?);
     Ok(settings)
@@ -181,7 +288,8 @@ fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: &str) -> Va
         "directions": args.scheme.directions.count(),
         "threshold": settings.stopping.rule.threshold(),
         "max_iterations": settings.stopping.max_iterations,
-        "stop": args.scheme.stop.word(),
+        "stop": args.scheme.stop().word(),
+        "scattering": args.scheme.scattering.word(),
         "omega_step": settings.omega_step,
         "normalization": normalization,
         "slices": settings.slices,
@@ -189,6 +297,11 @@ fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: &str) -> Va
         "threads": args.resources.threads.unwrap_or_else(rayon::current_num_threads),
         "memory": memory_bound(args),
     });
+    if args.estimate.is_some() || args.error.is_some() {
+        parameters["estimate"] = json!(args.estimate);
+        parameters["error"] = json!(args.error);
+        parameters["seed"] = json!(args.seed.unwrap_or(0));
+    }
     insert_reading(&mut parameters, &args.scheme.reading);
     parameters
 }

@@ -5,11 +5,11 @@ use crate::commands::propagate::check_outputs;
 use crate::commands::{print_json, print_text, volume};
 use crate::error::CliError;
 use crate::medium::read_scene;
-use crate::part_file::{self, Costs, Identity, PartFile};
+use crate::part_file::{self, Content, Costs, Identity, PartFile};
 use crate::{files, interrupt};
 use std::path::{Path, PathBuf};
 use tigereye_experiments::scene::{PreparedScene, is_scene_file};
-use tigereye_ltg::{PartialVolume, Shard};
+use tigereye_ltg::Shard;
 
 /// Names listed in a message.
 const LISTED: usize = 8;
@@ -28,10 +28,10 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     let mut taken: Vec<Taken> = Vec::new();
     let mut sum = None;
     for path in &args.parts {
-        let (part, volume) = read(path)?;
+        let (part, content) = read(path)?;
         sum = Some(match sum {
-            None => volume,
-            Some(sum) => added(sum, &taken, &part, &volume)?,
+            None => content,
+            Some(sum) => added(sum, &taken, &part, &content)?,
         });
         taken.push(part);
         interrupt::check()?;
@@ -41,14 +41,14 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     // The same provenance whatever the order on the command line.
     taken.sort_by_key(|part| part.shard.index());
     let identity = taken[0].identity.clone();
-    let summary = part_file::summary(&sum, &identity, &costs(&taken));
-    let outcome = sum.into_outcome().map_err(|e| CliError::input(&names(&taken), e))?;
+    let summary = sum.kept().summary(&identity, &costs(&taken));
+    let gradient = sum.into_gradient().map_err(|e| CliError::input(&names(&taken), e))?;
     let drawn = args.outputs.iter().any(|output| volume::is_picture(output));
     let scene = if drawn { scene_of(&identity, &args.outputs)? } else { None };
     let walls = scene.as_ref().map(|scene| &scene.layout.surfaces);
     let input = identity.parameters["input"].as_str().unwrap_or_default();
     let title = scene.as_ref().map_or(input, |scene| &scene.title);
-    volume::write(&args.outputs, &outcome.volume, walls, title, &identity)?;
+    volume::write(&args.outputs, &gradient, walls, title, &identity)?;
     if args.json {
         print_json(&summary)?
     } else {
@@ -75,29 +75,24 @@ fn scene_of(identity: &Identity, outputs: &[PathBuf]) -> Result<Option<PreparedS
     Ok(None)
 }
 
-fn read(path: &Path) -> Result<(Taken, PartialVolume), CliError> {
-    let PartFile { identity, shard, costs, volume } = part_file::read(path)?;
+fn read(path: &Path) -> Result<(Taken, Content), CliError> {
+    let PartFile { identity, shard, costs, content } = part_file::read(path)?;
     if let Some(problem) = identity.foreign_version() {
         return Err(CliError::input(&path.display().to_string(), problem));
     }
-    let done = volume.finished().done.clone();
-    Ok((Taken { name: path.display().to_string(), identity, shard, costs, done }, volume))
+    let done = content.kept().numbers().1.to_vec();
+    Ok((Taken { name: path.display().to_string(), identity, shard, costs, done }, content))
 }
 
 /// The sum with a further part, which must belong to it.
-fn added(
-    sum: PartialVolume,
-    taken: &[Taken],
-    part: &Taken,
-    volume: &PartialVolume,
-) -> Result<PartialVolume, CliError> {
+fn added(sum: Content, taken: &[Taken], part: &Taken, content: &Content) -> Result<Content, CliError> {
     let first = &taken[0];
     if let Some((what, one, other)) = first.identity.difference(&part.identity) {
         let problem =
             format!("do not belong together: {what} is {one} and {other}; expected parts of one sweep");
         return Err(CliError::input(&format!("{} and {}", first.name, part.name), problem));
     }
-    sum.merged(volume).map_err(|error| {
+    sum.merged(content).map_err(|error| {
         let overlaps = |other: &&Taken| other.done.iter().zip(&part.done).any(|(a, b)| *a && *b);
         let other = taken.iter().find(overlaps).unwrap_or(first);
         let problem =
@@ -107,19 +102,20 @@ fn added(
 }
 
 /// Names what is missing.
-fn check_complete(sum: &PartialVolume, taken: &[Taken]) -> Result<(), CliError> {
-    let total = sum.missing(Shard::WHOLE);
+fn check_complete(sum: &Content, taken: &[Taken]) -> Result<(), CliError> {
+    let total = sum.kept().missing(Shard::WHOLE);
     if total == 0 {
         return Ok(());
     }
     for part in taken {
         let range = part.shard.range(part.done.len());
-        let missing = sum.missing(part.shard);
+        let missing = sum.kept().missing(part.shard);
         if missing > 0 {
             let problem = format!(
-                "shard {} is not finished: {missing} of {} cells and sets are missing; expected a part that `ltg --shard` wrote",
+                "shard {} is not finished: {missing} of {} {} are missing; expected a part that `ltg --shard` wrote",
                 part.shard,
-                range.len()
+                range.len(),
+                sum.kept().unit()
             );
             return Err(CliError::input(&part.name, problem));
         }

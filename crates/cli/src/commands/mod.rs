@@ -8,6 +8,7 @@ pub(crate) mod drawing;
 pub(crate) mod field;
 pub(crate) mod ftle;
 pub(crate) mod glyphs;
+pub(crate) mod importance;
 pub(crate) mod info;
 pub(crate) mod lattice;
 pub(crate) mod lic;

@@ -1,7 +1,7 @@
 //! `tigereye propagate`: one light distribution.
 
 use crate::args::light::{Picture, PropagateArgs, SchemeArgs};
-use crate::commands::{command_line, counted, print_json, print_text};
+use crate::commands::{command_line, counted, importance, print_json, print_text};
 use crate::error::CliError;
 use crate::input::insert_reading;
 use crate::medium::MediumInput;
@@ -12,14 +12,16 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use tigereye_core::{Cell, CellShape, Choice, Field, LightDistribution, PolarProfile, StopReason, Surface};
+use tigereye_core::{
+    Cell, CellShape, Choice, Directions, Field, LightDistribution, PolarProfile, StopReason, Surface,
+};
 use tigereye_experiments::lights::profile_of_expression;
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{Rows, npy, pvd, vti};
 use tigereye_render::{PolarOptions, Scene, TransmissionScale, polar_overlay};
 use tigereye_transport::{
-    EightLobe, Emission, Engine, Light, Outcome, Problem, Scheme, SharedWeights, Stopping, StoppingRule,
+    EightLobe, Emission, Engine, Light, Outcome, Problem, ScatteringRule, Stopping, StoppingRule,
 };
 use tigereye_views::{Reel, light};
 
@@ -40,10 +42,13 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
             return Err(CliError::input(file, problem));
         }
     }
+    if let Some(receiver) = &args.towards {
+        return importance::importance(args, &input, receiver, start);
+    }
     let normalization = input.normalization(args.scheme.normalization)?;
     let lights = lights(args, &input)?;
     let transmission = input.transmission(args.scheme.directions, normalization)?;
-    let scheme = Scheme::new(args.scheme.directions, SharedWeights::Thesis);
+    let scheme = args.scheme.scheme();
     let stopping = args.steps.map_or_else(|| stopping_of(&args.scheme), Stopping::steps);
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
     let parameters = parameters(args, &stopping, &input.normalization_name(normalization));
@@ -62,8 +67,10 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     }
     let mut fault = None;
     let line = progress_line(&args.input, &stopping);
-    let outcome = EightLobe
-        .propagate_observed(&problem, &mut |view| {
+    // Who wants to see the steps makes them; otherwise a stationary state may be solved for.
+    let watched = !collections.is_empty() || reel.is_some() || scheme.scattering() == ScatteringRule::Joint;
+    let outcome = if watched {
+        EightLobe.propagate_observed(&problem, &mut |view| {
             line.set_position(view.step() as u64);
             if !collections.is_empty() {
                 let light = view.distribution();
@@ -75,7 +82,10 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
             let end = interrupt::asked() || fault.is_some();
             if end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })
-        .map_err(|e| CliError::input("--light", e))?;
+    } else {
+        EightLobe.propagate(&problem)
+    };
+    let outcome = outcome.map_err(|e| CliError::input("--light", e))?;
     line.finish_and_clear();
     interrupt::check()?;
     fault.map_or(Ok(()), Err)?;
@@ -242,9 +252,19 @@ fn lights(args: &PropagateArgs, input: &MediumInput) -> Result<Vec<Light>, CliEr
     Ok(own)
 }
 
-/// `X,Y[,PROFILE]`; the profile may hold commas itself.
+/// A light of an option.
 fn light(text: &str, args: &PropagateArgs) -> Result<Light, CliError> {
-    let fault = |problem: String| CliError::input(&format!("--light {text}"), problem);
+    let (cell, profile) = cell_and_profile("--light", text, args.scheme.directions)?;
+    Ok(if args.impulse { Light::impulse(cell, profile) } else { Light::continuous(cell, profile) })
+}
+
+/// `X,Y[,PROFILE]` of an option; the profile may hold commas itself and is 1 by default.
+pub(super) fn cell_and_profile(
+    option: &str,
+    text: &str,
+    directions: Directions,
+) -> Result<(Cell, PolarProfile), CliError> {
+    let fault = |problem: String| CliError::input(&format!("{option} {text}"), problem);
     let mut parts = text.splitn(3, ',');
     let mut coordinate = |name: &str| {
         let part = parts.next().unwrap_or_default().trim();
@@ -252,20 +272,19 @@ fn light(text: &str, args: &PropagateArgs) -> Result<Light, CliError> {
             .map_err(|_| fault(format!("`{part}` is no {name}: expected X,Y or X,Y,PROFILE")))
     };
     let cell = Cell::new(coordinate("column")?, coordinate("row")?);
-    let directions = args.scheme.directions;
     let profile = match parts.next() {
         None => PolarProfile::constant(directions, 1.0),
         Some(expression) => profile_of_expression(expression, directions).map_err(fault)?,
     };
-    Ok(if args.impulse { Light::impulse(cell, profile) } else { Light::continuous(cell, profile) })
+    Ok((cell, profile))
 }
 
 /// The stopping rule of the options.
-pub(crate) const fn stopping_of(args: &SchemeArgs) -> Stopping {
-    args.stop.stopping(args.threshold, args.max_iterations)
+pub(crate) fn stopping_of(args: &SchemeArgs) -> Stopping {
+    args.stop().stopping(args.threshold, args.max_iterations)
 }
 
-fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: &str) -> Value {
+pub(super) fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: &str) -> Value {
     let mut parameters = json!({
         "input": args.input,
         "light": args.lights,
@@ -274,7 +293,9 @@ fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: &str) ->
         "directions": args.scheme.directions.count(),
         "threshold": stopping.rule.threshold(),
         "max_iterations": stopping.max_iterations,
-        "stop": args.scheme.stop.word(),
+        "stop": args.scheme.stop().word(),
+        "scattering": args.scheme.scattering.word(),
+        "towards": args.towards,
         "normalization": normalization,
     });
     insert_reading(&mut parameters, &args.scheme.reading);

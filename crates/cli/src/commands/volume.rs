@@ -4,7 +4,7 @@ use crate::commands::command_line;
 use crate::commands::propagate::PNG_SCALE;
 use crate::error::CliError;
 use crate::files;
-use crate::part_file::Identity;
+use crate::part_file::{Gradient, Identity};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use tigereye_core::{CellShape, Choice, Field, LtgVolume, Surface};
@@ -61,31 +61,34 @@ pub(super) fn write_scripts(outputs: &[PathBuf], geometry: &PlaneGeometry) -> Re
 /// Writes a volume to every output. `title` heads pictures; the identity says what made it and where it lies.
 pub(super) fn write(
     outputs: &[PathBuf],
-    volume: &LtgVolume,
+    gradient: &Gradient,
     walls: Option<&Field<Option<Surface>>>,
     title: &str,
     identity: &Identity,
 ) -> Result<(), CliError> {
     let cell = CellShape::of(identity.geometry.spacing());
-    let drawn = || picture(title, volume, walls, cell);
-    outputs.iter().try_for_each(|output| files::write(output, &encoded(output, volume, &drawn, identity)?))
+    let drawn = || picture(title, &gradient.volume, walls, cell);
+    outputs.iter().try_for_each(|output| files::write(output, &encoded(output, gradient, &drawn, identity)?))
 }
 
 /// A volume in the format of the output's ending.
 fn encoded(
     output: &Path,
-    volume: &LtgVolume,
+    gradient: &Gradient,
     drawn: &dyn Fn() -> Scene,
     identity: &Identity,
 ) -> Result<Vec<u8>, CliError> {
     let name = output.display().to_string();
     match files::extension(output).as_str() {
-        "npy" => Ok(npy::write_ltg(volume)),
+        "npy" => Ok(npy::write_ltg(&gradient.volume)),
         "vti" => {
             let geometry = &identity.geometry;
             let parameters = with_rows(identity.parameters.clone(), Rows::of_results(geometry));
             let story = provenance(&command_line(), &parameters, &identity.input_blake3);
-            let image = tigereye_io::image_from_ltg(volume, geometry, &story);
+            let mut image = tigereye_io::image_from_ltg(&gradient.volume, geometry, &story);
+            if let Some(error) = &gradient.error {
+                tigereye_io::add_ltg_error(&mut image, error, geometry);
+            }
             vti::write(&image).map_err(|e| CliError::input(&name, e))
         }
         "png" => drawn().to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
@@ -118,6 +121,17 @@ const CAUGHT: usize = Stopping::REFERENCE.max_iterations + 1;
 /// A summary in one sentence; `stop` is the stopping rule as the option spells it.
 pub(super) fn sentence(summary: &Value, stop: &Value) -> String {
     let number = |v: &Value| v.as_f64().unwrap_or(f64::NAN);
+    if !summary["estimate"].is_null() {
+        return format!(
+            "{} sketches (seed {}), {:.2} s; LTG at most {:.6}, {:.6} on average, with a relative standard error of {:.1} %\n",
+            summary["estimate"],
+            summary["seed"],
+            number(&summary["seconds"]["total"]),
+            number(&summary["max"]),
+            number(&summary["mean"]),
+            100.0 * number(&summary["relative_error"]),
+        );
+    }
     if summary["sources"] == 0 {
         return "the field has no inner cells, or the shard none of them: every value is 0\n".to_owned();
     }

@@ -10,6 +10,8 @@ pub(crate) const VALID_POINTS: &str = "vtkValidPointMask";
 pub(crate) const GHOSTS: &str = "vtkGhostType";
 /// Name of the array that [`crate::image_from_ltg`] writes.
 pub const LTG_ARRAY: &str = "LTG";
+/// Name of the array of the standard errors of an estimate.
+pub const LTG_ERROR_ARRAY: &str = "LTG_error";
 /// Name of the array in the published volumes.
 pub(super) const PUBLISHED_ARRAY: &str = "Energy";
 /// Name of the array of energies.

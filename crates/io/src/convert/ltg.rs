@@ -3,7 +3,7 @@
 //! On a field that lies somewhere the rows run upwards. Otherwise row 0 is the field's first row and is **not**
 //! flipped, as in the published volumes.
 
-use super::arrays::{LTG_ARRAY, PROVENANCE, PUBLISHED_ARRAY, described};
+use super::arrays::{LTG_ARRAY, LTG_ERROR_ARRAY, PROVENANCE, PUBLISHED_ARRAY, described};
 use super::error::ChoiceError;
 use super::rows::{self, Rows};
 use crate::array_error::ArrayError;
@@ -62,6 +62,13 @@ pub fn image_from_ltg(volume: &LtgVolume, geometry: &PlaneGeometry, field_data_j
         image.field_data.push(FieldEntry { name: SLICES.to_owned(), values });
     }
     image
+}
+
+/// Adds the standard error of each value of a gradient to its image, as the array [`LTG_ERROR_ARRAY`].
+pub fn add_ltg_error(image: &mut ImageData, error: &LtgVolume, geometry: &PlaneGeometry) {
+    let sides = [error.grid().width(), error.grid().height()];
+    let values = Rows::of_results(geometry).from_top(error.values(), sides, 1);
+    image.point_arrays.push(DataArray::new(LTG_ERROR_ARRAY, 1, values));
 }
 
 /// Takes a volume out of an image: the array `LTG`, or `Energy` as in the published volumes, or the only array of one

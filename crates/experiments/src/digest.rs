@@ -3,7 +3,9 @@
 use crate::ids::RunId;
 use crate::plan::Plan;
 use crate::results::Results;
-use crate::runs::{FtleDigest, GradientDigest, LightDigest, PulsesDigest, RunOutcome, rounded};
+use crate::runs::{
+    FtleDigest, GradientDigest, ImportanceDigest, LightDigest, PulsesDigest, RunOutcome, rounded,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use tigereye_core::{Anisotropy, Field, Surface, Tensor2};
@@ -20,6 +22,8 @@ pub struct Digest {
     scenes: BTreeMap<String, SceneDigest>,
     lights: BTreeMap<String, LightDigest>,
     gradients: BTreeMap<String, GradientDigest>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    importance: BTreeMap<String, ImportanceDigest>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pulses: BTreeMap<String, PulsesDigest>,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -80,6 +84,7 @@ pub(crate) fn digest(plan: &Plan, results: &Results<'_>, outcome: &ExperimentOut
         scenes: scenes.collect(),
         lights: BTreeMap::new(),
         gradients: BTreeMap::new(),
+        importance: BTreeMap::new(),
         pulses: BTreeMap::new(),
         ftle: BTreeMap::new(),
         figures: outcome
@@ -110,6 +115,7 @@ pub(crate) fn digest(plan: &Plan, results: &Results<'_>, outcome: &ExperimentOut
         match results.outcome(RunId(i)) {
             Some(RunOutcome::Light(light)) => _ = digest.lights.insert(name(), light.digest()),
             Some(RunOutcome::Gradient(gradient)) => _ = digest.gradients.insert(name(), gradient.digest()),
+            Some(RunOutcome::Importance(found)) => _ = digest.importance.insert(name(), found.digest()),
             Some(RunOutcome::Pulses(pulses)) => _ = digest.pulses.insert(name(), pulses.digest()),
             Some(RunOutcome::Ftle(ftle)) => _ = digest.ftle.insert(name(), ftle.digest()),
             None => {}

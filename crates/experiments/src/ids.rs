@@ -31,6 +31,8 @@ run_ids!(
     LightId,
     /// A gradient.
     GradientId,
+    /// An importance.
+    ImportanceId,
     /// A study of pulses.
     PulsesId,
     /// Exponents on tensor lines.

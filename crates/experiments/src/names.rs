@@ -2,7 +2,9 @@
 
 use crate::fault::Faults;
 use crate::form::{Finite, Place, Placed};
-use crate::ids::{FieldId, FrameId, FtleId, GradientId, LightId, MediumId, PulsesId, RunId, SliceId};
+use crate::ids::{
+    FieldId, FrameId, FtleId, GradientId, ImportanceId, LightId, MediumId, PulsesId, RunId, SliceId,
+};
 use crate::lights::sample_of;
 use crate::media::{Media, NamedField};
 use crate::medium::Medium;
@@ -157,6 +159,10 @@ impl<'a, 'f> Names<'a, 'f> {
         self.run_of(name, "Gradient", GradientId, |plan| matches!(plan, RunPlan::Gradient(_)))
     }
 
+    pub(crate) fn importance(&mut self, name: &Placed<String>) -> Option<ImportanceId> {
+        self.run_of(name, "Importance", ImportanceId, |plan| matches!(plan, RunPlan::Importance(_)))
+    }
+
     pub(crate) fn pulses(&mut self, name: &Placed<String>) -> Option<PulsesId> {
         self.run_of(name, "Pulses", PulsesId, |plan| matches!(plan, RunPlan::Pulses(_)))
     }
@@ -288,6 +294,7 @@ impl<'a, 'f> Names<'a, 'f> {
         match self.plan(run)? {
             RunPlan::Light(plan) => Some(plan.setup.directions),
             RunPlan::Gradient(plan) => Some(plan.setup.directions),
+            RunPlan::Importance(plan) => Some(plan.setup.directions),
             RunPlan::Pulses(plan) => Some(plan.setup.directions),
             RunPlan::Ftle(_) => None,
         }

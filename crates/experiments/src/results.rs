@@ -1,8 +1,8 @@
 //! Outcomes of all runs, by id.
 
-use crate::ids::{FieldId, FrameId, FtleId, GradientId, LightId, PulsesId, RunId, SliceId};
+use crate::ids::{FieldId, FrameId, FtleId, GradientId, ImportanceId, LightId, PulsesId, RunId, SliceId};
 use crate::media::{Media, NamedField};
-use crate::runs::{RunOutcome, ftle, gradient, light, pulses};
+use crate::runs::{RunOutcome, ftle, gradient, importance, light, pulses};
 use crate::unavailable::{OrUndefined, Unavailable};
 use std::ops::Index;
 use tigereye_core::{Field, LightDistribution};
@@ -81,6 +81,7 @@ macro_rules! outcomes {
 outcomes! {
     LightId => Light(light::Outcome),
     GradientId => Gradient(gradient::Outcome),
+    ImportanceId => Importance(importance::Outcome),
     PulsesId => Pulses(pulses::Outcome),
     FtleId => Ftle(ftle::Outcome),
 }

@@ -3,7 +3,7 @@
 use super::numbers::{Fraction, NonNegative};
 use serde::Deserialize;
 use tigereye_core::{Below, Normalization};
-use tigereye_transport::{Stopping, StoppingRule};
+use tigereye_transport::{ScatteringRule, Stopping, StoppingRule};
 
 /// When something runs.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
@@ -31,9 +31,13 @@ pub enum NormalizationRule {
 }
 
 /// When a propagation ends.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum Stop {
+    /// The published programme's rule (`FluxChange` with threshold 0.5) for joint scattering, the stationary state for
+    /// linear.
+    #[default]
+    Usual,
     /// Change of the total flux below a threshold (the published programme).
     FluxChange {
         /// W.
@@ -58,12 +62,6 @@ pub enum Stop {
 
 fn thousand() -> usize {
     1000
-}
-
-impl Default for Stop {
-    fn default() -> Self {
-        Self::FluxChange { threshold: NonNegative::half(), max_iterations: thousand() }
-    }
 }
 
 /// Half-width K of the angular difference, in samples.
@@ -93,8 +91,12 @@ impl NormalizationRule {
 }
 
 impl Stop {
-    pub(crate) const fn stopping(self) -> Stopping {
+    pub(crate) const fn stopping(self, scattering: ScatteringRule) -> Stopping {
         match self {
+            Self::Usual => match scattering {
+                ScatteringRule::Joint => Stopping::REFERENCE,
+                ScatteringRule::Linear => Stopping::STATIONARY,
+            },
             Self::FluxChange { threshold, max_iterations } => {
                 Stopping { rule: StoppingRule::FluxChange { threshold: threshold.get() }, max_iterations }
             }

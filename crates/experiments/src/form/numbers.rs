@@ -64,12 +64,6 @@ impl Fraction {
     }
 }
 
-impl NonNegative {
-    pub(crate) const fn half() -> Self {
-        Self(0.5)
-    }
-}
-
 /// A number of directions, a multiple of 8.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(try_from = "usize")]

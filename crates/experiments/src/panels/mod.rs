@@ -43,6 +43,7 @@ panels! {
     ridges::Ridges,
     overlay::Overlay,
     energy::Energy,
+    importance::Importance,
     slice::Slice,
     flat::Flat,
     polar::Polar,

@@ -49,6 +49,7 @@ quantities! {
     light_difference::{LightDifference},
     light_end::{Steps, Stopped, TotalEnergy},
     light_symmetry::{LightSymmetry},
+    linear::{SuperpositionError, AdjointError, RelativeError},
     major_axis::{MajorAxisDeg, MajorAxisError},
     maps::{MapCorrelation, RidgeDistance},
     of_pulses::{OfPulses},

@@ -28,6 +28,14 @@ pub(crate) struct GradientDigest {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+pub(crate) struct ImportanceDigest {
+    pub(crate) directions: usize,
+    pub(crate) sweeps: usize,
+    /// Smallest, quartiles and largest importance of a cell and direction.
+    pub(crate) quantiles: [String; 5],
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct PulsesDigest {
     pub(crate) pulses: usize,
     pub(crate) settled: usize,

@@ -12,15 +12,16 @@ use crate::runs::setup::{RunResolver, Setup};
 use serde::Deserialize;
 use serde_json::json;
 use std::ops::ControlFlow;
-use tigereye_core::{Field, LtgVolume, Surface};
+use tigereye_core::{Field, LtgVolume, Surface, SweepWork};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{IoError, image_from_ltg, vti};
 use tigereye_ltg::{
-    LtgError, LtgOutcome, LtgSettings, Precision, SweepObserver, check_fit, omega_step_of_slices,
-    omega_step_of_volumes, sweep,
+    FEWEST_SKETCHES, LtgError, LtgOutcome, LtgSettings, MOST_SKETCHES, Precision, Shard, SketchObserver,
+    SketchSettings, SketchSums, SketchedGradient, SweepObserver, check_fit, check_linear_fit,
+    linear_sweep_part, omega_step_of_slices, omega_step_of_volumes, sweep,
 };
 use tigereye_report::DataFile;
-use tigereye_transport::{Scattering, Scheme, SharedWeights, StoppingRule};
+use tigereye_transport::{LinearScattering, Scattering, ScatteringRule, SharedWeights, StoppingRule};
 use tigereye_views::gradient::where_result;
 
 /// The light transport gradient of a field.
@@ -38,6 +39,16 @@ pub struct Gradient {
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
+    /// What a cell does to light from several sides. With linear scattering, every pulse is solved to its stationary
+    /// state.
+    #[serde(default)]
+    scattering: Chosen<ScatteringRule>,
+    /// Number of sketches, 16 to 1048576, that a gradient with linear scattering is estimated from; left out: exact.
+    #[serde(default)]
+    estimate: Option<u32>,
+    /// Seed of the sketches.
+    #[serde(default)]
+    seed: u32,
     /// When each propagation ends.
     #[serde(default)]
     stop: Stop,
@@ -60,11 +71,21 @@ pub(crate) struct Plan {
     omega_step: usize,
     /// Sample indices; `None`: all.
     pub(crate) slices: Option<Vec<usize>>,
+    /// Number of sketches of an estimate.
+    pub(crate) estimate: Option<u32>,
+    seed: u32,
 }
 
 impl Gradient {
     pub(crate) fn resolve(&self, run: &mut RunResolver<'_, '_>) -> Option<Plan> {
-        let setup = run.setup(&self.field, self.directions, self.normalization, self.weights, self.stop)?;
+        let setup = run.setup(
+            &self.field,
+            self.directions,
+            self.normalization,
+            self.weights,
+            self.scattering,
+            self.stop,
+        )?;
         let s = setup.directions.count();
         let omega_step = match self.omega_step {
             OmegaStep::Volumes => omega_step_of_volumes(setup.directions),
@@ -86,8 +107,25 @@ impl Gradient {
             run.fault(": a gradient of 0 steps: expected 1 or more");
             return None;
         }
+        let is_linear = setup.scattering == ScatteringRule::Linear;
+        if is_linear && !matches!(setup.stopping.rule, StoppingRule::Converged { .. }) {
+            run.fault(
+                ": gradients of linear scattering are those of the stationary state: expected no `stop`",
+            );
+            return None;
+        }
+        if let Some(sketches) = self.estimate {
+            if !is_linear {
+                run.fault(": only linear scattering can be estimated: expected `scattering: Linear`");
+                return None;
+            }
+            if !(FEWEST_SKETCHES..=MOST_SKETCHES).contains(&sketches) {
+                run.fault(&format!(": {sketches} sketches: expected {FEWEST_SKETCHES} to {MOST_SKETCHES}"));
+                return None;
+            }
+        }
         let slices = self.slices_deg.is_some().then_some(slices);
-        Some(Plan { setup, omega_step, slices })
+        Some(Plan { setup, omega_step, slices, estimate: self.estimate, seed: self.seed })
     }
 }
 
@@ -95,6 +133,8 @@ impl Gradient {
 #[derive(Debug)]
 pub(crate) struct Outcome {
     pub(crate) outcome: LtgOutcome,
+    /// The relative standard error of an estimate (root mean square over all values).
+    pub(crate) relative_error: Option<f64>,
     /// What the cells are, in a scene.
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
 }
@@ -123,16 +163,54 @@ impl Plan {
         };
         // Before anything large is made.
         let walls = medium.scene().map_or(0, |scene| scene.layout.reflecting());
-        check_fit(medium.grid(), self.setup.directions, walls, &settings).map_err(failed)?;
+        let fits = match (self.setup.scattering, self.estimate) {
+            (ScatteringRule::Joint, _) => check_fit(medium.grid(), self.setup.directions, walls, &settings),
+            (ScatteringRule::Linear, None) => {
+                check_linear_fit(medium.grid(), self.setup.directions, &settings)
+            }
+            (ScatteringRule::Linear, Some(_)) => Ok(()),
+        };
+        fits.map_err(failed)?;
         let transmission = self.setup.transmission(name, medium)?;
-        let scheme = Scheme::new(self.setup.directions, self.setup.weights);
+        let scheme = self.setup.scheme();
         let scattering = Scattering::new(&scheme, &transmission);
-        let outcome =
-            sweep(&scattering, &settings, &Watch { name, host }).map_err(|source| match source {
-                LtgError::Interrupted { .. } => RunError::Interrupted,
-                source => failed(source),
-            })?;
-        Ok(Outcome { outcome, surfaces: medium.scene().map(|scene| scene.layout.surfaces.clone()) })
+        let watch = Watch { name, host };
+        let found = match self.setup.scattering {
+            ScatteringRule::Joint => sweep(&scattering, &settings, &watch).map(|outcome| (outcome, None)),
+            ScatteringRule::Linear => self.linear(&LinearScattering::new(&scattering), settings, &watch),
+        };
+        let (outcome, relative_error) = found.map_err(|source| match source {
+            LtgError::Interrupted { .. } => RunError::Interrupted,
+            source => failed(source),
+        })?;
+        let surfaces = medium.scene().map(|scene| scene.layout.surfaces.clone());
+        Ok(Outcome { outcome, relative_error, surfaces })
+    }
+
+    /// The gradient of linear scattering, exact or estimated.
+    fn linear(
+        &self,
+        field: &LinearScattering<'_>,
+        settings: LtgSettings,
+        watch: &Watch<'_>,
+    ) -> Result<(LtgOutcome, Option<f64>), LtgError> {
+        let Some(sketches) = self.estimate else {
+            let volume = linear_sweep_part(field, &settings, Shard::WHOLE, None, watch)?;
+            return Ok((volume.into_outcome()?, None));
+        };
+        let LtgSettings { omega_step, slices, memory_bytes, level, .. } = settings;
+        let settings =
+            SketchSettings { sketches, seed: self.seed.into(), omega_step, slices, memory_bytes, level };
+        let gradient = SketchedGradient::new(field, settings)?;
+        let found = gradient.run(Shard::WHOLE, gradient.sums(), watch)?.estimate()?;
+        let outcome = LtgOutcome { volume: found.volume, work: SweepWork::default(), limited: 0 };
+        Ok((outcome, Some(found.relative_error)))
+    }
+}
+
+impl SketchObserver for Watch<'_> {
+    fn finished(&self, sums: &SketchSums) -> ControlFlow<()> {
+        self.host.progress(self.name, sums.sketches().into(), sums.shape().sketches.into())
     }
 }
 
@@ -193,7 +271,11 @@ impl Outcome {
         command: &str,
         media: &Media,
     ) -> Result<DataFile, IoError> {
-        let own = json!({ "omega_step": plan.omega_step, "slices": plan.slices });
+        let mut own = json!({ "omega_step": plan.omega_step, "slices": plan.slices });
+        if plan.estimate.is_some() {
+            own["estimate"] = json!(plan.estimate);
+            own["seed"] = json!(plan.seed);
+        }
         let story = plan.setup.story(command, media, own);
         let image = image_from_ltg(self.volume(), &PlaneGeometry::UNPLACED, &story);
         Ok(DataFile { name: format!("{name}.vti"), bytes: vti::write(&image)? })

@@ -20,7 +20,7 @@ use tigereye_core::{Cell, Field, LightDistribution, StopReason, Surface, Transmi
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{IoError, image_from_light, vti};
 use tigereye_report::DataFile;
-use tigereye_transport::{Problem, Scheme, SharedWeights, StepView, StoppingRule, TransportError};
+use tigereye_transport::{Problem, ScatteringRule, SharedWeights, StepView, StoppingRule, TransportError};
 use tigereye_views::Reel;
 
 /// Light from some cells.
@@ -38,6 +38,9 @@ pub struct Light {
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
+    /// What a cell does to light from several sides.
+    #[serde(default)]
+    scattering: Chosen<ScatteringRule>,
     /// The lights; a scene's own where there are none.
     #[serde(default)]
     lights: Vec<LightSource>,
@@ -96,7 +99,14 @@ fn common_divisor(a: usize, b: usize) -> usize {
 
 impl Light {
     pub(crate) fn resolve(&self, run: &mut RunResolver<'_, '_>) -> Option<Plan> {
-        let setup = run.setup(&self.field, self.directions, self.normalization, self.weights, self.stop)?;
+        let setup = run.setup(
+            &self.field,
+            self.directions,
+            self.normalization,
+            self.weights,
+            self.scattering,
+            self.stop,
+        )?;
         let medium = run.media.medium(setup.medium);
         let lights = match medium.scene() {
             Some(scene) if self.lights.is_empty() => {
@@ -133,6 +143,8 @@ impl Light {
 pub(crate) struct Outcome {
     pub(crate) transmission: TransmissionField,
     pub(crate) sources: Vec<Cell>,
+    /// What each light emits, W/rad.
+    pub(crate) emitted: Vec<(Cell, Vec<f64>)>,
     pub(crate) last: LightDistribution,
     pub(crate) frames: BTreeMap<usize, LightDistribution>,
     /// Energy in the grid before the first step and after each, W.
@@ -164,7 +176,7 @@ impl Plan {
     ) -> Result<Outcome, RunError> {
         let medium = media.medium(self.setup.medium);
         let transmission = self.setup.transmission(name, medium)?;
-        let scheme = Scheme::new(self.setup.directions, self.setup.weights);
+        let scheme = self.setup.scheme();
         let problem = Problem {
             scheme: &scheme,
             transmission: &transmission,
@@ -201,17 +213,28 @@ impl Plan {
             }
             ControlFlow::Continue(())
         };
-        let outcome = self
-            .engine
-            .engine()
-            .propagate_observed(&problem, &mut observe)
-            .map_err(|source| RunError::Propagation { run: name.to_owned(), source })?;
+        let engine = self.engine.engine();
+        // Where nobody looks at the steps, a stationary state may be solved for.
+        let outcome = if self.setup.scattering == ScatteringRule::Linear && *kept == Kept::default() {
+            engine.propagate(&problem)
+        } else {
+            engine.propagate_observed(&problem, &mut observe)
+        };
+        let outcome = outcome.map_err(|source| RunError::Propagation { run: name.to_owned(), source })?;
+        if energies.len() == 1 {
+            energies.push(outcome.distribution.total_energy());
+        }
         if interrupted {
             return Err(RunError::Interrupted);
         }
         let scene = medium.scene();
         Ok(Outcome {
             sources: self.lights.iter().map(|l| l.cell).collect(),
+            emitted: self
+                .lights
+                .iter()
+                .map(|l| (l.cell, l.initial_profile(self.setup.directions).samples().to_vec()))
+                .collect(),
             last: outcome.distribution,
             frames,
             energies,

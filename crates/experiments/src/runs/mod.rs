@@ -8,11 +8,12 @@ mod digest;
 mod error;
 pub mod ftle;
 pub mod gradient;
+pub mod importance;
 pub mod light;
 pub mod pulses;
 mod setup;
 
-pub(crate) use digest::{FtleDigest, GradientDigest, LightDigest, PulsesDigest, rounded};
+pub(crate) use digest::{FtleDigest, GradientDigest, ImportanceDigest, LightDigest, PulsesDigest, rounded};
 pub use error::RunError;
 pub(crate) use setup::RunResolver;
 
@@ -120,6 +121,8 @@ runs! {
     light::Light,
     /// The light transport gradient of a field.
     gradient::Gradient,
+    /// Where the light at a receiver comes from.
+    importance::Importance,
     /// How pulses come to rest.
     pulses::Pulses,
     /// The finite-time Lyapunov exponent of the field's lines.

@@ -130,7 +130,14 @@ pub(crate) struct Plan {
 
 impl Pulses {
     pub(crate) fn resolve(&self, run: &mut RunResolver<'_, '_>) -> Option<Plan> {
-        let setup = run.setup(&self.field, self.directions, self.normalization, self.weights, self.stop)?;
+        let setup = run.setup(
+            &self.field,
+            self.directions,
+            self.normalization,
+            self.weights,
+            Chosen::default(),
+            self.stop,
+        )?;
         let grid = run.media.medium(setup.medium).grid();
         let before = run.faults.len();
         let mut samples = Vec::new();
@@ -340,6 +347,7 @@ mod tests {
     use crate::ids::FieldId;
     use crate::media::NamedField;
     use tigereye_core::{CellShape, Directions, Grid, Normalization, Svd, Tensor2};
+    use tigereye_transport::ScatteringRule;
 
     fn no_file(path: &str) -> Result<Vec<u8>, String> {
         Err(path.to_owned())
@@ -351,6 +359,7 @@ mod tests {
             directions: Directions::new(16).expect("a multiple of 8"),
             normalization: Normalization::Local,
             weights: SharedWeights::Thesis,
+            scattering: ScatteringRule::Joint,
             stopping: Stopping::REFERENCE,
         };
         let named = NamedField { name: String::new(), field: field.clone(), cell: CellShape::SQUARE };

@@ -11,7 +11,7 @@ use tigereye_core::{Choice, Directions, Normalization, TransmissionField};
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::Rows;
 use tigereye_io::volume::PlaneGeometry;
-use tigereye_transport::{SharedWeights, Stopping};
+use tigereye_transport::{ScatteringRule, Scheme, SharedWeights, Stopping};
 
 /// What runs of light, gradients and pulses share.
 #[derive(Clone, Debug)]
@@ -24,11 +24,18 @@ pub(crate) struct Setup {
     pub(crate) normalization: Normalization,
     /// Cone weights of the overlap.
     pub(crate) weights: SharedWeights,
+    /// What a cell does to light from several sides.
+    pub(crate) scattering: ScatteringRule,
     /// When each propagation ends.
     pub(crate) stopping: Stopping,
 }
 
 impl Setup {
+    /// Weights, lobes and scattering.
+    pub(crate) fn scheme(&self) -> Scheme {
+        Scheme::new(self.directions, self.weights).with_scattering(self.scattering)
+    }
+
     /// What the cells do to light.
     pub(crate) fn transmission(&self, run: &str, medium: Medium<'_>) -> Result<TransmissionField, RunError> {
         let failed = |source| RunError::Field { run: run.to_owned(), source };
@@ -49,6 +56,7 @@ impl Setup {
             "threshold": self.stopping.rule.threshold(),
             "max_iterations": self.stopping.max_iterations,
             "weights": self.weights.file_name(),
+            "scattering": self.scattering.word(),
         });
         if let (Some(all), Value::Object(own)) = (parameters.as_object_mut(), own) {
             all.extend(own);
@@ -93,6 +101,7 @@ impl RunResolver<'_, '_> {
         directions: DirectionCount,
         normalization: NormalizationRule,
         weights: Chosen<SharedWeights>,
+        scattering: Chosen<ScatteringRule>,
         stop: Stop,
     ) -> Option<Setup> {
         let medium = self.medium(field)?;
@@ -105,7 +114,8 @@ impl RunResolver<'_, '_> {
             directions: directions.0,
             normalization: normalization.normalization(),
             weights: weights.0,
-            stopping: stop.stopping(),
+            scattering: scattering.0,
+            stopping: stop.stopping(scattering.0),
         })
     }
 }

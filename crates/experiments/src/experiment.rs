@@ -23,21 +23,21 @@ pub struct Experiment {
     pub(crate) section: String,
     /// The sentence that the figures support or examine.
     pub(crate) claim: String,
-    /// What to look for, for someone who has not read the source.
+    /// What to look for, for readers who do not know the source.
     pub(crate) look_for: String,
     /// When the whole experiment runs.
     #[serde(default)]
     pub(crate) scope: Scope,
-    /// Data files that are not part of the project; where one is missing, the experiment is left out and says so.
+    /// Data files that are not part of the project; if one is missing, the experiment is skipped with a message.
     #[serde(default)]
     pub needs: Vec<String>,
     /// Tensor fields by name.
     #[serde(default)]
     pub(crate) fields: Named<FieldSource>,
-    /// Scenes by name, each in a file `NAME.scene.ron` beside this one. Runs of light take them where they take fields.
+    /// Scenes by name, each in a file `NAME.scene.ron` beside this one. Light runs accept them in place of fields.
     #[serde(default)]
     pub(crate) scenes: Named<Placed<String>>,
-    /// Propagations, gradients and studies of pulses by name, in order.
+    /// Propagations, gradients, pulse studies and FTLE fields by name, in order.
     #[serde(default)]
     pub(crate) runs: Named<Run>,
     /// Pictures.
@@ -45,7 +45,7 @@ pub struct Experiment {
     /// Tables of results.
     #[serde(default)]
     pub(crate) tables: Vec<Table>,
-    /// What must hold.
+    /// Statements that must hold.
     pub(crate) checks: Vec<Check>,
 }
 
@@ -53,30 +53,30 @@ pub struct Experiment {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Figure {
-    /// File name without ending.
+    /// File name without extension.
     pub(crate) name: Placed<String>,
-    /// What is seen, in one or two sentences.
+    /// What it shows, in one or two sentences.
     pub(crate) caption: String,
-    /// Panels side by side; a panel that needs a run of another scope is left out.
+    /// Panels side by side; panels whose runs are not in scope are omitted.
     pub(crate) panels: Vec<Panel>,
     /// Panels per row.
     #[serde(default = "three")]
     pub(crate) columns: usize,
-    /// The steps of a light run, to be watched beside the picture.
+    /// The steps of a light run, animated beside the picture.
     #[serde(default)]
     pub(crate) animation: Option<Animation>,
 }
 
-/// Energies after the steps of a light run, one scale for all, as an animated PNG of the figure's name.
+/// Energies after the steps of a light run on a common scale, as an animated PNG named after the figure.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Animation {
     /// Name of the light run.
     pub(crate) run: Placed<String>,
-    /// Every how many steps there is a frame; more where there would be too many.
+    /// Steps per frame; increased if there would be too many frames.
     #[serde(default = "one")]
     pub(crate) every: NonZeroUsize,
-    /// Decades below the brightest cell that is no light.
+    /// Decades shown below the brightest cell that is not a light.
     #[serde(default)]
     pub(crate) decades: Option<Positive>,
 }
@@ -95,13 +95,13 @@ const fn three() -> usize {
 pub struct Table {
     /// Heading.
     pub(crate) title: String,
-    /// What is seen, in one or a few sentences.
+    /// What it shows, in one or a few sentences.
     pub(crate) caption: String,
     /// What it shows.
     pub(crate) rows: TableRows,
 }
 
-/// A statement about a number of this run.
+/// A statement about a number in the results.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Check {
@@ -109,13 +109,13 @@ pub struct Check {
     pub(crate) name: String,
     /// The number.
     pub(crate) quantity: Quantity,
-    /// What it must be.
+    /// The expected value.
     pub(crate) expect: Expectation,
-    /// Why it must be so.
+    /// The reason for the expectation.
     pub(crate) basis: String,
 }
 
-/// What a number must be.
+/// The expected value of a number.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 pub enum Expectation {
     /// The first number, give or take the second (same unit).

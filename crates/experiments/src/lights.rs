@@ -26,7 +26,7 @@ pub(crate) fn sample_of(degrees: f64, directions: Directions) -> Result<usize, S
 pub enum LightValue {
     /// Where it stands.
     Cell,
-    /// What it shines.
+    /// Its intensity by direction.
     Profile,
 }
 

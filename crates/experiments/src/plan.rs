@@ -59,7 +59,7 @@ pub(crate) struct PlannedAnimation {
     pub(crate) light: LightId,
     /// Every how many steps there is a frame.
     pub(crate) every: usize,
-    /// Decades below the brightest cell that is no light.
+    /// Decades shown below the brightest cell that is not a light.
     pub(crate) decades: Option<f64>,
 }
 

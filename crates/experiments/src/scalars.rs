@@ -42,23 +42,23 @@ pub enum MapSource {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum RidgeSource {
-    /// Those of one scalar.
+    /// Ridges of one scalar.
     Of(MapSource),
-    /// Those of every direction of a gradient, together.
+    /// Ridges of every direction of a gradient, combined.
     EverySlice {
         /// Name of the gradient run.
         run: Placed<String>,
     },
 }
 
-/// A number of the distances of one set of ridges from another, over the length of the first.
+/// A statistic of the distances of one set of ridges from another, over the length of the first.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 pub enum DistanceNumber {
     /// Mean distance, cells.
     Mean,
     /// The distance below which 95 % lie, cells.
     Most,
-    /// Share within so many cells.
+    /// Share within this many cells.
     ShareWithin(NonNegative),
 }
 

@@ -36,7 +36,7 @@ pub fn is_scene_file(name: &str) -> bool {
 /// A scene, ready to be built for any number of directions.
 #[derive(Clone, Debug)]
 pub struct PreparedScene {
-    /// What it is.
+    /// Heading.
     pub title: String,
     /// Its parts.
     pub scene: Scene,

@@ -5,12 +5,9 @@
 //! cell behind it, so the two states need no clearing between steps.
 
 use crate::linear::{Band, banded};
-use crate::scattering::{CellScattering, Scattering};
+use crate::scattering::{CellScattering, Lobes, NOTHING_PASSES, Scattering};
 use crate::window::Window;
 use tigereye_core::{Cell, Grid, NEIGHBOUR_OFFSETS};
-
-/// Eight fluxes, W.
-pub(crate) type Lobes = [f64; 8];
 
 /// Where cells lie in a padded buffer.
 #[derive(Clone, Copy, Debug)]
@@ -45,10 +42,6 @@ pub(crate) fn scattered(m: &CellScattering, a: &Lobes) -> Lobes {
 pub(crate) fn sum_of_eight(a: &Lobes) -> f64 {
     ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]))
 }
-
-/// A cell that lets through less than this part of what arrives lets nothing through: the quotient that makes up for it
-/// would overflow, and no light is left of it at this scale.
-pub(crate) const NOTHING_PASSES: f64 = 1e-290;
 
 /// `Phi = Tbar energy (M a) / sum(M a)`; nothing where nothing passes.
 pub(crate) fn normalized(rate: f64, energy: f64, ma: &Lobes) -> Lobes {

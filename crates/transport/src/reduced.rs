@@ -1,8 +1,8 @@
 //! The reduced eight-lobe engine: the same numbers as [`crate::SampleSpace`] from eight fluxes a cell.
 
-use crate::kernel::{Buffers, Lobes, NOTHING_PASSES, normalized, scattered, sum_of_eight};
+use crate::kernel::{Buffers, normalized, scattered, sum_of_eight};
 use crate::linear::{self, Band};
-use crate::scattering::Scattering;
+use crate::scattering::{Lobes, NOTHING_PASSES, Scattering};
 use crate::sectors::Sectors;
 use crate::stopping::{StepMeasures, Verdict};
 use crate::window::Window;

@@ -13,6 +13,13 @@ use crate::pulses::{Passage, SectorSums, Walls};
 use std::sync::OnceLock;
 use tigereye_core::{Cell, Grid, TransmissionField};
 
+/// Eight fluxes, W.
+pub(crate) type Lobes = [f64; 8];
+
+/// A cell that lets through less than this part of what arrives lets nothing through: the quotient that makes up for it
+/// would overflow, and no light is left of it at this scale.
+pub(crate) const NOTHING_PASSES: f64 = 1e-290;
+
 /// Scattering of one cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CellScattering {

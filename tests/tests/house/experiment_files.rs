@@ -1,4 +1,4 @@
-//! The page about experiment files is made of the types that parse them.
+//! The reference of experiment files is generated from the types that parse them.
 
 use crate::forms::{Content, Default, Form, Forms, Key, Parts, path_of};
 use crate::root;
@@ -14,12 +14,13 @@ const PAGE: &str = "docs/reference/experiment-files.md";
 
 const INTRODUCTION: &str = "# Experiment files
 
-<!-- Made from the types that parse the files by `TIGEREYE_BLESS=1 cargo test -p tigereye-tests --test house`. -->
+<!-- Generated from the types that parse the files by `TIGEREYE_BLESS=1 cargo test -p tigereye-tests --test house`. -->
 
-An experiment is a file `NAME.ron` with one value, `(key: value, ...)`, in [RON](https://github.com/ron-rs/ron). Texts stand in
-quotes, names of kinds do not; a kind with keys is written `Kind(key: value, ...)`, a list `[...]`, named things
-`{\"name\": value, ...}`. Keys that have a default may be left out. Unknown keys and numbers out of range are refused with their line and
-column: `tigereye check NAME.ron` says so without running anything. `tigereye field new NAME --experiment` writes one to begin with.
+An experiment is a file `NAME.ron` with one value, `(key: value, ...)`, in [RON](https://github.com/ron-rs/ron).
+Texts are quoted, names of kinds are not; a kind with keys is written `Kind(key: value, ...)`, a list `[...]`, and a map
+`{\"name\": value, ...}`. Keys with a default are optional. Unknown keys and numbers out of range are refused with their
+line and column; `tigereye check NAME.ron` reports them without running anything. `tigereye field new NAME --experiment`
+writes an experiment to start from.
 ";
 
 /// The roots: heading, module and name of the type.
@@ -29,7 +30,7 @@ const ROOTS: [(&str, &str, &str); 3] = [
     ("Scene files, `NAME.scene.ron`", "form::scene_file", "SceneFile"),
 ];
 
-/// What the default functions of the forms give, as a file has it.
+/// Results of the forms' default functions, as written in a file.
 const FUNCTIONS: [(&str, &str); 9] = [
     ("Fraction::one", "1"),
     ("Positive::one", "1"),
@@ -42,7 +43,7 @@ const FUNCTIONS: [(&str, &str); 9] = [
     ("yes", "true"),
 ];
 
-/// Defaults of types that have no default among their values.
+/// Defaults of types without a default variant.
 const TYPES: [(&str, &str); 9] = [
     ("AxesChoice", "Usual"),
     ("DirectionCount", "32"),
@@ -59,7 +60,7 @@ fn names<T: Choice>() -> String {
     T::ALL.iter().map(|value| format!("`{}`", value.file_name())).collect::<Vec<_>>().join(", ")
 }
 
-/// The names of a choice that the forms take.
+/// The names of a choice, as written in a file.
 fn names_of_choice(choice: &str) -> String {
     match choice {
         "Axes" => names::<Axes>(),
@@ -95,17 +96,18 @@ fn anchor(name: &str) -> String {
     heading(name).to_lowercase().replace(' ', "-")
 }
 
-/// The page while it is written: sections that are still to come are those of types that were mentioned.
+/// The page while it is written. Every type that is mentioned gets a section.
 struct Page<'a> {
     forms: &'a Forms,
     text: String,
-    /// Module and name of the types whose sections are to come or there.
+    /// Module and name of all types mentioned so far.
     mentioned: Vec<(String, String)>,
+    /// Those of them whose sections are still to be written.
     waiting: VecDeque<(String, String)>,
 }
 
 impl Page<'_> {
-    /// What a value looks like, in words; `module` is where its type is named.
+    /// Describes the values of a type that is named in `module`.
     fn value(&mut self, module: &str, ty: &Type) -> String {
         if let Type::Tuple(tuple) = ty {
             let parts: Vec<String> = tuple.elems.iter().map(|t| self.value(module, t)).collect();
@@ -137,7 +139,7 @@ impl Page<'_> {
             "Point" => "(number, number)".to_owned(),
             name => {
                 let Some((home, _)) = self.forms.get(module, name) else {
-                    panic!("`{name}`, named in {module}: say in {} what its values look like", file!())
+                    panic!("`{name}`, named in {module}: describe its values in {}", file!())
                 };
                 let key = (home.to_owned(), name.to_owned());
                 if !self.mentioned.contains(&key) {
@@ -149,7 +151,7 @@ impl Page<'_> {
         }
     }
 
-    /// What a key that is left out means, as a file would have it; nothing where that is nothing.
+    /// The default of a key, as written in a file; empty for a required key, `None` for an absent value.
     fn default(&self, module: &str, key: &Key) -> Option<String> {
         // The only tuples with a default are pairs of numbers.
         let is_tuple = matches!(key.value, Type::Tuple(_));
@@ -159,7 +161,7 @@ impl Page<'_> {
             Default::Function(function) => {
                 let known = FUNCTIONS.iter().find(|(f, _)| f == function);
                 known
-                    .unwrap_or_else(|| panic!("`{function}`: add what it gives to FUNCTIONS in {}", file!()))
+                    .unwrap_or_else(|| panic!("`{function}`: add its result to FUNCTIONS in {}", file!()))
                     .1
                     .to_owned()
             }
@@ -188,13 +190,18 @@ impl Page<'_> {
             Parts::Nothing => {}
             Parts::Values(types) => {
                 let values: Vec<String> = types.iter().map(|ty| self.value(module, ty)).collect();
-                let _ = writeln!(self.text, "\nIn brackets: {}.", values.join(", "));
+                let _ = writeln!(
+                    self.text,
+                    "\n{}: {}.",
+                    if values.len() == 1 { "Argument" } else { "Arguments" },
+                    values.join(", ")
+                );
             }
             Parts::Keys(keys) => {
                 self.text += "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
                 for key in keys {
                     let value = self.value(module, &key.value).replace('|', "\\|");
-                    let default = self.default(module, key).unwrap_or_else(|| "nothing".to_owned());
+                    let default = self.default(module, key).unwrap_or_else(|| "none".to_owned());
                     let doc = key.doc.replace('|', "\\|");
                     let _ = writeln!(self.text, "| `{}` | {value} | {default} | {doc} |", key.name);
                 }
@@ -233,7 +240,7 @@ impl Page<'_> {
         }
     }
 
-    /// The section of a type.
+    /// Writes the section of a type.
     fn section(&mut self, module: &str, name: &str) {
         let forms = self.forms;
         let (_, form) = forms.get(module, name).expect("a form");
@@ -271,14 +278,14 @@ fn page() -> String {
 }
 
 #[test]
-fn the_reference_of_experiment_files_is_that_of_the_types() {
+fn the_reference_of_experiment_files_matches_the_types() {
     let path = root().join(PAGE);
     let page = page();
     if std::env::var_os("TIGEREYE_BLESS").is_some() {
         std::fs::write(&path, &page).expect("a page that can be written");
     }
     let found = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(found == page, "{PAGE} is stale: TIGEREYE_BLESS=1 makes it anew");
+    assert!(found == page, "{PAGE} is stale: TIGEREYE_BLESS=1 regenerates it");
     for words in
         ["### `Gradient`", "### `RingShare`", "### `Texture`", "| `look_for` | text |", "### `Runtimes`"]
     {
@@ -286,7 +293,7 @@ fn the_reference_of_experiment_files_is_that_of_the_types() {
     }
 }
 
-/// Keys and kinds without a sentence would leave a hole in the page.
+/// Every key and kind needs a description in the page.
 #[test]
 fn every_key_and_kind_is_explained() {
     let empty: Vec<String> =

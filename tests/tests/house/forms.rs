@@ -1,4 +1,4 @@
-//! What may stand in experiment files, read from the types that parse them: their fields, documentation and defaults.
+//! The types that parse experiment files, read from their source: fields, documentation and defaults.
 
 use crate::root;
 use proc_macro2::TokenTree;
@@ -7,21 +7,21 @@ use std::path::Path;
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Expr, Fields, GenericArgument, Item, Lit, Meta, PathArguments, Type};
 
-/// A type that files are read into.
+/// A type that a file is parsed into.
 pub(crate) struct Form {
     pub(crate) doc: String,
     pub(crate) content: Content,
 }
 
 pub(crate) enum Content {
-    /// Keys with their values, or one value in brackets.
+    /// Keys with their values, or values in brackets.
     Struct(Parts),
     Enum(Vec<Variant>),
-    /// The kinds of a list such as `panels!`: each is a form in a file of its own.
+    /// The kinds of a list such as `panels!`, each a form in its own file.
     Kinds(Vec<Kind>),
 }
 
-/// What stands in the brackets of a value.
+/// The contents of a value's brackets.
 pub(crate) enum Parts {
     Nothing,
     Keys(Vec<Key>),
@@ -42,28 +42,28 @@ pub(crate) struct Key {
     pub(crate) default: Default,
 }
 
-/// What is meant where a key is left out.
+/// The value of a key that is omitted.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Default {
-    /// It must not be.
+    /// The key is required.
     Required,
     /// The default of its type.
     OfType,
-    /// That of a function.
+    /// The result of a function.
     Function(String),
 }
 
 pub(crate) struct Kind {
     pub(crate) name: String,
-    /// The file of its form, by its modules.
+    /// The module path of its form.
     pub(crate) module: String,
 }
 
-/// The forms of a crate, by their modules (`panels::glyphs`) and names.
+/// The forms of a crate by module path (`panels::glyphs`) and name.
 pub(crate) struct Forms(BTreeMap<(String, String), Form>);
 
 impl Forms {
-    /// Those below the `src` of the experiments' crate.
+    /// The forms of the crate `experiments`.
     pub(crate) fn of_experiments() -> Self {
         let mut forms = Self(BTreeMap::new());
         forms.read(&root().join("crates/experiments/src"), "");
@@ -118,8 +118,8 @@ impl Forms {
         self.0.insert((module.to_owned(), name.to_string()), form);
     }
 
-    /// The form that `name` stands for in `module`: one of its own, or the only one of that name elsewhere that is no
-    /// kind. With its module.
+    /// The form that `name` refers to in `module`, with its own module: one defined there, or the only one of that name
+    /// elsewhere.
     pub(crate) fn get(&self, module: &str, name: &str) -> Option<(&str, &Form)> {
         let own = self.0.get_key_value(&(module.to_owned(), name.to_owned()));
         let found = own.or_else(|| {
@@ -135,7 +135,7 @@ impl Forms {
     }
 }
 
-/// Whether a type derives `Deserialize` by its fields, not from another type.
+/// Whether a type derives `Deserialize` from its fields, not from another type.
 fn is_read(attributes: &[Attribute]) -> bool {
     let says = |attribute: &Attribute, list: &str, word: &str| match &attribute.meta {
         Meta::List(l) => l.path.is_ident(list) && l.tokens.to_string().contains(word),
@@ -156,6 +156,7 @@ fn doc(attributes: &[Attribute]) -> String {
             lines.push(text.value().trim().to_owned());
         }
     }
+    lines.retain(|line| !line.is_empty());
     let text = lines.join(" ");
     let mut out = String::new();
     let mut rest = text.as_str();
@@ -204,7 +205,7 @@ fn default_of(attributes: &[Attribute]) -> Default {
     Default::Required
 }
 
-/// The kinds in `module::Kind, module::{Kind, Kind}, ...`, documented or not.
+/// The kinds in a list such as `module::Kind, module::{Kind, Kind}`; attributes are skipped.
 fn kinds(parent: &str, tokens: Vec<TokenTree>) -> Vec<Kind> {
     let mut found = Vec::new();
     let (mut module, mut names_follow) = (String::new(), false);

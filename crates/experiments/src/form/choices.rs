@@ -11,7 +11,7 @@ pub enum Scope {
     /// In every run.
     #[default]
     Always,
-    /// Only with `--full`; figures and checks that need it are left out otherwise.
+    /// Only with `--full`; figures and checks that need it are omitted otherwise.
     Full,
 }
 
@@ -19,14 +19,14 @@ pub enum Scope {
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum NormalizationRule {
-    /// By their own means: nothing absorbs.
+    /// Each by its own mean: nothing absorbs.
     #[default]
     Local,
-    /// By the largest mean (eq. 3.11).
+    /// All by the largest mean (eq. 3.11).
     Global,
-    /// Locally from this fraction of the largest mean, absorbing below.
+    /// Locally from this fraction of the largest mean upwards; weaker cells absorb.
     LocalAbove(Fraction),
-    /// Locally from this fraction of the largest mean, globally below.
+    /// Locally from this fraction of the largest mean upwards; weaker cells globally.
     LocalAboveGlobal(Fraction),
 }
 
@@ -42,7 +42,7 @@ pub enum Stop {
     FluxChange {
         /// W.
         threshold: NonNegative,
-        /// At most this many steps and one.
+        /// At most one step more than this.
         #[serde(default = "thousand")]
         max_iterations: usize,
     },
@@ -50,13 +50,13 @@ pub enum Stop {
     DistributionChange {
         /// W.
         threshold: NonNegative,
-        /// At most this many steps and one.
+        /// At most one step more than this.
         #[serde(default = "thousand")]
         max_iterations: usize,
     },
     /// Relative change of the distribution at most 1e-10: the stationary state.
     Stationary,
-    /// Exactly so many steps.
+    /// Exactly this many steps.
     Steps(usize),
 }
 

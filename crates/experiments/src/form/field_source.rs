@@ -5,7 +5,7 @@ use super::numbers::{Fraction, Sigma};
 use super::placed::Placed;
 use serde::Deserialize;
 
-/// A tensor field in a file of its own, `NAME.field.ron`: commands and experiments take it where they take a generator.
+/// A tensor field in a file of its own, `NAME.field.ron`: commands and experiments accept it in place of a generator.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct FieldFile {
@@ -13,14 +13,14 @@ pub struct FieldFile {
     pub format: Placed<u32>,
     /// Heading of its sheet.
     pub title: String,
-    /// Where it comes from: a paper, a formula, a measurement.
+    /// Its origin: a paper, a formula, a measurement.
     #[serde(default)]
     pub source: String,
     /// The field.
     pub field: FieldSource,
 }
 
-/// Where a tensor field comes from.
+/// The source of a tensor field.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 #[expect(clippy::large_enum_variant, reason = "an experiment has a handful")]
@@ -33,7 +33,7 @@ pub enum FieldSource {
         #[serde(default)]
         parameters: Named<Parameter>,
     },
-    /// Semi-axes by expressions in x, y (-1 to 1, y up), i, j, n, r, theta.
+    /// Semi-axes given by expressions in x, y (-1 to 1, y up), i, j, n, r, theta.
     Axes {
         /// Cells per row.
         width: usize,
@@ -46,7 +46,7 @@ pub enum FieldSource {
         /// Minor semi-axis.
         s2: String,
     },
-    /// The four components by expressions in the same variables.
+    /// The four components given by expressions in the same variables.
     Components {
         /// Cells per row.
         width: usize,
@@ -61,9 +61,9 @@ pub enum FieldSource {
         /// Component yy.
         yy: String,
     },
-    /// A data file of any format that the program reads, or another field's file (`.field.ron`), looked up beside the
-    /// experiment file, in its parent folders, and among the data that the program carries. The options are those of
-    /// the command line.
+    /// A data file in any format that the program reads, or a field file (`.field.ron`), looked up beside the
+    /// experiment file, in its parent folders, and among the program's built-in data. The options are those of the
+    /// command line.
     File {
         /// Path of the file.
         path: String,
@@ -76,10 +76,10 @@ pub enum FieldSource {
         /// Component order: a tool's name or component names.
         #[serde(default)]
         order: Option<String>,
-        /// What shears are: `tensor` (the default) or `engineering`.
+        /// Meaning of the shear components: `tensor` (the default) or `engineering`.
         #[serde(default)]
         shear: Option<String>,
-        /// Axes that the components are along: `voxel`, `world`, `measurement` or `fsl`.
+        /// Axes that the components refer to: `voxel`, `world`, `measurement` or `fsl`.
         #[serde(default)]
         frame: Option<String>,
         /// Slice of a volume, `z=10`.
@@ -94,20 +94,20 @@ pub enum FieldSource {
         /// Columns and rows to resample to, after cropping.
         #[serde(default)]
         resample: Option<(usize, usize)>,
-        /// Tensors of an image.
+        /// How tensors are derived from an image.
         #[serde(default)]
         derive: Option<DeriveRule>,
-        /// File of one number a voxel; tensors become zero where it is not above
-        /// [`mask_above`](Self::File::mask_above).
+        /// File with one number per voxel; tensors whose number does not exceed
+        /// [`mask_above`](Self::File::mask_above) become zero.
         #[serde(default)]
         mask: Option<String>,
         /// What a mask, or the confidence in an NRRD file, must exceed.
         #[serde(default)]
         mask_above: f64,
-        /// What becomes of tensors that are infinite or not a number: `refuse` (the default) or `zero`.
+        /// Treatment of tensors that are infinite or not a number: `refuse` (the default) or `zero`.
         #[serde(default)]
         not_finite: Option<String>,
-        /// Every how many cells one is kept, from the upper left.
+        /// Keeps every n-th cell in both directions, starting at the upper left.
         #[serde(default = "one")]
         stride: usize,
     },
@@ -115,50 +115,50 @@ pub enum FieldSource {
     Noisy {
         /// The field.
         of: Box<FieldSource>,
-        /// Size of the noise over that of each tensor (Frobenius norm, root of the mean square).
+        /// Size of the noise relative to each tensor (Frobenius norm, root mean square).
         share: Fraction,
         /// Seed of the random numbers.
         seed: u64,
     },
 }
 
-/// Tensors made of an image; scales are standard deviations of Gaussians, in cells.
+/// Tensors derived from an image; scales are standard deviations of Gaussians, in cells.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum DeriveRule {
     /// Gradient of a vector field.
     Gradient {
-        /// Of the field smoothed by this much.
+        /// Smoothing before differentiation.
         #[serde(default)]
         sigma: Option<Sigma>,
     },
     /// Second derivatives of a scalar field.
     Hessian {
-        /// Of the field smoothed by this much.
+        /// Smoothing before differentiation.
         #[serde(default)]
         sigma: Option<Sigma>,
     },
     /// Rate of strain: the symmetric part of the gradient of a vector field.
     StrainRate {
-        /// Of the field smoothed by this much.
+        /// Smoothing before differentiation.
         #[serde(default)]
         sigma: Option<Sigma>,
     },
     /// Averaged products of a scalar field's derivatives: light and lines run across stripes.
     Structure {
-        /// Derivatives of the field smoothed by this much.
+        /// Smoothing before differentiation.
         #[serde(default)]
         sigma: Option<Sigma>,
-        /// Averaged over this much.
+        /// Smoothing of the products.
         #[serde(default)]
         window: Option<Sigma>,
     },
     /// The structure tensor with its eigenvalues exchanged: light and lines run along stripes.
     Orientation {
-        /// Derivatives of the field smoothed by this much.
+        /// Smoothing before differentiation.
         #[serde(default)]
         sigma: Option<Sigma>,
-        /// Averaged over this much.
+        /// Smoothing of the products.
         #[serde(default)]
         window: Option<Sigma>,
     },

@@ -4,22 +4,22 @@ use super::numbers::{Finite, NonNegative, Positive};
 use super::placed::Placed;
 use serde::Deserialize;
 
-/// A light.
+/// A light source.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct LightSource {
-    /// Column and row, 0 on the upper left; left out: the centre.
+    /// Column and row, (0, 0) at the upper left; the centre by default.
     #[serde(default)]
     pub cell: Option<Placed<(usize, usize)>>,
-    /// When it shines.
+    /// When it emits.
     #[serde(default)]
     pub emission: EmissionKind,
-    /// What it shines.
+    /// Its intensity by direction.
     #[serde(default)]
     pub profile: Option<Placed<ProfileShape>>,
 }
 
-/// When a light shines.
+/// When a light source emits.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
 pub enum EmissionKind {
     /// Always; its cell's profile is replaced after every step.
@@ -29,7 +29,7 @@ pub enum EmissionKind {
     Impulse,
 }
 
-/// What a light shines, W/rad.
+/// The intensity of a light source by direction, W/rad.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum ProfileShape {
@@ -39,7 +39,7 @@ pub enum ProfileShape {
     Emitter {
         /// Brightest direction, degrees.
         theta_deg: Finite,
-        /// 0 spherical, 1 Lambert, 2 cone, more: narrower.
+        /// 0 is spherical, 1 Lambertian, 2 a cone; larger values are narrower.
         power: NonNegative,
         /// Intensity in the brightest direction, W/rad.
         #[serde(default = "Positive::one")]

@@ -10,22 +10,22 @@ use serde::Deserialize;
 /// Walls, mirrors and crystals on a grid, with lights.
 ///
 /// Positions are in cells, `(0, 0)` the centre of the upper left one, y downwards; angles in degrees, counter-clockwise
-/// from the right. A cell belongs to a shape where its centre does, border included; later parts cover earlier ones.
+/// from the right. A cell belongs to a shape if its centre does, border included; later parts cover earlier ones.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     /// Version of the format, 1.
     pub format: Placed<u32>,
-    /// What it is.
+    /// Heading.
     pub title: String,
     /// Columns.
     pub width: Placed<usize>,
     /// Rows.
     pub height: Placed<usize>,
-    /// What stands in the empty space, in the order in which it is put down.
+    /// The parts in the empty space; later ones cover earlier ones.
     #[serde(default)]
     pub parts: Vec<ScenePart>,
-    /// The lights, where no others are asked for.
+    /// The lights, unless a run specifies others.
     #[serde(default)]
     pub lights: Vec<Placed<LightSource>>,
 }
@@ -34,9 +34,9 @@ pub struct SceneFile {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct ScenePart {
-    /// Where it is.
+    /// The region it covers.
     pub shape: Placed<ShapeSource>,
-    /// What it is made of.
+    /// Its material.
     pub material: Placed<MaterialSource>,
 }
 
@@ -51,21 +51,21 @@ pub enum ShapeSource {
     Rectangle {
         /// One corner.
         from: Point,
-        /// The opposite one.
+        /// The opposite corner.
         to: Point,
     },
     /// A disc.
     Disc {
-        /// Its middle.
+        /// Its centre.
         centre: Point,
         /// Its radius, cells.
         radius: Positive,
     },
-    /// All points within half a thickness of a line. Slanted walls are closed from a thickness of 1.5 on.
+    /// All points within half a thickness of a line. Slanted walls are closed from a thickness of 1.5 upwards.
     Segment {
         /// One end.
         from: Point,
-        /// The other one.
+        /// The other end.
         to: Point,
         /// Thickness, cells.
         #[serde(default = "Positive::one")]
@@ -73,11 +73,11 @@ pub enum ShapeSource {
     },
     /// A closed polygon.
     Polygon(Vec<Point>),
-    /// The dark pixels of a PNG picture, those of less than half the brightness.
+    /// The dark pixels of a PNG picture, those below half the full brightness.
     Bitmap {
         /// The file, looked up beside the scene's.
         path: String,
-        /// Column and row of its upper left pixel. Left out, the picture must be as large as the scene.
+        /// Column and row of its upper left pixel. If omitted, the picture must be as large as the scene.
         #[serde(default)]
         at: Option<(usize, usize)>,
         /// Takes the bright pixels instead.
@@ -92,7 +92,7 @@ pub enum ShapeSource {
         #[serde(default = "Positive::one")]
         thickness: Positive,
     },
-    /// Everything outside of a shape.
+    /// Everything outside a shape.
     Outside(Box<ShapeSource>),
 }
 
@@ -100,34 +100,34 @@ pub enum ShapeSource {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum MaterialSource {
-    /// Nothing: a door in what lies beneath.
+    /// Nothing: an opening in the parts beneath.
     Empty,
-    /// Swallows all light.
+    /// Absorbs all light.
     Absorber,
-    /// Passes this part of the light on, in all directions alike.
+    /// Passes this fraction of the light on, equally in all directions.
     Filter(Fraction),
     /// Reflects like a mirror, on both sides.
     Mirror {
-        /// The part of the light that is sent back.
+        /// Fraction of the light that is reflected.
         #[serde(default = "Fraction::one")]
         reflectance: Fraction,
-        /// Direction of the mirror's line, degrees; along the surface of the shape where it is left out. Multiples of
-        /// 22.5 degrees are exact; for others light is split between the two nearest of them.
+        /// Direction of the mirror's line, degrees; by default along the surface of the shape. Multiples of 22.5
+        /// degrees are exact; at other angles light is split between the two nearest of them.
         #[serde(default)]
         angle_deg: Option<Finite>,
     },
     /// Reflects like a diffuse wall, on both sides (Lambert's law).
     Diffuse {
-        /// The part of the light that is sent back.
+        /// Fraction of the light that is reflected.
         #[serde(default = "Fraction::one")]
         reflectance: Fraction,
-        /// Direction of the wall's line, degrees; along the surface of the shape where it is left out.
+        /// Direction of the wall's line, degrees; by default along the surface of the shape.
         #[serde(default)]
         angle_deg: Option<Finite>,
     },
-    /// Passes light on as tensors do.
+    /// Passes light on according to a tensor field.
     Crystal {
-        /// The tensors; the field must reach all of the shape.
+        /// The tensors; the field must cover the whole shape.
         field: Box<FieldSource>,
         /// Column and row at which the field's upper left cell lies.
         #[serde(default)]

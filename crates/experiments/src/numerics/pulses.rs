@@ -4,7 +4,7 @@ use crate::numerics::worst;
 use crate::runs::pulses::{PulseNumber, PulseRecord};
 use serde::Deserialize;
 
-/// One number for many.
+/// One number that summarises many.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub enum Summary {
     /// The smallest.
@@ -13,8 +13,8 @@ pub enum Summary {
     Mean,
     /// The largest.
     Most,
-    /// The largest difference of two pulses that follow each other in a run: of neighbours where its cells are
-    /// neighbours and it has one angle.
+    /// The largest difference between consecutive pulses of a run, which are neighbours if its cells are and it has one
+    /// angle.
     Jump,
 }
 

@@ -12,7 +12,7 @@ use tigereye_render::{ChartAxis, Series, line_chart};
 /// Points of a curve that are marked at most.
 const MARKED: usize = 60;
 
-/// Curves over a number.
+/// Curves plotted against a number.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Chart {

@@ -15,13 +15,13 @@ use tigereye_views::light::{self, Request};
 pub struct Energy {
     /// Name of the light run.
     run: Placed<String>,
-    /// Step to show; the last when left out.
+    /// Step to show; the last by default.
     #[serde(default)]
     step: Option<Placed<usize>>,
-    /// Decades below the brightest cell; linear when left out.
+    /// Decades shown below the brightest cell; a linear scale by default.
     #[serde(default)]
     decades: Option<Positive>,
-    /// Draws, in a scene, the shortest path from the first light to this column and row, and the brightest one.
+    /// In a scene, draws the shortest and the brightest path from the first light to this column and row.
     #[serde(default)]
     way_to: Option<Placed<(usize, usize)>>,
     /// Heading of the panel.

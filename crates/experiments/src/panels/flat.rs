@@ -6,19 +6,19 @@ use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_views::gradient::Scalar;
 
-/// A gradient without its direction.
+/// A gradient summarised over its directions.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Flat {
     /// Name of the gradient run.
     run: Placed<String>,
-    /// How directions are summed up.
+    /// How directions are summarised.
     view: FlatView,
     /// Heading of the panel.
     title: String,
 }
 
-/// How the directions of a gradient are summed up.
+/// How the directions of a gradient are summarised.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub enum FlatView {
     /// Mean.

@@ -13,7 +13,7 @@ use tigereye_render::{GlyphColour, GlyphOptions, GlyphScale, glyphs};
 pub struct Glyphs {
     /// Name of the field.
     field: Placed<String>,
-    /// What the colours mean.
+    /// Meaning of the colours.
     #[serde(default = "anisotropy")]
     colour: Chosen<GlyphColour>,
     /// Heading of the panel.

@@ -21,10 +21,10 @@ pub struct Lines {
     /// The axes that lines follow.
     #[serde(default)]
     axes: AxesChoice,
-    /// By what the major one is larger.
+    /// Whether the major axis has the larger value or the larger magnitude.
     #[serde(default)]
     major: Option<Chosen<Major>>,
-    /// Which of the two; both when left out.
+    /// Which of the two axes; both by default.
     #[serde(default)]
     family: Option<Chosen<Family>>,
     /// Heading of the panel.

@@ -12,10 +12,10 @@ use tigereye_render::{IntensityScale, PolarOptions, TransmissionScale, polar_ove
 pub struct Overlay {
     /// Name of the light run.
     run: Placed<String>,
-    /// Step to show; the last when left out.
+    /// Step to show; the last by default.
     #[serde(default)]
     step: Option<Placed<usize>>,
-    /// How brightness is drawn.
+    /// The brightness scale.
     #[serde(default)]
     scale: Scale,
     /// Whether the transmission is drawn.
@@ -29,19 +29,19 @@ fn yes() -> bool {
     true
 }
 
-/// How the brightness of an overlay is drawn.
+/// The brightness scale of an overlay.
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
 pub enum Scale {
-    /// Against the brightest cell, the lights included.
+    /// Relative to the brightest cell, including the lights.
     Linear,
-    /// Against the brightest cell that is not a light.
+    /// Relative to the brightest cell that is not a light.
     LinearWithoutSources,
-    /// Each cell against itself: shape only.
+    /// Each cell relative to itself: shape only.
     PerCell,
     /// By the logarithm of the cell's mean over four decades.
     #[default]
     Logarithmic,
-    /// The same over so many decades.
+    /// The same over this many decades.
     Decades(Positive),
 }
 

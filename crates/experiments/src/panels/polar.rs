@@ -11,7 +11,7 @@ use tigereye_core::{PolarProfile, transmission_ellipse};
 use tigereye_render::{PolarPlotOptions, PolarSeries, Rgba, SERIES_PALETTE, polar_plot};
 use tigereye_transport::{Scheme, SharedWeights, emitter};
 
-/// Curves over the direction.
+/// Curves plotted against the direction.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Polar {
@@ -23,7 +23,7 @@ pub struct Polar {
     title: String,
 }
 
-/// A curve over the direction.
+/// A curve plotted against the direction.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Curve {
@@ -33,7 +33,7 @@ pub struct Curve {
     source: ProfileSource,
 }
 
-/// What a curve over the direction shows.
+/// The data of a curve plotted against the direction.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum ProfileSource {
@@ -44,7 +44,7 @@ pub enum ProfileSource {
         /// Exponent.
         power: NonNegative,
     },
-    /// The cone weight of a neighbour (0 to 7) at so many samples.
+    /// The cone weight of a neighbour (0 to 7) at this many samples.
     ConeWeight {
         /// Neighbour direction.
         neighbour: Placed<usize>,
@@ -64,7 +64,7 @@ pub enum ProfileSource {
         run: Placed<String>,
         /// Column and row.
         cell: Placed<(usize, usize)>,
-        /// Step; the last when left out.
+        /// Step; the last by default.
         #[serde(default)]
         step: Option<Placed<usize>>,
     },

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use tigereye_render::{PlainOptions, SERIES_PALETTE, plain_map};
 use tigereye_views::ridges::line_overlay;
 
-/// Height ridges of several scalars over each other.
+/// Height ridges of several scalars in one picture.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Ridges {

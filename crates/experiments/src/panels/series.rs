@@ -32,10 +32,10 @@ pub enum SeriesSource {
         label: String,
         /// The expression.
         expression: Placed<String>,
-        /// From and to.
+        /// Smallest and largest x.
         range: (Finite, Finite),
     },
-    /// Net outward flux through the cells right of the light over the distance, relative to distance 1.
+    /// Net outward flux through the cells right of the light against the distance, relative to distance 1.
     NetFlux {
         /// Name in the legend.
         label: String,
@@ -44,7 +44,7 @@ pub enum SeriesSource {
         /// Largest distance.
         to: usize,
     },
-    /// The outward lobe in the cells right of the light over the distance, relative to distance 1.
+    /// The outward lobe in the cells right of the light against the distance, relative to distance 1.
     OutwardLobe {
         /// Name in the legend.
         label: String,
@@ -53,37 +53,37 @@ pub enum SeriesSource {
         /// Largest distance.
         to: usize,
     },
-    /// The difference to `expression` (in `x`) of another series, point by point.
+    /// Difference between another series and an expression in `x`, point by point.
     Deviation {
         /// Name in the legend.
         label: String,
-        /// The series, one of the others.
+        /// The other series.
         of: Box<SeriesSource>,
         /// The expression.
         from: Placed<String>,
     },
-    /// `|energy(n) - energy(0)|` over the step, W.
+    /// `|energy(n) - energy(0)|` against the step, W.
     EnergyError {
         /// Name in the legend.
         label: String,
         /// Name of the light run.
         run: Placed<String>,
     },
-    /// Mean distance of the energy from the centre over the step, cells.
+    /// Mean distance of the energy from the centre against the step, cells.
     RadiusMean {
         /// Name in the legend.
         label: String,
         /// Name of the light run.
         run: Placed<String>,
     },
-    /// Standard deviation of that distance over the step, cells.
+    /// Standard deviation of the energy's distance from the centre against the step, cells.
     RadiusSpread {
         /// Name in the legend.
         label: String,
         /// Name of the light run.
         run: Placed<String>,
     },
-    /// A row of a gradient's slice over the column.
+    /// A row of a gradient's slice against the column.
     SliceRow {
         /// Name in the legend.
         label: String,
@@ -94,14 +94,14 @@ pub enum SeriesSource {
         /// Row.
         row: Placed<usize>,
     },
-    /// Seconds that runs took, over their number in this list (from 1); runs of another scope are left out.
+    /// Seconds that runs took, against their number in this list (from 1); runs that are not in scope are omitted.
     Seconds {
         /// Name in the legend.
         label: String,
         /// Names of gradient runs.
         runs: Vec<Placed<String>>,
     },
-    /// A number of the pulses in one direction, over the column of their cell.
+    /// A number of the pulses in one direction, against the column of their cell.
     PulsesOverColumn {
         /// Name in the legend.
         label: String,
@@ -112,7 +112,7 @@ pub enum SeriesSource {
         /// Direction, degrees.
         deg: Placed<Finite>,
     },
-    /// Mean of a gradient over all inner cells, over the direction in degrees.
+    /// Mean of a gradient over all inner cells, against the direction in degrees.
     MeanOverCells {
         /// Name in the legend.
         label: String,

@@ -16,13 +16,13 @@ pub struct Texture {
     /// The axes that lines follow.
     #[serde(default)]
     axes: AxesChoice,
-    /// By what the major one is larger.
+    /// Whether the major axis has the larger value or the larger magnitude.
     #[serde(default)]
     major: Option<Chosen<Major>>,
-    /// Which of the two.
+    /// Which of the two axes.
     #[serde(default)]
     family: Chosen<Family>,
-    /// Smeared along both axes, as far as each is long (HyperLIC).
+    /// Smears along both axes, in proportion to their lengths (HyperLIC).
     #[serde(default)]
     hyper: bool,
     /// Heading of the panel.

@@ -26,7 +26,7 @@ impl QuantityKind for RadiusMean {
     }
 }
 
-/// Standard deviation of that distance after a step, cells.
+/// Standard deviation of the energy's distance from the centre after a step, cells.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct RadiusSpread {

@@ -5,7 +5,7 @@ use crate::names::Names;
 use crate::quantities::kind::{Measure, QuantityKind, measure};
 use serde::Deserialize;
 
-/// Energy of a cell over that of another.
+/// Energy of a cell relative to that of another.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct EnergyRatio {
@@ -29,7 +29,7 @@ impl QuantityKind for EnergyRatio {
     }
 }
 
-/// Energy of a cell over that in another run.
+/// Energy of a cell relative to that in another run.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct EnergyOver {

@@ -11,13 +11,13 @@ use tigereye_core::Cell;
 /// What a share is not defined for.
 const DARK: &str = "there is no energy outside of the lights";
 
-/// Share of the energy at distances from the centre in a range, cells; lights excluded.
+/// Share of the energy within a range of distances from the centre, cells; lights excluded.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct RingShare {
     /// Name of the light run.
     run: Placed<String>,
-    /// From and to, cells.
+    /// Smallest and largest distance, cells.
     range: Placed<(NonNegative, NonNegative)>,
 }
 

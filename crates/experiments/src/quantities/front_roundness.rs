@@ -8,7 +8,7 @@ use crate::unavailable::OrUndefined;
 use serde::Deserialize;
 use tigereye_core::{Cell, Field, math};
 
-/// Mean distance of the energy in the sectors about the axes over that about the diagonals, after a kept step.
+/// Mean distance of the energy in the sectors around the axes relative to that around the diagonals, after a kept step.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct FrontRoundness {

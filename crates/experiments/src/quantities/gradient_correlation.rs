@@ -14,7 +14,7 @@ use tigereye_core::{LtgVolume, Point, bilinear, pearson};
 pub struct GradientCorrelation {
     /// Name of a gradient run.
     run: Placed<String>,
-    /// Name of another.
+    /// Name of the other run.
     with: Placed<String>,
 }
 

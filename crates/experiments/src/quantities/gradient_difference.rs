@@ -7,13 +7,13 @@ use crate::quantities::kind::{Measure, QuantityKind, measure};
 use crate::unavailable::OrUndefined;
 use serde::Deserialize;
 
-/// L2 difference of two gradients over the L2 norm of the first. Both need the same cells and slices.
+/// L2 difference of two gradients relative to the L2 norm of the first. Both need the same cells and slices.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct GradientDifference {
     /// Name of a gradient run.
     run: Placed<String>,
-    /// Name of another.
+    /// Name of the other run.
     from: Placed<String>,
 }
 

@@ -39,7 +39,7 @@ impl QuantityKind for GradientMean {
     }
 }
 
-/// Share of sources that met the step limit.
+/// Share of sources that reached the step limit.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct GradientLimited {

@@ -9,7 +9,7 @@ use crate::unavailable::OrUndefined;
 use serde::Deserialize;
 use tigereye_core::LtgVolume;
 
-/// Largest difference of a gradient under a symmetry of cells and directions, over its largest value.
+/// Largest difference of a gradient under a symmetry of cells and directions, relative to its largest value.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct GradientSymmetry {

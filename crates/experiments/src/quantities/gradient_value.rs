@@ -31,7 +31,7 @@ impl QuantityKind for GradientAt {
     }
 }
 
-/// Value of a gradient over that at another cell.
+/// Value of a gradient relative to that at another cell.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct GradientRatio {

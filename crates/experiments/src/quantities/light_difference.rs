@@ -6,13 +6,13 @@ use crate::quantities::kind::{Measure, QuantityKind, measure};
 use crate::unavailable::OrUndefined;
 use serde::Deserialize;
 
-/// L2 difference of two light runs over the L2 norm of the first.
+/// L2 difference of two light runs relative to the L2 norm of the first.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct LightDifference {
     /// Name of a light run.
     run: Placed<String>,
-    /// Name of another.
+    /// Name of the other run.
     from: Placed<String>,
 }
 

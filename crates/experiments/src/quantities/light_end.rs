@@ -21,7 +21,7 @@ impl QuantityKind for Steps {
     }
 }
 
-/// 1 where a light run met its stopping rule, 0 where it met the limit.
+/// 1 if a light run met its stopping rule, 0 if it reached the step limit.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Stopped {

@@ -9,7 +9,7 @@ use crate::unavailable::OrUndefined;
 use serde::Deserialize;
 use tigereye_core::Cell;
 
-/// Largest difference of energies under a symmetry, over the largest energy.
+/// Largest difference of energies under a symmetry, relative to the largest energy.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct LightSymmetry {

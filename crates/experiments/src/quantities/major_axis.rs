@@ -39,8 +39,8 @@ impl QuantityKind for MajorAxisDeg {
     }
 }
 
-/// Largest angle (degrees) between the major axis and the expression `phi_deg` in the variables of a field, over
-/// the cells whose semi-axes differ by more than 1 %; that of tensors without these axes is not counted.
+/// Largest angle (degrees) between the major axis and the expression `phi_deg` in the variables of a field, over the
+/// cells whose semi-axes differ by more than 1 %; tensors without these axes are not counted.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MajorAxisError {

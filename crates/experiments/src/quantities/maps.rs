@@ -9,9 +9,9 @@ use serde::Deserialize;
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MapCorrelation {
-    /// The one.
+    /// One scalar.
     map: MapSource,
-    /// The other.
+    /// The other scalar.
     with: MapSource,
 }
 
@@ -27,13 +27,13 @@ impl QuantityKind for MapCorrelation {
     }
 }
 
-/// A number of the distances of one set of ridges from another.
+/// A statistic of the distances of one set of ridges from another.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct RidgeDistance {
-    /// The ridges whose points are asked for their distance.
+    /// The ridges whose distance is measured.
     of: RidgeSource,
-    /// The ridges that are to be near.
+    /// The ridges from which it is measured.
     from: RidgeSource,
     /// The number.
     number: DistanceNumber,

@@ -7,7 +7,7 @@ use crate::quantities::kind::{Measure, QuantityKind, measure};
 use crate::runs::pulses::{PulseNumber, PulseRecord};
 use serde::Deserialize;
 
-/// A number of all pulses of some runs, summed up.
+/// A number of all pulses of some runs, summarised.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct OfPulses {
@@ -15,7 +15,7 @@ pub struct OfPulses {
     runs: Vec<Placed<String>>,
     /// The number.
     number: PulseNumber,
-    /// How pulses are summed up.
+    /// How pulses are summarised.
     over: Summary,
 }
 

@@ -23,8 +23,8 @@ impl QuantityKind for WayLength {
     }
 }
 
-/// By how many cells the brightest path is longer than the shortest: the one that leads from a cell always to its
-/// brightest neighbour, up to the light.
+/// How many cells longer the brightest path is than the shortest. It leads from each cell to its brightest neighbour,
+/// up to the light.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct WayExcess {
@@ -61,7 +61,7 @@ impl QuantityKind for WayDifference {
     }
 }
 
-/// Of the cells of a scene with a path to its first light, the part from which the brightest path is a shortest one.
+/// Share of the cells with a path to the scene's first light whose brightest path is also a shortest one.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct ShortestWays {

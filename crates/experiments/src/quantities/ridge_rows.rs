@@ -38,7 +38,7 @@ impl QuantityKind for RidgeColumnError {
     }
 }
 
-/// Value on a column over the mean of its slice's inner cells, averaged over rows (both ends included).
+/// Value in a column relative to the mean of its slice's inner cells, averaged over rows (both ends included).
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct RidgeContrast {

@@ -12,7 +12,7 @@ use tigereye_transport::{Scheme as Cones, SharedWeights, emitter, half_core_alph
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 pub struct Scheme(SchemeConstant);
 
-/// The constants.
+/// A constant of the scheme.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub enum SchemeConstant {
     /// Weight e1 of the face cone in the overlap (eq. 3.1).

@@ -29,15 +29,15 @@ pub struct Ftle {
     /// The axes that lines follow.
     #[serde(default)]
     axes: AxesChoice,
-    /// By what the major one is larger.
+    /// Whether the major axis has the larger value or the larger magnitude.
     #[serde(default)]
     major: Option<Chosen<Major>>,
-    /// Which of the two.
+    /// Which of the two axes.
     #[serde(default)]
     family: Chosen<Family>,
-    /// Length of the lines to each side, in the unit of the smaller side of a cell.
+    /// Length of the lines in each direction, in units of the shorter side of a cell.
     length: Positive,
-    /// Samples a cell along each side.
+    /// Samples per cell along each side.
     #[serde(default = "two")]
     samples: usize,
     /// When it runs.
@@ -56,9 +56,9 @@ pub(crate) struct Plan {
     /// The axes that lines follow, over which cells.
     pub(crate) following: Following,
     family: Family,
-    /// Length of the lines to each side, in the unit of the smaller side of a cell.
+    /// Length of the lines in each direction, in units of the shorter side of a cell.
     length: f64,
-    /// Samples a cell along each side.
+    /// Samples per cell along each side.
     samples: usize,
 }
 

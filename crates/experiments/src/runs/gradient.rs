@@ -55,7 +55,7 @@ pub struct Gradient {
     /// Half-width of the angular difference.
     #[serde(default)]
     omega_step: OmegaStep,
-    /// Angles to compute, degrees; all when left out. Each must be a sample.
+    /// Angles to compute, degrees; all by default. Each must be a sample.
     #[serde(default)]
     slices_deg: Option<Vec<Finite>>,
     /// When it runs.

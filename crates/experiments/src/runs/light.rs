@@ -23,7 +23,7 @@ use tigereye_report::DataFile;
 use tigereye_transport::{Problem, ScatteringRule, SharedWeights, StepView, StoppingRule, TransportError};
 use tigereye_views::Reel;
 
-/// Light from some cells.
+/// Propagation of light from one or more cells.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Light {
@@ -41,17 +41,17 @@ pub struct Light {
     /// What a cell does to light from several sides.
     #[serde(default)]
     scattering: Chosen<ScatteringRule>,
-    /// The lights; a scene's own where there are none.
+    /// The lights; by default those of the scene.
     #[serde(default)]
     lights: Vec<LightSource>,
-    /// When to end.
+    /// When the propagation ends.
     #[serde(default)]
     stop: Stop,
-    /// What computes it.
+    /// The engine that computes it.
     #[serde(default)]
     engine: EngineChoice,
-    /// Steps whose distribution is kept besides the last one and those that figures and checks mention; 0 is the state
-    /// before the first.
+    /// Steps whose distribution is kept in addition to the last one and those that figures and checks use; 0 is the
+    /// state before the first step.
     #[serde(default)]
     frames: Vec<usize>,
     /// When it runs.

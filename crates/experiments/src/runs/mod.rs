@@ -117,7 +117,7 @@ macro_rules! runs {
 }
 
 runs! {
-    /// Light from some cells.
+    /// Propagation of light from one or more cells.
     light::Light,
     /// The light transport gradient of a field.
     gradient::Gradient,

@@ -20,30 +20,31 @@ use tigereye_transport::{
     SharedWeights, Stopping, StoppingRule, TransportError,
 };
 
-/// A number of a pulse. What it compares are the fluxes between cells; the injected sample itself does not count. Not a
-/// number where the pulse has no stationary state within reach, except for the first two.
+/// A number of a pulse. Only the fluxes between cells are compared, not the injected sample. All but the first two are
+/// NaN if no stationary state was reached.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 pub enum PulseNumber {
-    /// 1 where plain steps and the solver both reach the stationary state, 0 elsewhere.
+    /// 1 if plain steps and the solver both reach the stationary state, otherwise 0.
     Settled,
     /// Steps until the run's stopping rule ends the propagation.
     StoppedSteps,
     /// Plain steps until the relative change of the distribution is at most 1e-10.
     PlainSteps,
-    /// Evaluations of the scheme that the solver needs for the same.
+    /// Evaluations of the scheme that the solver needs for the same change.
     Evaluations,
-    /// Plain steps over evaluations.
+    /// Ratio of plain steps to evaluations.
     Saving,
-    /// L1 distance of the stopped fluxes from the stationary ones, over the sum of these: over all cells and lobes.
+    /// L1 distance of the stopped fluxes from the stationary ones over all cells and lobes, relative to the sum of the
+    /// stationary ones.
     StoppedDistance,
     /// Share of the stationary energy that the stopped state lacks.
     MissingEnergy,
-    /// What the stopped fluxes exceed the stationary ones by, in sum, over the sum of these: half of how much the
-    /// distance is larger than the missing energy, 0 where light only grows.
+    /// Sum by which the stopped fluxes exceed the stationary ones, relative to the sum of the stationary ones: half the
+    /// difference between the distance and the missing energy, 0 if the light only grows.
     Overshoot,
-    /// L1 distance, as above, of the solver's state from the one that much longer stepping gives.
+    /// L1 distance, as above, of the solver's state from that after many more steps.
     SolverError,
-    /// The same of the state at which plain steps change by 1e-10.
+    /// The same for the state at which plain steps change by 1e-10.
     PlainError,
 }
 
@@ -91,8 +92,8 @@ impl PulseRecord {
     }
 }
 
-/// How pulses come to rest: what a stopping rule leaves out of their stationary states, how many plain steps lead
-/// there, and how few evaluations the solver of gradients needs instead.
+/// How pulses approach their stationary states: what a stopping rule misses of them, how many plain steps they take,
+/// and how many evaluations the solver of gradients needs instead.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Pulses {
@@ -107,12 +108,12 @@ pub struct Pulses {
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
-    /// The rule that is compared with the stationary state.
+    /// The stopping rule that is compared with the stationary state.
     #[serde(default)]
     stop: Stop,
-    /// Columns and rows from which pulses start.
+    /// Columns and rows of the cells from which pulses start.
     cells: Vec<(usize, usize)>,
-    /// Directions in which a pulse starts from each of the cells, degrees. Each must be a sample.
+    /// Directions of the pulses from each of these cells, degrees. Each must be a sample.
     angles_deg: Vec<Finite>,
     /// When it runs.
     #[serde(default)]

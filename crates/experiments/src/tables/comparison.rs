@@ -14,7 +14,7 @@ use tigereye_report::Column;
 /// Ridges this near to each other, cells, meet.
 pub(crate) const MEETING: f64 = 1.0;
 
-/// FTLE on tensor lines beside the gradient: how far they agree. Rows with a run of another scope are left out.
+/// FTLE on tensor lines compared with the gradient. Rows whose runs are not in scope are omitted.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Comparison {
@@ -26,7 +26,7 @@ pub struct Comparison {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct ComparisonRow {
-    /// What the row is called.
+    /// Heading of the row.
     label: String,
     /// Name of the FTLE run.
     ftle: Placed<String>,

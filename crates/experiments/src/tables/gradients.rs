@@ -9,7 +9,7 @@ use serde::Deserialize;
 use tigereye_ltg::LtgOutcome;
 use tigereye_report::Column;
 
-/// Two gradients of one field, and their difference. Rows with a run of another scope are left out.
+/// Two gradients of one field, and their difference. Rows whose runs are not in scope are omitted.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Gradients {
@@ -25,7 +25,7 @@ pub struct Gradients {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct GradientRow {
-    /// What the row is called.
+    /// Heading of the row.
     label: String,
     /// Name of the first gradient run.
     first: Placed<String>,

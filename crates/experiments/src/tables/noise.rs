@@ -11,7 +11,7 @@ use crate::unavailable::Unavailable;
 use serde::Deserialize;
 use tigereye_report::Column;
 
-/// What noise changes of FTLE and gradient. Rows with a run of another scope are left out.
+/// The effect of noise on FTLE and gradient. Rows whose runs are not in scope are omitted.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Noise {
@@ -23,7 +23,7 @@ pub struct Noise {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct NoiseRow {
-    /// What the row is called.
+    /// Heading of the row.
     label: String,
     /// Names of the FTLE runs, without and with noise.
     ftle: (Placed<String>, Placed<String>),

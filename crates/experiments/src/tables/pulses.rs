@@ -12,8 +12,8 @@ use tigereye_report::Column;
 /// What stands between the ends of a range.
 const RANGE: &str = "\u{2013}";
 
-/// One row for each of these pulses runs: steps, evaluations, and what the stopping rule leaves out. Runs of another
-/// scope are left out.
+/// One row per pulses run: steps, evaluations, and what the stopping rule misses. Runs that are not in scope are
+/// omitted.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Pulses {

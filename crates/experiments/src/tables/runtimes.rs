@@ -7,7 +7,7 @@ use crate::tables::kind::{PlannedRow, TableKind, columns, rows_of};
 use serde::Deserialize;
 use tigereye_report::Column;
 
-/// Published runtimes beside those of this run. A row whose run is of another scope says so.
+/// Published runtimes beside those of this run. A row whose run is not in scope says so.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Runtimes {
@@ -19,13 +19,13 @@ pub struct Runtimes {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct RuntimeRow {
-    /// What the row is called.
+    /// Heading of the row.
     label: String,
-    /// On how many cores it was measured.
+    /// Number of cores of the measurement.
     cores: usize,
     /// Seconds.
     published_s: Positive,
-    /// Name of the run; left out where the data are not part of this project.
+    /// Name of the run; omitted if the data are not part of this project.
     #[serde(default)]
     run: Option<Placed<String>>,
     /// Remarks.

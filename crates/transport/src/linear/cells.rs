@@ -1,7 +1,6 @@
 //! What a cell does to each lobe by itself.
 
-use crate::kernel::{Lobes, NOTHING_PASSES};
-use crate::scattering::{CellScattering, Scattering};
+use crate::scattering::{CellScattering, Lobes, NOTHING_PASSES, Scattering};
 use crate::{Scheme, sector_lobes};
 use tigereye_core::{Cell, Grid, TransmissionField};
 

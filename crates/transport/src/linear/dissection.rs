@@ -302,9 +302,9 @@ impl<T: Real, const N: usize> Dissection<T, N> {
         self.run(edges, workspace, &self.blocks.order, &vec![true; self.blocks.blocks.len()]);
     }
 
-    /// [`Self::solve`] for sources beside few cells: `sources` lists edges that leave the cells `lit`, each with a lane and
-    /// what the source puts there. What `edges` held before does not matter, but for edges that lead into the grid from
-    /// outside.
+    /// [`Self::solve`] for sources beside few cells: `sources` lists edges that leave the cells `lit`, each with a lane
+    /// and what the source puts there. What `edges` held before does not matter, but for edges that lead into the grid
+    /// from outside.
     pub fn solve_near(
         &self,
         lit: &[Cell],

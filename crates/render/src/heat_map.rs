@@ -52,6 +52,8 @@ pub struct HeatOptions {
     pub walls: Option<Field<Option<Surface>>>,
     /// Light sources, marked with stars.
     pub sources: Vec<Cell>,
+    /// What a star marks, in the singular.
+    pub source_name: &'static str,
     /// Bands over the map.
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the map and its bands.
@@ -77,6 +79,7 @@ impl Default for HeatOptions {
             samples_a_cell: 1,
             walls: None,
             sources: Vec::new(),
+            source_name: "light source",
             ribbons: Vec::new(),
             overlays: Vec::new(),
             cell_px: None,
@@ -126,7 +129,7 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     }
     ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
-    overlay::draw_sources(&mut page, &options.sources, &mut legend);
+    overlay::draw_sources(&mut page, &options.sources, options.source_name, &mut legend);
     let (edge, top, height) = (page.left + page.width(), page.top, page.side_height());
     bar.draw(&mut page.scene, edge, top, height);
     page.finish(&options.title, description(&sampling, &summary, options), &legend)

@@ -77,13 +77,14 @@ fn draw_lines(page: &mut MapFrame, overlay: &Overlay) {
     page.scene.stroke(segments, overlay.colour, overlay.width_px);
 }
 
-pub(crate) fn draw_sources(page: &mut MapFrame, sources: &[Cell], legend: &mut Vec<Entry>) {
+/// Marks cells with stars; `name` says what one of them is.
+pub(crate) fn draw_sources(page: &mut MapFrame, sources: &[Cell], name: &str, legend: &mut Vec<Entry>) {
     for source in sources.iter().filter(|s| page.grid.contains(**s)).collect::<Vec<_>>() {
         let (at, radius) = (page.centre(*source), (0.38 * page.smaller_side()).clamp(4.0, 8.0));
         Marker::Star.draw(&mut page.scene, at, radius, SOURCE);
     }
     if !sources.is_empty() {
-        let text = if sources.len() == 1 { "light source" } else { "light sources" };
+        let text = if sources.len() == 1 { name.to_owned() } else { format!("{name}s") };
         legend.push(Entry::of(Mark::Point(Marker::Star, SOURCE), text));
     }
 }

@@ -52,6 +52,10 @@ pub struct PolarOptions {
     pub transmission: TransmissionScale,
     /// Cells of light sources, marked.
     pub sources: Vec<Cell>,
+    /// What a marked cell is, in the singular.
+    pub source_name: &'static str,
+    /// What the blue diagrams show.
+    pub quantity: &'static str,
     /// Walls of a scene over the diagrams.
     pub walls: Option<Field<Option<Surface>>>,
     /// Draws every n-th cell; by default as many as stay readable.
@@ -71,6 +75,8 @@ impl Default for PolarOptions {
             intensity: IntensityScale::Logarithmic { decades: 4.0 },
             transmission: TransmissionScale::PerCell,
             sources: Vec::new(),
+            source_name: "light source",
+            quantity: "light intensity",
             walls: None,
             every: None,
             cell_px: None,
@@ -170,7 +176,8 @@ fn draw_grounds(
     if !options.sources.is_empty() {
         let lit = page.squares(options.sources.iter().copied());
         page.scene.paint(lit.finish(), SOURCE_FILL, SOURCE_LINE, 1.0);
-        let text = if options.sources.len() == 1 { "light source" } else { "light sources" };
+        let name = options.source_name;
+        let text = if options.sources.len() == 1 { name.to_owned() } else { format!("{name}s") };
         legend.push(Entry::of(Mark::Outlined(SOURCE_FILL, SOURCE_LINE), text));
     }
 }
@@ -235,15 +242,16 @@ fn draw_light(
     }
     let dark = path.is_empty();
     paint(page, path, Rgba::LIGHT, if radius < 12.0 { 0.45 } else { 0.28 }, line_px);
+    let quantity = options.quantity;
     let text = match options.intensity {
-        _ if dark => "light intensity: no cell is lit".to_owned(),
+        _ if dark => format!("{quantity}: no cell is lit"),
         IntensityScale::Linear { exclude_sources: true } => {
-            "light intensity, linear (sources not to scale)".to_owned()
+            format!("{quantity}, linear (sources not to scale)")
         }
-        IntensityScale::Linear { exclude_sources: false } => "light intensity, linear".to_owned(),
-        IntensityScale::PerCell => "light intensity (each cell scaled to itself)".to_owned(),
+        IntensityScale::Linear { exclude_sources: false } => format!("{quantity}, linear"),
+        IntensityScale::PerCell => format!("{quantity} (each cell scaled to itself)"),
         IntensityScale::Logarithmic { decades } => {
-            format!("light intensity, size logarithmic over {decades} decades")
+            format!("{quantity}, size logarithmic over {decades} decades")
         }
     };
     legend.push(outlined(Rgba::LIGHT, 0.28, text));

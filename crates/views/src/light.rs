@@ -17,6 +17,8 @@ pub struct Request {
     pub decades: Option<f64>,
     /// Cells of the lights, which are marked.
     pub sources: Vec<Cell>,
+    /// What a marked cell is, in the singular; `None` for a light source.
+    pub source_name: Option<&'static str>,
     /// The surfaces of a scene.
     pub walls: Option<Field<Option<Surface>>>,
     /// Lines and points drawn on top.
@@ -36,6 +38,7 @@ impl Request {
             quantity: self.quantity.unwrap_or_else(|| "energy of a cell / W".to_owned()),
             scale: self.decades.map_or(HeatScale::Linear, |decades| HeatScale::Logarithmic { decades }),
             sources: self.sources,
+            source_name: self.source_name.unwrap_or(HeatOptions::default().source_name),
             walls: self.walls,
             overlays: self.overlays,
             cell_px: self.cell_px,

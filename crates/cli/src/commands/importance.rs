@@ -19,6 +19,9 @@ use tigereye_views::light;
 /// Relative change of the importance per step at which it counts as stationary.
 const TOLERANCE: f64 = 1e-10;
 
+/// Range of maps, decades below the most important cell: light of nearly all cells gets nearly everywhere.
+const DECADES: f64 = 2.0;
+
 pub(super) fn importance(
     args: &PropagateArgs,
     input: &MediumInput,
@@ -111,6 +114,8 @@ fn picture(
             let options = PolarOptions {
                 title,
                 sources: vec![receiver],
+                source_name: "receiver",
+                quantity: "importance",
                 walls: walls.cloned(),
                 transmission: TransmissionScale::Rate,
                 cell,
@@ -122,8 +127,9 @@ fn picture(
             let request = light::Request {
                 title,
                 quantity: Some("mean importance over direction".to_owned()),
-                decades: Some(light::DECADES),
+                decades: Some(DECADES),
                 sources: vec![receiver],
+                source_name: Some("receiver"),
                 walls: walls.cloned(),
                 cell,
                 ..light::Request::default()

@@ -101,7 +101,8 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
         files::write(output, &encoded(output, args, &drawn, &story)?)?;
     }
     collections.into_iter().try_for_each(Frames::finish)?;
-    report(args, &input, lights.len(), &outcome, start.elapsed().as_secs_f64())?;
+    let unit = if watched { "step" } else { "sweep" };
+    report(args, &input, lights.len(), (&outcome, unit), start.elapsed().as_secs_f64())?;
     Ok(0)
 }
 
@@ -375,7 +376,7 @@ fn report(
     args: &PropagateArgs,
     input: &MediumInput,
     lights: usize,
-    outcome: &Outcome,
+    (outcome, unit): (&Outcome, &str),
     seconds: f64,
 ) -> Result<(), CliError> {
     let grid = input.grid();
@@ -403,7 +404,7 @@ fn report(
         }))
     } else {
         let energy = outcome.distribution.total_energy();
-        let steps = counted(outcome.work.steps, "step");
+        let steps = counted(outcome.work.steps, unit);
         print_text(&format!(
             "{steps} {stop_words}; energy in the grid {} W, brightest cell {} W\n",
             watts(energy),

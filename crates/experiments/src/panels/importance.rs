@@ -31,6 +31,7 @@ impl PanelKind for Importance {
                 quantity: Some("mean importance over direction".to_owned()),
                 decades,
                 sources: vec![outcome.receiver],
+                source_name: Some("receiver"),
                 walls: outcome.surfaces.clone(),
                 cell_px: drawing.cell_px(outcome.importance.grid()),
                 ..Request::default()

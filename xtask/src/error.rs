@@ -1,4 +1,4 @@
-//! What a task says when something is wrong.
+//! Errors of tasks.
 
 use std::path::Path;
 use std::process::ExitStatus;
@@ -26,7 +26,7 @@ pub(crate) enum Fault {
     /// Results that cannot be compared.
     #[error(transparent)]
     Review(#[from] ReviewError),
-    /// The handler of Ctrl-C.
+    /// The handler of Ctrl-C cannot be installed.
     #[error("cannot watch for interrupts: {0}")]
     Watch(#[from] ctrlc::Error),
     /// Ctrl-C.

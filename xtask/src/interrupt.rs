@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// Installs the handler; where the process ends at once, it calls `clear` before.
+/// Installs the handler, which calls `clear` before it ends the process at once.
 pub(crate) fn install(clear: fn()) -> Result<(), Fault> {
     ctrlc::set_handler(move || {
         if ASKED.swap(true, Ordering::SeqCst) {
@@ -16,12 +16,12 @@ pub(crate) fn install(clear: fn()) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Whether the user asked to end.
+/// Whether the user has interrupted the task.
 pub(crate) fn asked() -> bool {
     ASKED.load(Ordering::SeqCst)
 }
 
-/// An error where the user asked to end.
+/// An error if the user has interrupted the task.
 pub(crate) fn check() -> Result<(), Fault> {
     if asked() { Err(Fault::Interrupted) } else { Ok(()) }
 }

@@ -1,4 +1,4 @@
-//! `cargo xtask`: tasks of those who work on the project, which need git or cargo.
+//! `cargo xtask`: development tasks that need git or cargo.
 
 mod error;
 mod interrupt;
@@ -9,7 +9,7 @@ use clap::{Parser, Subcommand};
 use review::ReviewArgs;
 use std::process::ExitCode;
 
-/// Tasks of those who work on the project.
+/// Development tasks of the project.
 #[derive(Debug, Parser)]
 #[command(
     name = "cargo xtask",
@@ -24,7 +24,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Task {
-    /// What a change moved between two git revisions, each built and run in a temporary folder.
+    /// Compares the results of two git revisions, each built and run in a temporary folder.
     Review(ReviewArgs),
 }
 

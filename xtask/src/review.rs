@@ -1,4 +1,4 @@
-//! `review`: what a change moved between two git revisions.
+//! `review`: compares the results of two git revisions.
 
 use crate::error::Fault;
 use crate::interrupt;
@@ -12,16 +12,15 @@ const SUMMARY: &str = "summary.json";
 
 #[derive(Debug, Args)]
 pub(crate) struct ReviewArgs {
-    /// What was before: a git revision, which is built and run, or a results folder, as `tigereye reproduce --out`
-    /// writes it.
+    /// The earlier results: a git revision, which is built and run, or a folder written by `tigereye reproduce --out`.
     base: String,
-    /// What is now, in the same way.
+    /// The later results, likewise.
     head: String,
     /// Folder for the page and the summary, review.html and review.json.
     #[arg(long, value_name = "DIR", default_value = "review")]
     out: PathBuf,
-    /// Only the experiment of this name, its file without folder and ending; repeatable. Of revisions only these are
-    /// run.
+    /// Only the experiment of this name, its file without folder and ending; repeatable. Only these are run for a
+    /// revision.
     #[arg(long, value_name = "SLUG")]
     only: Vec<String>,
     /// Largest relative change of a number that is no movement.
@@ -36,7 +35,7 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The exit code: 1 where something moved.
+/// The exit code: 1 if something moved.
 pub(crate) fn review(args: &ReviewArgs) -> Result<u8, Fault> {
     let names = [args.base.as_str(), args.head.as_str()];
     let mut workshop = Workshop::default();
@@ -65,7 +64,7 @@ pub(crate) fn review(args: &ReviewArgs) -> Result<u8, Fault> {
     Ok(u8::from(review.moved()))
 }
 
-/// Where one side's results are.
+/// The source of one side's results.
 enum Place {
     Folder(PathBuf),
     /// A revision by its commit.
@@ -91,7 +90,7 @@ impl Place {
     }
 }
 
-/// The folders of both results; none for a side that has no experiment of `only`, because there is nothing to run.
+/// The folders of both results; `None` for a side without any experiment of `only`, where there is nothing to run.
 fn results_of(
     names: [&str; 2],
     only: &[String],

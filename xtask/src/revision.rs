@@ -42,7 +42,7 @@ pub(crate) fn slugs(commit: &str) -> Result<Vec<String>, Fault> {
     Ok(paths.split('\0').filter_map(slug_of).collect())
 }
 
-/// The name of an experiment's file. What is called `NAME.KIND.ron` is a field or a scene.
+/// The experiment of a file name. Files `NAME.KIND.ron` are fields or scenes.
 fn slug_of(path: &str) -> Option<String> {
     let slug = path.rsplit('/').next()?.strip_suffix(".ron")?;
     (!slug.contains('.')).then(|| slug.to_owned())

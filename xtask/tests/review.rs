@@ -1,4 +1,4 @@
-//! `cargo xtask review`: revisions, with a stand-in for cargo that makes a program out of what the revision holds.
+//! `cargo xtask review` of revisions, with a stand-in for cargo that makes a program of the revision's contents.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 use tigereye_test_support::{Folder, Run, eventually};
 
-/// The program of a revision copies the summary that the revision holds.
+/// The program of a revision copies the summary stored in that revision.
 const CARGO: &str = r#"#!/bin/sh
 test "$*" = "build --release --quiet -p tigereye-cli" || exit 9
 test -f build-fails && exit 7
@@ -108,7 +108,7 @@ fn a_revision_that_cannot_be_built_is_said_and_cleared_away() {
     assert!(message.starts_with("xtask: broken: `cargo.sh build") && message.contains('7'), "{message}");
     assert!(!place.path("review").exists());
     leaves_nothing(&place);
-    // Nothing is built for a pair of which one is unknown.
+    // Nothing is built if one of the two is unknown.
     let unknown = run(&place, &["review", "one", "three"]);
     assert_eq!((unknown.code, unknown.stderr.lines().count()), (2, 1), "{}", unknown.stderr);
 }
@@ -126,7 +126,7 @@ fn of_revisions_only_the_named_experiments_run() {
     assert_eq!(both.code, 0, "{}", both.stderr);
     assert_eq!(arguments(), "--only a --only b\n".repeat(2));
     std::fs::remove_file(place.path("mark")).unwrap();
-    // Before, there was none: that side is not built.
+    // The earlier side has none, so it is not built.
     let added = run(&place, &["review", "one", "later", "--only", "a"]);
     assert!(added.code == 1 && added.stdout.contains("0 moved, 1 added"), "{}{}", added.stdout, added.stderr);
     assert!(!added.stderr.contains("one: building"), "{}", added.stderr);

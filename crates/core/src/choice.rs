@@ -1,21 +1,21 @@
-//! Choices: types with a few values, each of which has a word.
+//! Choices: types with a few named values.
 
-/// A type with a few values, for which options, files and messages have one word each.
+/// A type with a few values that options, files and messages refer to by name.
 ///
-/// [`crate::choice!`] implements it: the list of a type's values and their words stands there and nowhere else.
+/// [`crate::choice!`] implements it, which is the only place where the names of a type's values are defined.
 pub trait Choice: Copy + Send + Sync + 'static {
-    /// Every value, in the order in which they are listed; of values with numbers those with the usual ones.
+    /// Every value, in the order of listings; values with parameters have their usual ones.
     const ALL: &'static [Self];
 
-    /// Its word, as options and messages spell it: `half`.
+    /// Its name in options and messages: `half`.
     #[must_use]
     fn word(self) -> &'static str;
 
-    /// What it means, a sentence for help texts.
+    /// Its description, a sentence for help texts.
     #[must_use]
     fn meaning(self) -> &'static str;
 
-    /// Its name in files: the word with a capital, `Half`.
+    /// Its name in files, which is capitalised: `Half`.
     #[must_use]
     fn file_name(self) -> String {
         let word = self.word();
@@ -23,21 +23,21 @@ pub trait Choice: Copy + Send + Sync + 'static {
         first.to_ascii_uppercase() + rest
     }
 
-    /// The value of a word.
+    /// The value with this name in options and messages.
     #[must_use]
     fn of_word(word: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|value| value.word() == word)
     }
 
-    /// The value of a name in files.
+    /// The value with this name in files.
     #[must_use]
     fn of_file_name(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|value| value.file_name() == name)
     }
 }
 
-/// Implements [`Choice`](crate::Choice): `choice!(Type { Value = "word": "What it means.", ... })`. A value with
-/// numbers says which are usual, `Value { number: 3.0 } = ...`. The compiler asks for values that are missing.
+/// Implements [`Choice`](crate::Choice): `choice!(Type { Value = "name": "Its description.", ... })`. A value with
+/// parameters states the usual ones, `Value { number: 3.0 } = ...`. A missing value is a compile error.
 #[macro_export]
 macro_rules! choice {
     ($type:ty {

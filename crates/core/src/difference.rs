@@ -1,22 +1,22 @@
-//! How far two lists of numbers are apart.
+//! The difference of two lists of numbers.
 
 /// The difference of two lists.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     /// The largest difference.
     pub largest: f64,
-    /// Where it is.
+    /// Its index.
     pub at: usize,
-    /// The largest difference over the largest magnitude of the first list.
+    /// The largest difference relative to the largest magnitude of the first list.
     pub largest_relative: f64,
-    /// L2 norm of the difference over that of the first list.
+    /// L2 norm of the difference relative to that of the first list.
     pub l2_relative: f64,
-    /// How many values are not a number on one side only; those that are on both sides count as equal.
+    /// Number of values that are NaN on one side only; NaN on both sides counts as equal.
     pub unmatched: usize,
 }
 
 impl Difference {
-    /// That of two lists of the same length.
+    /// The difference of two lists of the same length.
     #[must_use]
     pub fn between(a: &[f64], b: &[f64]) -> Self {
         let (mut largest, mut at, mut unmatched) = (0.0, 0, 0);

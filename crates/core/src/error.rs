@@ -83,7 +83,7 @@ pub enum CoreError {
         /// Its rate.
         rate: f64,
     },
-    /// Words that name no normalisation.
+    /// A text that names no normalisation.
     #[error(
         "`{text}` is no normalisation: expected global, local, local-above:F or local-above-global:F with F from 0 to 1"
     )]

@@ -1,10 +1,10 @@
-//! How the profiles of a field are scaled against each other, and the words for it.
+//! The normalisation of a field's profiles, and its names.
 
 use crate::CoreError;
 use core::fmt;
 use core::str::FromStr;
 
-/// How the profiles of a field are scaled against each other.
+/// The normalisation of a field's profiles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Normalization {
     /// Every profile divided by the largest mean of the field (eq. 3.11): weaker cells absorb the rest.
@@ -31,7 +31,7 @@ pub enum Below {
     Global,
 }
 
-/// As options spell it: `global`, `local`, `local-above:F` or `local-above-global:F`.
+/// As in options: `global`, `local`, `local-above:F` or `local-above-global:F`.
 impl fmt::Display for Normalization {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -35,7 +35,7 @@ pub trait Host: Sync {
     }
 }
 
-/// A function that reads is a world without clock and progress.
+/// A function that reads files is a host without clock and progress.
 impl<F: Fn(&str) -> Result<Vec<u8>, String> + Sync> Host for F {
     fn read(&self, path: &str) -> Result<Vec<u8>, String> {
         self(path)

@@ -19,7 +19,7 @@ pub struct Generator {
     pub determinant_one: bool,
     /// Whether every tensor is symmetric for the default parameters.
     pub symmetric: bool,
-    /// What else is known about its fields, at least one answer.
+    /// Known properties of its fields, at least one.
     pub known: &'static [Known],
     pub(crate) build: fn(&Settings) -> Field<Tensor2>,
 }

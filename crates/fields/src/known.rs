@@ -1,9 +1,9 @@
-//! Known answers: what a generator's file says of its fields, for the laws to check.
+//! Known answers: properties of its fields that a generator declares and the tests check.
 
 use tigereye_core::Tensor2;
 
-/// What is known about a field of a generator. The first part are its arguments as a specification has them behind the
-/// colon, `size=13,anisotropy=4`, or nothing.
+/// A known property of a generator's field. The first value holds the arguments of the field as they follow the colon
+/// of a specification, `size=13,anisotropy=4`; it may be empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Known {
     /// The field is its own image under each of these.
@@ -12,9 +12,9 @@ pub enum Known {
     MajorAxis(&'static str, [usize; 2], f64),
     /// The tensor of a cell (column, row).
     Tensor(&'static str, [usize; 2], Tensor2),
-    /// How many tensors make no ellipse but the unit circle.
+    /// Number of tensors whose ellipse is the unit circle.
     Circles(&'static str, usize),
-    /// How often the major axis turns on a loop around the centre, counter-clockwise, in full turns.
+    /// Number of full counter-clockwise turns of the major axis along a loop around the centre.
     Index(&'static str, f64),
 }
 

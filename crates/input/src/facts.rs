@@ -11,17 +11,17 @@ use tigereye_lines::is_complex;
 const ROUNDING: f64 = Eigenvalues::ROUNDING;
 /// Relative difference of two axes or eigenvalues below which a tensor counts as degenerate, for the same reason.
 const DEGENERATE_BELOW: f64 = 1e-6;
-/// What rounding may add to an anisotropy of 1; indefinite tensors have more.
+/// Largest excess over an anisotropy of 1 by rounding; that of indefinite tensors is larger.
 const FA_ROUNDING: f64 = 1e-9;
-/// Bars of a histogram over 0 to 1.
+/// Bars of a histogram from 0 to 1.
 const BARS: usize = 10;
 
 /// Smallest, largest and mean value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// The smallest; infinite where there is none.
+    /// The smallest; infinite if there are no values.
     pub min: f64,
-    /// The largest; minus infinity where there is none.
+    /// The largest; minus infinity if there are no values.
     pub max: f64,
     sum: f64,
     count: usize,
@@ -30,7 +30,7 @@ pub struct Range {
 impl Range {
     const EMPTY: Self = Self { min: f64::INFINITY, max: f64::NEG_INFINITY, sum: 0.0, count: 0 };
 
-    /// That of some values.
+    /// The range of some values.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let mut range = Self::EMPTY;
         values.into_iter().for_each(|v| range.add(v));
@@ -44,21 +44,21 @@ impl Range {
         self.count += 1;
     }
 
-    /// The mean; 0 where there is no value.
+    /// The mean; 0 if there are no values.
     #[must_use]
     pub fn mean(&self) -> f64 {
         self.sum / self.count.max(1) as f64
     }
 }
 
-/// How fractional anisotropies are distributed.
+/// The distribution of fractional anisotropies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Anisotropies {
     /// Their range.
     pub range: Range,
-    /// Counts from 0 to 1 in ten bars; what is no number or outside is left out.
+    /// Counts in ten bars from 0 to 1; NaN and values outside are omitted.
     pub histogram: [usize; BARS],
-    /// How many lie above 1: those of indefinite symmetric parts.
+    /// Number of values above 1, which belong to indefinite symmetric parts.
     pub above_one: usize,
 }
 
@@ -73,7 +73,7 @@ impl Anisotropies {
     }
 }
 
-/// What the tensors of a plane are.
+/// Statistics of the tensors of a plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FieldFacts {
     /// Components xx, xy, yx, yy.
@@ -86,12 +86,12 @@ pub struct FieldFacts {
     pub fractional_anisotropy: Anisotropies,
     /// Tensors with none, one and two eigenvalues (real parts) below zero by more than rounding.
     pub negative_eigenvalues: [usize; 3],
-    /// Shares of tensors by their names.
+    /// Shares of kinds of tensors, by name.
     pub shares: [(&'static str, f64); 7],
 }
 
 impl FieldFacts {
-    /// Those of a field.
+    /// The facts of a field.
     #[must_use]
     pub fn of(field: &Field<Tensor2>) -> Self {
         let range = |f: &dyn Fn(&Tensor2) -> f64| Range::of(field.values().iter().map(f));
@@ -100,7 +100,7 @@ impl FieldFacts {
             field.values().iter().filter(|t| test(t)).count() as f64 / cells
         };
         let symmetry = Symmetry::of(field);
-        // What rounding made asymmetric has real eigenvalues.
+        // Tensors that are asymmetric by rounding only have real eigenvalues.
         let plain = field.without_rounding();
         let complex = plain.values().iter().filter(|t| is_complex(t)).count() as f64 / cells;
         let mut negative_eigenvalues = [0; 3];
@@ -133,7 +133,7 @@ fn is_degenerate(t: &Tensor2) -> bool {
     !t.is_zero() && 1.0 - Svd::of(t).axis_ratio() <= DEGENERATE_BELOW
 }
 
-/// What the tensors of a volume are, those that a mask leaves out excepted.
+/// Statistics of the tensors of a volume, without masked ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VolumeFacts {
     /// All components.
@@ -146,14 +146,14 @@ pub struct VolumeFacts {
     pub fractional_anisotropy: Anisotropies,
     /// Tensors with none to three eigenvalues below zero by more than rounding.
     pub negative_eigenvalues: [usize; 4],
-    /// How many are zero.
+    /// Number of zero tensors.
     pub zero: usize,
-    /// Shares of tensors by their names.
+    /// Shares of kinds of tensors, by name.
     pub shares: [(&'static str, f64); 6],
 }
 
 impl VolumeFacts {
-    /// Those of a volume.
+    /// The facts of a volume.
     #[must_use]
     pub fn of(volume: &TensorVolume) -> Self {
         let measured = || (0..volume.lattice().voxels()).filter_map(|voxel| volume.measured(voxel));

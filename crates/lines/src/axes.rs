@@ -42,7 +42,7 @@ choice!(Family {
 });
 
 impl Family {
-    /// Its word as a choice.
+    /// Its name as a choice.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.word()
@@ -73,7 +73,7 @@ choice!(Axes {
 });
 
 impl Axes {
-    /// Its word as a choice.
+    /// Its name as a choice.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.word()
@@ -95,7 +95,7 @@ choice!(Major {
 });
 
 impl Major {
-    /// Its word as a choice.
+    /// Its name as a choice.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.word()

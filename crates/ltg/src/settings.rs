@@ -20,7 +20,7 @@ choice!(Precision {
 });
 
 impl Precision {
-    /// Its word as a choice.
+    /// Its name as a choice.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.word()

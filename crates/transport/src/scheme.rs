@@ -25,7 +25,7 @@ pub enum SharedWeights {
 
 choice!(SharedWeights {
     Thesis = "thesis": "The printed constants.",
-    Geometric = "geometric": "The values their formula gives for beta = atan(1/2).",
+    Geometric = "geometric": "The values of their formula for beta = atan(1/2).",
 });
 
 impl SharedWeights {

@@ -35,7 +35,7 @@ pub enum StoppingRule {
     Steps(usize),
 }
 
-/// What a propagation looks at to find its own end, as options name it.
+/// The quantity that ends a propagation, by its name in options.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StopMeasure {
     /// See [`StoppingRule::FluxChange`].
@@ -51,11 +51,11 @@ choice!(StopMeasure {
     Flux = "flux": "Change of the total transported flux between two steps, W.",
     Distribution = "distribution": "Sum of the changes of all profiles, W.",
     Stationary = "stationary":
-        "That sum over the energy at most 1e-10, whatever the threshold and the limit of iterations.",
+        "That sum at most 1e-10 of the energy, regardless of threshold and iteration limit.",
 });
 
 impl StopMeasure {
-    /// The rule with this measure; the stationary state has its own numbers.
+    /// The rule for this measure; the stationary state ignores both arguments.
     #[must_use]
     pub const fn stopping(self, threshold: f64, max_iterations: usize) -> Stopping {
         let rule = match self {
@@ -68,7 +68,7 @@ impl StopMeasure {
 }
 
 impl StoppingRule {
-    /// Its name, for provenance: the word of its measure, or `steps`.
+    /// Its name for provenance: that of its measure, or `steps`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {

@@ -1,22 +1,22 @@
-//! Data that lie outside the project, and tests that are run only on demand.
+//! Data outside the project, and tests that run only on demand.
 
 use std::path::{Path, PathBuf};
 
-/// A folder of the thesis author's published data, `.` for the whole: it lies in the folder that `TIGEREYE_REFERENCE`
-/// names, or in `shared/reference` beside the project. `None`, with a line that says so, where it is missing.
+/// A folder of the thesis author's published data (`.` for all of it), in the folder that `TIGEREYE_REFERENCE` names or
+/// else in `shared/reference` beside the project. If it is missing, a line is printed and the result is `None`.
 #[must_use]
 pub fn reference_folder(part: &str) -> Option<PathBuf> {
     outside("TIGEREYE_REFERENCE", "reference", part)
 }
 
-/// The path of a file of the published data, whether it is there or not.
+/// The path of a file of the published data, whether or not it exists.
 #[must_use]
 pub fn reference_file(path: &str) -> PathBuf {
     root("TIGEREYE_REFERENCE", "reference").join(path)
 }
 
-/// A folder of example files of other tools, `.` for all of them: it lies in the folder that `TIGEREYE_DATA` names, or
-/// in `shared/data` beside the project. `None`, with a line that says so, where it is missing.
+/// A folder of example files of other tools (`.` for all of them), in the folder that `TIGEREYE_DATA` names or else in
+/// `shared/data` beside the project. If it is missing, a line is printed and the result is `None`.
 #[must_use]
 pub fn data_folder(part: &str) -> Option<PathBuf> {
     outside("TIGEREYE_DATA", "data", part)
@@ -36,14 +36,14 @@ fn outside(variable: &str, beside: &str, part: &str) -> Option<PathBuf> {
     None
 }
 
-/// Says that this test, or a part of it, did not run.
+/// Reports that this test, or a part of it, did not run.
 pub fn skipped(reason: &str) {
     // Tests run in threads that bear their names.
     let thread = std::thread::current();
     println!("skipped: {}: {reason}", thread.name().unwrap_or("a test"));
 }
 
-/// Whether the tests that take minutes were asked for: `TIGEREYE_FULL=1`.
+/// Whether tests that take minutes are to run: `TIGEREYE_FULL=1`.
 #[must_use]
 pub fn full_run() -> bool {
     std::env::var_os("TIGEREYE_FULL").is_some_and(|v| v == "1")

@@ -1,11 +1,11 @@
-//! Folders that tests work in.
+//! Temporary folders for tests.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// A temporary folder, removed at the end.
+/// A temporary folder, removed when dropped.
 #[derive(Debug)]
 pub struct Folder(TempDir);
 
@@ -34,20 +34,20 @@ impl Folder {
         self.0.path()
     }
 
-    /// Writes a file, and makes the folders that it lies in.
+    /// Writes a file and creates its parent folders.
     pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
         let path = self.path(name);
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         std::fs::write(path, bytes).unwrap();
     }
 
-    /// The bytes of a file, which must be there.
+    /// The bytes of a file, which must exist.
     #[must_use]
     pub fn read(&self, name: &str) -> Vec<u8> {
         std::fs::read(self.path(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
     }
 
-    /// The JSON of a file, which must be there.
+    /// The JSON of a file, which must exist.
     #[must_use]
     pub fn json(&self, name: &str) -> Value {
         serde_json::from_slice(&self.read(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
@@ -74,7 +74,7 @@ impl Folder {
         found
     }
 
-    /// Fails where any file was added, removed or changed since [`Self::files`] gave `before`.
+    /// Fails if any file was added, removed or changed since [`Self::files`] gave `before`.
     #[track_caller]
     pub fn same_files(&self, before: &BTreeMap<PathBuf, Vec<u8>>) {
         let after = self.files();

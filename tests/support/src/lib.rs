@@ -1,7 +1,7 @@
 //! What tests of several crates share: published data if it is available, fields by specification, temporary folders
 //! and results of programs.
 //!
-//! Only `dev-dependencies` may name this crate. Whatever fails in it is a failed test, hence it panics.
+//! Only `dev-dependencies` may name this crate. Its functions panic on failure, which fails the test.
 #![allow(clippy::unwrap_used, reason = "a failed helper is a failed test")]
 
 mod data;
@@ -17,7 +17,7 @@ pub use wait::eventually;
 use tigereye_core::{Field, Tensor2};
 use tigereye_fields::{generate, parse_spec};
 
-/// The field of a specification such as `inverse:size=51`, which must be right.
+/// The field of a specification such as `inverse:size=51`, which must be valid.
 #[must_use]
 #[track_caller]
 pub fn field(spec: &str) -> Field<Tensor2> {

@@ -1,4 +1,4 @@
-//! What a run of a program left.
+//! The result of running a program.
 
 use serde_json::Value;
 use std::process::Output;
@@ -15,7 +15,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// Of a program's output, which must be text.
+    /// From a program's output, which must be UTF-8.
     #[must_use]
     pub fn of(output: Output) -> Self {
         Self {

@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-/// How long is waited. It only keeps tests from hanging: whatever is waited for may take its time.
+/// The longest wait, which only keeps tests from hanging.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Waits until `is_so`; false where it never is.
+/// Waits until `is_so`; false if that takes too long.
 pub fn eventually(mut is_so: impl FnMut() -> bool) -> bool {
     let start = Instant::now();
     while !is_so() {

@@ -47,10 +47,10 @@ pub(crate) struct CheckArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ReviewArgs {
-    /// What was before: a results folder, as `reproduce --out` writes it.
+    /// The earlier results: a folder written by `reproduce --out`.
     #[arg(required_unless_present = "snapshots", conflicts_with = "snapshots")]
     pub(crate) base: Option<PathBuf>,
-    /// What is now: another one.
+    /// The later results: another such folder.
     #[arg(required_unless_present = "snapshots", conflicts_with = "snapshots")]
     pub(crate) head: Option<PathBuf>,
     /// Folder for the page and the summary, review.html and review.json.

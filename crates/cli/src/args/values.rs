@@ -108,7 +108,7 @@ pub(crate) fn parse_normalization(text: &str) -> Result<Normalization, String> {
     text.parse().map_err(|e: CoreError| e.to_string())
 }
 
-/// The parser of a choice by its words; help texts say what each means.
+/// The parser of a choice by name, with the descriptions for help texts.
 pub(crate) fn choice<T: Choice>() -> impl TypedValueParser<Value = T> {
     let words = PossibleValuesParser::new(T::ALL.iter().map(|value| possible(*value)));
     words.try_map(|word| T::of_word(&word).ok_or("expected one of the words"))
@@ -125,7 +125,7 @@ pub(crate) fn families() -> impl TypedValueParser<Value = &'static [Family]> {
 }
 
 fn possible(value: impl Choice) -> PossibleValue {
-    // Without the full stop, as clap leaves it out of comments.
+    // Without the full stop, which clap removes from doc comments as well.
     PossibleValue::new(value.word()).help(value.meaning().trim_end_matches('.'))
 }
 

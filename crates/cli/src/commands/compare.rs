@@ -148,7 +148,7 @@ impl Numbers {
     }
 }
 
-/// What is said of a difference from `a`.
+/// The message about a difference from `a`.
 fn text(difference: &Difference, a: &Numbers) -> String {
     let place =
         if difference.largest > 0.0 { format!(" at {:?}", a.place(difference.at)) } else { String::new() };

@@ -23,7 +23,7 @@ impl<'de, T: Choice> Deserialize<'de> for Chosen<T> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AxesChoice(Option<Axes>);
 
-/// Eigenvectors where the field is symmetric, semi-axes otherwise.
+/// Eigenvectors if the field is symmetric, otherwise semi-axes.
 const USUAL: &str = "Usual";
 
 impl<'de> Deserialize<'de> for AxesChoice {
@@ -38,19 +38,19 @@ impl<'de> Deserialize<'de> for AxesChoice {
 }
 
 impl AxesChoice {
-    /// These axes, whatever the field.
+    /// These axes for every field.
     pub(crate) const fn always(axes: Axes) -> Self {
         Self(Some(axes))
     }
 
-    /// The axes for a field, in the order chosen or their usual one.
+    /// The axes for a field, in the chosen order or the usual one.
     pub(crate) fn ordered(self, major: Option<Chosen<Major>>, field: &Field<Tensor2>) -> OrderedAxes {
         let axes = self.0.unwrap_or_else(|| usual_axes(field));
         major.map_or_else(|| axes.into(), |Chosen(major)| axes.by(major))
     }
 }
 
-/// Reads a name: one of `others` or of the values of `T`, as `find` knows them.
+/// Reads a name: one of `others` or of the values of `T`, which `find` looks up.
 struct Names<T, F> {
     others: &'static [&'static str],
     find: F,

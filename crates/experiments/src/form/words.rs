@@ -14,7 +14,7 @@ pub(crate) fn options() -> ron::Options {
         .with_default_extension(Extensions::UNWRAP_VARIANT_NEWTYPES)
 }
 
-/// What is said of a name that is none of the `expected` ones.
+/// The message about a name that is not among the `expected` ones.
 pub(crate) fn no_such_name(found: &str, expected: &[impl Borrow<str>]) -> String {
     format!("there is no `{found}` here: expected {}", one_of(expected))
 }

@@ -43,7 +43,7 @@ pub enum GlyphKind {
 }
 
 choice!(GlyphKind {
-    Ellipse = "ellipse": "The ellipse that the tensor makes of the unit circle.",
+    Ellipse = "ellipse": "The ellipse to which the tensor maps the unit circle.",
     Box = "box": "A rectangle along the semi-axes.",
     Superquadric { gamma: Self::GAMMA } = "superquadric":
         "A superellipse: round where isotropic, boxier the more anisotropic (Kindlmann 2004).",
@@ -119,9 +119,9 @@ pub enum GlyphScale {
 }
 
 choice!(GlyphScale {
-    Field = "field": "The largest of the field fills a cell.",
-    SquareRoot = "root": "By the square root, the largest filling a cell.",
-    Glyph = "glyph": "Every one fills its cell.",
+    Field = "field": "The largest glyph of the field fills a cell.",
+    SquareRoot = "root": "By the square root; the largest glyph fills a cell.",
+    Glyph = "glyph": "Every glyph fills its cell.",
 });
 
 /// The meaning of the colour of glyphs.

@@ -77,8 +77,8 @@ pub(crate) struct PropagateArgs {
     /// Exactly N steps instead of a stopping rule.
     #[arg(long, value_name = "N", value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) steps: Option<usize>,
-    /// Importance instead of light: how much of what each cell emits in each direction arrives at this cell. A receiver:
-    /// column, row and, after a further comma, its sensitivity as an expression in `theta` (default 1).
+    /// Importance instead of light: how much of what each cell emits in each direction arrives at this cell. A
+    /// receiver: column, row and, after a further comma, its sensitivity as an expression in `theta` (default 1).
     #[arg(long, value_name = "X,Y[,PROFILE]", allow_hyphen_values = true, conflicts_with_all = ["lights", "impulse", "steps"])]
     pub(crate) towards: Option<String>,
     /// Outputs by their extensions: .vti, .npy, .png, .svg; .pvd has a frame for every step, in the folder NAME beside
@@ -124,8 +124,8 @@ pub(crate) struct LtgArgs {
     /// Precision of the computation; f64 by default, f32 for an estimate.
     #[arg(long, value_parser = choice::<Precision>())]
     pub(crate) precision: Option<Precision>,
-    /// Estimate the gradient of linear scattering from N random sketches (16 to 1048576), with its standard error in the
-    /// array LTG_error.
+    /// Estimate the gradient of linear scattering from N random sketches (16 to 1048576), with its standard error in
+    /// the array LTG_error.
     #[arg(long, value_name = "N", value_parser = parse_sketches, allow_hyphen_values = true)]
     pub(crate) estimate: Option<u32>,
     /// Estimate it with as many sketches as this relative error takes.
@@ -134,8 +134,8 @@ pub(crate) struct LtgArgs {
     /// Seed of the sketches; 0 by default.
     #[arg(long, value_name = "K", value_parser = parse_seed, allow_hyphen_values = true)]
     pub(crate) seed: Option<u64>,
-    /// Write what there is of an estimate to FILE (.vti, .npy, .png, .svg) as soon as there is some, and again each time
-    /// the error has halved.
+    /// Write what there is of an estimate to FILE (.vti, .npy, .png, .svg) as soon as there is some, and again each
+    /// time the error has halved.
     #[arg(long, value_name = "FILE")]
     pub(crate) preview: Option<PathBuf>,
     #[command(flatten)]

@@ -1,8 +1,8 @@
 //! What the commands of the classical methods share: outputs by their extensions, provenance, and position.
 
 use crate::args::reading::ReadingArgs;
+use crate::commands::PNG_SCALE;
 use crate::commands::command_line;
-use crate::commands::propagate::PNG_SCALE;
 use crate::error::CliError;
 use crate::input::{Input, insert_reading};
 use crate::{files, interrupt};

@@ -1,7 +1,8 @@
 //! `tigereye field`: the generators, and work on a field of one's own.
 
 use crate::args::fields::{FieldLintArgs, FieldListArgs, FieldNewArgs, FieldShowArgs};
-use crate::commands::propagate::{PNG_SCALE, check_outputs};
+use crate::commands::PNG_SCALE;
+use crate::commands::propagate::check_outputs;
 use crate::commands::{print_json, print_text, quoted};
 use crate::error::CliError;
 use crate::input::Input;

@@ -1,8 +1,8 @@
 //! `tigereye propagate --towards`: where the light at a receiver comes from.
 
 use crate::args::light::{Picture, PropagateArgs};
-use crate::commands::propagate::{PNG_SCALE, cell_and_profile, parameters, stopping_of};
-use crate::commands::{command_line, print_json, print_text};
+use crate::commands::light_options::{cell_and_profile, parameters, stopping_of};
+use crate::commands::{PNG_SCALE, command_line, print_json, print_text};
 use crate::error::CliError;
 use crate::medium::MediumInput;
 use crate::{files, system};

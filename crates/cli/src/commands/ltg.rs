@@ -2,7 +2,8 @@
 
 use crate::args::light::LtgArgs;
 use crate::checkpoint::Checkpoint;
-use crate::commands::propagate::{check_outputs, stopping_of};
+use crate::commands::light_options::stopping_of;
+use crate::commands::propagate::check_outputs;
 use crate::commands::{command_line, print_json, print_text, volume};
 use crate::error::CliError;
 use crate::input::insert_reading;

@@ -12,6 +12,7 @@ pub(crate) mod importance;
 pub(crate) mod info;
 pub(crate) mod lattice;
 pub(crate) mod lic;
+pub(crate) mod light_options;
 pub(crate) mod lines;
 pub(crate) mod ltg;
 pub(crate) mod merge;
@@ -25,6 +26,9 @@ pub(crate) mod volume;
 use crate::error::CliError;
 use serde_json::Value;
 use std::io::{ErrorKind, Write};
+
+/// Resolution of PNG pictures.
+const PNG_SCALE: f64 = 2.0;
 
 /// Prints JSON to standard output.
 pub(crate) fn print_json(value: &Value) -> Result<(), CliError> {

@@ -1,21 +1,18 @@
 //! `tigereye propagate`: one light distribution.
 
-use crate::args::light::{Picture, PropagateArgs, SchemeArgs};
-use crate::commands::{command_line, counted, importance, print_json, print_text};
+use crate::args::light::{Picture, PropagateArgs};
+use crate::commands::light_options::{cell_and_profile, parameters, stopping_of};
+use crate::commands::{PNG_SCALE, command_line, counted, importance, print_json, print_text};
 use crate::error::CliError;
-use crate::input::insert_reading;
 use crate::medium::MediumInput;
 use crate::{files, interrupt, system};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
-use serde_json::{Value, json};
+use serde_json::json;
 use std::fmt::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use tigereye_core::{
-    Cell, CellShape, Choice, Directions, Field, LightDistribution, PolarProfile, StopReason, Surface,
-};
-use tigereye_experiments::lights::profile_of_expression;
+use tigereye_core::{Cell, CellShape, Field, LightDistribution, StopReason, Surface};
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{Rows, npy, pvd, vti};
@@ -24,9 +21,6 @@ use tigereye_transport::{
     EightLobe, Emission, Engine, Light, Outcome, Problem, ScatteringRule, Stopping, StoppingRule,
 };
 use tigereye_views::{Reel, light};
-
-/// Resolution of PNG pictures.
-pub(super) const PNG_SCALE: f64 = 2.0;
 
 pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     check_outputs(&args.outputs, &["vti", "npy", "png", "svg", "pvd", "apng"])?;
@@ -257,50 +251,6 @@ fn lights(args: &PropagateArgs, input: &MediumInput) -> Result<Vec<Light>, CliEr
 fn light(text: &str, args: &PropagateArgs) -> Result<Light, CliError> {
     let (cell, profile) = cell_and_profile("--light", text, args.scheme.directions)?;
     Ok(if args.impulse { Light::impulse(cell, profile) } else { Light::continuous(cell, profile) })
-}
-
-/// `X,Y[,PROFILE]` of an option; the profile may hold commas itself and is 1 by default.
-pub(super) fn cell_and_profile(
-    option: &str,
-    text: &str,
-    directions: Directions,
-) -> Result<(Cell, PolarProfile), CliError> {
-    let fault = |problem: String| CliError::input(&format!("{option} {text}"), problem);
-    let mut parts = text.splitn(3, ',');
-    let mut coordinate = |name: &str| {
-        let part = parts.next().unwrap_or_default().trim();
-        part.parse::<usize>()
-            .map_err(|_| fault(format!("`{part}` is no {name}: expected X,Y or X,Y,PROFILE")))
-    };
-    let cell = Cell::new(coordinate("column")?, coordinate("row")?);
-    let profile = match parts.next() {
-        None => PolarProfile::constant(directions, 1.0),
-        Some(expression) => profile_of_expression(expression, directions).map_err(fault)?,
-    };
-    Ok((cell, profile))
-}
-
-/// The stopping rule of the options.
-pub(crate) fn stopping_of(args: &SchemeArgs) -> Stopping {
-    args.stop().stopping(args.threshold, args.max_iterations)
-}
-
-pub(super) fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: &str) -> Value {
-    let mut parameters = json!({
-        "input": args.input,
-        "light": args.lights,
-        "impulse": args.impulse,
-        "steps": args.steps,
-        "directions": args.scheme.directions.count(),
-        "threshold": stopping.rule.threshold(),
-        "max_iterations": stopping.max_iterations,
-        "stop": args.scheme.stop().word(),
-        "scattering": args.scheme.scattering.word(),
-        "towards": args.towards,
-        "normalization": normalization,
-    });
-    insert_reading(&mut parameters, &args.scheme.reading);
-    parameters
 }
 
 fn encoded(output: &Path, args: &PropagateArgs, drawn: &Drawn<'_>, story: &str) -> Result<Vec<u8>, CliError> {

@@ -1,7 +1,7 @@
 //! Finished gradient volumes: files, pictures, and what is said about them.
 
+use crate::commands::PNG_SCALE;
 use crate::commands::command_line;
-use crate::commands::propagate::PNG_SCALE;
 use crate::error::CliError;
 use crate::files;
 use crate::part_file::{Gradient, Identity};

@@ -77,7 +77,8 @@ impl QuantityKind for AdjointError {
     }
 }
 
-/// The relative standard error of an estimated gradient, as measured from its sketches: root mean square over all values.
+/// The relative standard error of an estimated gradient, as measured from its sketches: root mean square over all
+/// values.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct RelativeError {

@@ -17,8 +17,8 @@ use tigereye_io::{IoError, image_from_light, vti};
 use tigereye_report::DataFile;
 use tigereye_transport::{LinearScattering, Scattering, ScatteringRule, SharedWeights, Stopping, importance};
 
-/// How much of what each cell emits in each direction arrives at a receiver, with linear scattering: one solution of the
-/// adjoint problem.
+/// How much of what each cell emits in each direction arrives at a receiver, with linear scattering: one solution of
+/// the adjoint problem.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Importance {

@@ -8,7 +8,7 @@ use syn::Type;
 use tigereye_core::Choice;
 use tigereye_lines::{Axes, Family, Major};
 use tigereye_render::GlyphColour;
-use tigereye_transport::{ENGINES, SharedWeights};
+use tigereye_transport::{ENGINES, ScatteringRule, SharedWeights};
 
 const PAGE: &str = "docs/reference/experiment-files.md";
 
@@ -44,14 +44,13 @@ const FUNCTIONS: [(&str, &str); 9] = [
 ];
 
 /// Defaults of types without a default variant.
-const TYPES: [(&str, &str); 9] = [
+const TYPES: [(&str, &str); 8] = [
     ("AxesChoice", "Usual"),
     ("DirectionCount", "32"),
     ("EngineChoice", "EightLobe"),
-    ("NormalizationRule", "Local"),
-    ("Stop", "FluxChange(threshold: 0.5)"),
     ("bool", "false"),
     ("f64", "0"),
+    ("u32", "0"),
     ("u64", "0"),
     ("usize", "0"),
 ];
@@ -67,6 +66,7 @@ fn names_of_choice(choice: &str) -> String {
         "Family" => names::<Family>(),
         "GlyphColour" => names::<GlyphColour>(),
         "Major" => names::<Major>(),
+        "ScatteringRule" => names::<ScatteringRule>(),
         "SharedWeights" => names::<SharedWeights>(),
         _ => panic!("`Chosen<{choice}>`: add its names to `names_of_choice` in {}", file!()),
     }
@@ -75,6 +75,7 @@ fn names_of_choice(choice: &str) -> String {
 fn default_of_choice(choice: &str) -> String {
     match choice {
         "Family" => Family::default().file_name(),
+        "ScatteringRule" => ScatteringRule::default().file_name(),
         "SharedWeights" => SharedWeights::default().file_name(),
         _ => panic!("`Chosen<{choice}>` has a default: add it to `default_of_choice` in {}", file!()),
     }

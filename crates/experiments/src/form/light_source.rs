@@ -29,7 +29,7 @@ pub enum EmissionKind {
     Impulse,
 }
 
-/// The intensity of a light source by direction, W/rad.
+/// The intensity of a light source (W/rad) or the sensitivity of a receiver by direction.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum ProfileShape {

@@ -13,7 +13,7 @@ use tigereye_views::light::{self, Request};
 pub struct Importance {
     /// Name of the importance run.
     run: Placed<String>,
-    /// Decades below the most important cell; linear when left out.
+    /// Decades shown below the most important cell; a linear scale by default.
     #[serde(default)]
     decades: Option<Positive>,
     /// Heading of the panel.

@@ -43,7 +43,7 @@ pub struct Gradient {
     /// state.
     #[serde(default)]
     scattering: Chosen<ScatteringRule>,
-    /// Number of sketches, 16 to 1048576, that a gradient with linear scattering is estimated from; left out: exact.
+    /// Number of sketches, 16 to 1048576, that a gradient with linear scattering is estimated from; exact by default.
     #[serde(default)]
     estimate: Option<u32>,
     /// Seed of the sketches.

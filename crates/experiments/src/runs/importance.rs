@@ -24,9 +24,9 @@ use tigereye_transport::{LinearScattering, Scattering, ScatteringRule, SharedWei
 pub struct Importance {
     /// Name of the field.
     field: Placed<String>,
-    /// Column and row of the receiver, 0 on the upper left.
+    /// Column and row of the receiver, (0, 0) at the upper left.
     receiver: Placed<(usize, usize)>,
-    /// Its sensitivity per direction; the same in all when left out.
+    /// Its sensitivity by direction; uniform by default.
     #[serde(default)]
     sensitivity: Option<Placed<ProfileShape>>,
     /// Angular samples S, a multiple of 8.

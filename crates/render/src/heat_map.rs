@@ -246,7 +246,7 @@ fn value_legend(
     if axis.logarithmic && values.iter().any(|v| v.is_finite() && *v < axis.low) {
         let negative = values.iter().any(|v| v.is_finite() && *v < 0.0);
         let text = format!(
-            "no light: {} or below {}",
+            "{} or below {}",
             if negative { "0, negative" } else { "0" },
             number::significant(axis.low, 2)
         );

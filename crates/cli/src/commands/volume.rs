@@ -121,6 +121,9 @@ const CAUGHT: usize = Stopping::REFERENCE.max_iterations + 1;
 /// A summary in one sentence; `stop` is the stopping rule as the option spells it.
 pub(super) fn sentence(summary: &Value, stop: &Value) -> String {
     let number = |v: &Value| v.as_f64().unwrap_or(f64::NAN);
+    if summary["estimate"] == 0 {
+        return "the shard has none of the sketches: every value is 0\n".to_owned();
+    }
     if !summary["estimate"].is_null() {
         return format!(
             "{} sketches (seed {}), {:.2} s; LTG at most {:.6}, {:.6} on average, with a relative standard error of {:.1} %\n",

@@ -207,6 +207,7 @@ fn exact_gradient_is_the_definition() {
             slices.iter().flat_map(|t| all[t * cells..(t + 1) * cells].iter().copied()).collect();
         let off = largest_relative_difference(found.volume.values(), &expected);
         assert!(off <= STEPPED, "{name}: off by {off:e}");
+        assert_eq!(found.work.sources, 8 * (cells as u64 - 4), "{name}: all cells but the corners");
         assert!(expected.iter().any(|&v| v > 1.0), "{name}: something to compare");
     }
 }

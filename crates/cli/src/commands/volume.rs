@@ -138,6 +138,11 @@ pub(super) fn sentence(summary: &Value, stop: &Value) -> String {
     if summary["sources"] == 0 {
         return "the field has no inner cells, or the shard none of them: every value is 0\n".to_owned();
     }
+    // With linear scattering nothing takes steps: the light that leaves a cell towards each neighbour is solved for.
+    let made = match summary["iterations_max"].as_u64() {
+        Some(0) => format!("{} solutions", summary["sources"]),
+        _ => format!("{} sources, {} steps at most", summary["sources"], summary["iterations_max"]),
+    };
     let limited = match summary["limited"].as_u64() {
         None | Some(0) => String::new(),
         Some(n) if stop == StopMeasure::Stationary.word() => {
@@ -146,9 +151,7 @@ pub(super) fn sentence(summary: &Value, stop: &Value) -> String {
         Some(n) => format!("; {n} sources met --max-iterations before the threshold"),
     };
     format!(
-        "{} sources, {} steps at most, {:.2} s; LTG at most {:.6}, {:.6} on average{limited}\n",
-        summary["sources"],
-        summary["iterations_max"],
+        "{made}, {:.2} s; LTG at most {:.6}, {:.6} on average{limited}\n",
         number(&summary["seconds"]["total"]),
         number(&summary["max"]),
         number(&summary["mean"]),

@@ -156,6 +156,8 @@ fn exact_gradients_are_written_and_said_to_be_linear() {
     let summary = place.succeeds(&with(&SHORT, &["--json", "-o", "a.vti", "a.npy", "a.png", "a.svg"])).json();
     has_keys(&summary, &["width", "height", "sources", "limited", "seconds", "max", "mean", "precision"]);
     assert_eq!((&summary["precision"], &summary["limited"]), (&"f64".into(), &0.into()));
+    let said = place.succeeds(&with(&SHORT, &["-o", "b.npy"])).stdout;
+    assert!(said.starts_with("544 solutions, "), "eight for each cell that is not a corner: {said}");
     let parameters = &story(&place, "a.vti")["parameters"];
     assert_eq!(
         (&parameters["scattering"], &parameters["stop"]),

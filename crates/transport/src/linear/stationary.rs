@@ -31,7 +31,8 @@ pub struct Settled {
 }
 
 /// Solves `a = A a + q` (or the adjoint) until a plain step changes `a` by no more than `tolerance` (L1, relative), and
-/// by no more than a thousandth of `q`. `watch` is told the sweeps and the residual after each iteration; `Break` ends the search as if it had failed.
+/// by no more than a thousandth of `q`. `watch` is told the sweeps and the residual after each iteration; `Break` ends
+/// the search as if it had failed.
 ///
 /// # Errors
 /// [`TransportError::Unsettled`] where that is not reached: light that is trapped has no stationary state.

@@ -168,12 +168,16 @@ impl Identity {
         let names =
             |p: &Value| p.as_object().map(|o| o.keys().cloned().collect::<Vec<_>>()).unwrap_or_default();
         let mut all = [names(&self.parameters), names(&other.parameters)].concat();
-        all.sort();
+        // What others follow from is named first.
+        let follows = |n: &String| !matches!(n.as_str(), "scattering" | "estimate" | "stop");
+        all.sort_by_key(|n| (follows(n), n.clone()));
         all.dedup();
-        let name = all
-            .into_iter()
-            .find(|n| !FREE.contains(&n.as_str()) && self.parameters.get(n) != other.parameters.get(n))?;
-        let value = |p: &Value| p.get(&name).map_or_else(|| "none".to_owned(), plain);
+        // What is null was not asked for, as what is absent.
+        let get = |p: &Value, name: &str| p.get(name).filter(|v| !v.is_null()).cloned();
+        let differs =
+            |n: &String| !FREE.contains(&n.as_str()) && get(&self.parameters, n) != get(&other.parameters, n);
+        let name = all.into_iter().find(differs)?;
+        let value = |p: &Value| get(p, &name).map_or_else(|| "none".to_owned(), |v| plain(&v));
         let option = format!("--{}", name.replace('_', "-"));
         Some((option, value(&self.parameters), value(&other.parameters)))
     }

@@ -112,6 +112,29 @@ pub enum TransportError {
         /// Row of the receiver.
         y: usize,
     },
+    /// A receiver that is sensitive to no direction.
+    #[error(
+        "the receiver at ({x}, {y}) has a sensitivity of 0 in every direction (negative values are clipped)"
+    )]
+    BlindReceiver {
+        /// Column of the receiver.
+        x: usize,
+        /// Row of the receiver.
+        y: usize,
+    },
+    /// A receiver whose sums would no longer be numbers.
+    #[error(
+        "the receiver at ({x}, {y}) has a sensitivity of {largest:e} at most: expected no more than {:e}",
+        BRIGHTEST
+    )]
+    TooSensitive {
+        /// Column of the receiver.
+        x: usize,
+        /// Row of the receiver.
+        y: usize,
+        /// Its largest sensitivity.
+        largest: f64,
+    },
     /// No stationary light was found.
     #[error(
         "the light did not become stationary within {sweeps} sweeps (the last step would change {residual:e} of it): \

@@ -1,7 +1,7 @@
-//! Directions, schemes and transmissions with fewer words.
+//! Directions, schemes and transmissions with fewer words, and gradients by brute force.
 
-use tigereye_core::{Directions, Field, Normalization, Tensor2, TransmissionField};
-use tigereye_transport::{Scheme, SharedWeights};
+use tigereye_core::{Cell, Directions, Field, Grid, LtgVolume, Normalization, Tensor2, TransmissionField};
+use tigereye_transport::{Engine, Light, Problem, SampleSpace, Scheme, SharedWeights, Stopping};
 
 /// `samples` directions.
 pub(crate) fn directions(samples: usize) -> Directions {
@@ -20,4 +20,93 @@ pub(crate) fn transmission(
     normalization: Normalization,
 ) -> TransmissionField {
     TransmissionField::from_tensors(tensors, directions(samples), normalization).expect("finite tensors")
+}
+
+/// `b(x, y, t)` of every pulse as the definition has it, and the steps each one took.
+pub(crate) struct AllPulses {
+    grid: Grid,
+    samples: usize,
+    distributions: Vec<Vec<f64>>,
+    steps: Vec<u64>,
+}
+
+impl AllPulses {
+    pub(crate) fn solve(scheme: &Scheme, transmission: &TransmissionField, stopping: Stopping) -> Self {
+        let (grid, samples) = (transmission.grid(), scheme.directions().count());
+        let (mut distributions, mut steps) = (Vec::new(), Vec::new());
+        for t in 0..samples {
+            for cell in grid.iter() {
+                if transmission.reflection(cell).is_some() {
+                    // Nothing shines in a wall.
+                    distributions.push(vec![0.0; grid.cells() * samples]);
+                    steps.push(0);
+                    continue;
+                }
+                let lights = [Light::pulse(cell, t)];
+                let problem = Problem { scheme, transmission, lights: &lights, stopping };
+                let outcome = SampleSpace.propagate(&problem).expect("a pulse");
+                let mut b = outcome.distribution.samples().to_vec();
+                // What the pulse itself puts there; with linear scattering, light that comes back adds to it.
+                b[grid.index(cell) * samples + t] -= samples as f64;
+                distributions.push(b);
+                steps.push(outcome.work.steps as u64);
+            }
+        }
+        Self { grid, samples, distributions, steps }
+    }
+
+    fn index(&self, x: usize, y: usize, t: usize) -> usize {
+        t % self.samples * self.grid.cells() + self.grid.index(Cell::new(x, y))
+    }
+
+    fn half_difference(&self, a: usize, b: usize) -> f64 {
+        let pairs = self.distributions[a].iter().zip(&self.distributions[b]);
+        0.5 * pairs.map(|(a, b)| (a - b).abs()).sum::<f64>()
+    }
+
+    /// Eqs. 3.17 to 3.20, slice by slice.
+    pub(crate) fn gradient(&self, omega_step: usize) -> Vec<f64> {
+        let mut values = Vec::new();
+        for t in 0..self.samples {
+            for Cell { x, y } in self.grid.iter() {
+                if self.grid.is_border(Cell::new(x, y)) {
+                    values.push(0.0);
+                    continue;
+                }
+                let along_x = self.half_difference(self.index(x + 1, y, t), self.index(x - 1, y, t));
+                let along_y = self.half_difference(self.index(x, y + 1, t), self.index(x, y - 1, t));
+                let (after, before) = (t + omega_step, t + self.samples - omega_step);
+                let turned = self.half_difference(self.index(x, y, after), self.index(x, y, before));
+                values.push((along_x * along_x + along_y * along_y + turned * turned).sqrt());
+            }
+        }
+        values
+    }
+
+    /// Steps of the pulses whose distributions are compared: all but those in the corners.
+    pub(crate) fn steps_of_compared(&self) -> impl Iterator<Item = u64> + '_ {
+        let (w, h) = (self.grid.width(), self.grid.height());
+        self.steps.iter().enumerate().filter_map(move |(i, &steps)| {
+            let Cell { x, y } = self.grid.cell(i % self.grid.cells());
+            let corner = (x == 0 || x + 1 == w) && (y == 0 || y + 1 == h);
+            (!corner).then_some(steps)
+        })
+    }
+}
+
+/// Largest difference of two values relative to the second; zeros must be zeros.
+pub(crate) fn largest_relative_difference(found: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(found.len(), expected.len());
+    let relative = |(a, b): (&f64, &f64)| if a == b { 0.0 } else { (a - b).abs() / b.abs() };
+    found.iter().zip(expected).map(relative).fold(0.0, f64::max)
+}
+
+/// The bits of all values.
+pub(crate) fn bits(volume: &LtgVolume) -> Vec<u64> {
+    volume.values().iter().map(|v| v.to_bits()).collect()
+}
+
+/// Runs `work` on a pool of so many threads.
+pub(crate) fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool").install(work)
 }

@@ -1,10 +1,10 @@
 //! Laws of the light transport gradient: its definition, its symmetries, and what it must not depend on.
 
-use crate::common::{scheme, transmission};
+use crate::common::{AllPulses, bits, largest_relative_difference, scheme, transmission, with_threads};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
-use tigereye_core::{Cell, Field, Grid, LtgVolume, Normalization, Tensor2, TransmissionField};
+use tigereye_core::{Cell, Field, LtgVolume, Normalization, Tensor2, TransmissionField};
 use tigereye_ltg::{
     Finished, LtgError, LtgOutcome, LtgSettings, NUMERICS, PartialVolume, Phase, Precision, Shard,
     SweepObserver, omega_step_of_slices, omega_step_of_volumes, sweep, sweep_part,
@@ -12,7 +12,7 @@ use tigereye_ltg::{
 use tigereye_test_support::field;
 use tigereye_tests::{Symmetry, difference_over_largest};
 use tigereye_transport::{
-    EightLobe, Engine, Level, Light, Problem, SampleSpace, Scattering, Scheme, Stopping, StoppingRule,
+    EightLobe, Engine, Level, Light, Problem, Scattering, Scheme, Stopping, StoppingRule,
 };
 
 /// Difference from the brute-force gradient relative to the value itself (1): another order of summation, and the
@@ -86,98 +86,15 @@ impl Scene {
     }
 }
 
-/// `b(x, y, t)` of every pulse as the definition has it, and the steps each one took.
-struct AllPulses {
-    grid: Grid,
-    samples: usize,
-    distributions: Vec<Vec<f64>>,
-    steps: Vec<u64>,
-}
-
-impl AllPulses {
-    fn solve(scene: &Scene, stopping: Stopping) -> Self {
-        let (grid, samples) = (scene.transmission.grid(), scene.scheme.directions().count());
-        let (mut distributions, mut steps) = (Vec::new(), Vec::new());
-        for t in 0..samples {
-            for cell in grid.iter() {
-                let lights = [Light::pulse(cell, t)];
-                let problem = Problem {
-                    scheme: &scene.scheme,
-                    transmission: &scene.transmission,
-                    lights: &lights,
-                    stopping,
-                };
-                let outcome = SampleSpace.propagate(&problem).expect("a pulse");
-                let mut b = outcome.distribution.samples().to_vec();
-                b[grid.index(cell) * samples + t] = 0.0;
-                distributions.push(b);
-                steps.push(outcome.work.steps as u64);
-            }
-        }
-        Self { grid, samples, distributions, steps }
-    }
-
-    fn index(&self, x: usize, y: usize, t: usize) -> usize {
-        t % self.samples * self.grid.cells() + self.grid.index(Cell::new(x, y))
-    }
-
-    fn half_difference(&self, a: usize, b: usize) -> f64 {
-        let pairs = self.distributions[a].iter().zip(&self.distributions[b]);
-        0.5 * pairs.map(|(a, b)| (a - b).abs()).sum::<f64>()
-    }
-
-    /// Eqs. 3.17 to 3.20, slice by slice.
-    fn gradient(&self, omega_step: usize) -> Vec<f64> {
-        let mut values = Vec::new();
-        for t in 0..self.samples {
-            for Cell { x, y } in self.grid.iter() {
-                if self.grid.is_border(Cell::new(x, y)) {
-                    values.push(0.0);
-                    continue;
-                }
-                let along_x = self.half_difference(self.index(x + 1, y, t), self.index(x - 1, y, t));
-                let along_y = self.half_difference(self.index(x, y + 1, t), self.index(x, y - 1, t));
-                let (after, before) = (t + omega_step, t + self.samples - omega_step);
-                let turned = self.half_difference(self.index(x, y, after), self.index(x, y, before));
-                values.push((along_x * along_x + along_y * along_y + turned * turned).sqrt());
-            }
-        }
-        values
-    }
-
-    /// Steps of the pulses whose distributions are compared: all but those in the corners.
-    fn steps_of_compared(&self) -> impl Iterator<Item = u64> + '_ {
-        let (w, h) = (self.grid.width(), self.grid.height());
-        self.steps.iter().enumerate().filter_map(move |(i, &steps)| {
-            let Cell { x, y } = self.grid.cell(i % self.grid.cells());
-            let corner = (x == 0 || x + 1 == w) && (y == 0 || y + 1 == h);
-            (!corner).then_some(steps)
-        })
-    }
-}
-
-/// Largest difference of two values relative to the second; zeros must be zeros.
-fn largest_relative_difference(found: &[f64], expected: &[f64]) -> f64 {
-    assert_eq!(found.len(), expected.len());
-    let relative = |(a, b): (&f64, &f64)| if a == b { 0.0 } else { (a - b).abs() / b.abs() };
-    found.iter().zip(expected).map(relative).fold(0.0, f64::max)
-}
-
-fn bits(volume: &LtgVolume) -> Vec<u64> {
-    volume.values().iter().map(|v| v.to_bits()).collect()
-}
-
-fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool").install(work)
-}
-
 /// The sweep finds stationary states by other means than stepping: values agree, counts do not.
 #[test]
 fn stationary_sweep_is_the_definition_of_stationary_pulses() {
     for spec in ["random:width=7,height=6", "bow:width=7,height=6,anisotropy=4"] {
         let scene = Scene::of(spec, 16);
         let rule = StoppingRule::Converged { tolerance: 1e-14 };
-        let expected = AllPulses::solve(&scene, Stopping { rule, max_iterations: 2000 }).gradient(2);
+        let expected =
+            AllPulses::solve(&scene.scheme, &scene.transmission, Stopping { rule, max_iterations: 2000 })
+                .gradient(2);
         let outcome = scene.sweep(&LtgSettings { stopping: Stopping::STATIONARY, ..scene.settings(2) });
         let difference = largest_relative_difference(outcome.volume.values(), &expected);
         // The rule's own tolerance, a few times over.
@@ -208,7 +125,7 @@ fn sweep_is_the_definition() {
     ];
     for (name, scene) in &scenes {
         for stopping in rules {
-            let pulses = AllPulses::solve(scene, stopping);
+            let pulses = AllPulses::solve(&scene.scheme, &scene.transmission, stopping);
             // Half a turn compares every pulse with itself.
             for omega_step in [1, 2, 5, 8] {
                 let settings = LtgSettings { stopping, ..scene.settings(omega_step) };

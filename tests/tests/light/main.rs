@@ -2,6 +2,7 @@
 
 mod common;
 mod gradient_laws;
+mod linear_laws;
 mod propagation_laws;
 mod published_volumes;
 mod scene_laws;

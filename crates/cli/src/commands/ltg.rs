@@ -235,7 +235,9 @@ fn fault(error: LtgError) -> CliError {
         LtgError::Memory { .. } => CliError::input("--memory", error),
         LtgError::Stopping(TransportError::Trapped { .. }) => CliError::input("--scattering linear", error),
         LtgError::Stopping(_) => CliError::input("--threshold", error),
-        LtgError::Sketches { .. } | LtgError::NoSketches => CliError::input("--estimate", error),
+        // The number of --estimate is checked where it is read.
+        LtgError::Sketches { .. } => CliError::input("--error", error),
+        LtgError::NoSketches => CliError::input("--estimate", error),
         LtgError::Shard { .. } => CliError::input("--shard", error),
         LtgError::Unlike { .. }
         | LtgError::Length { .. }

@@ -121,6 +121,9 @@ const CAUGHT: usize = Stopping::REFERENCE.max_iterations + 1;
 /// A summary in one sentence; `stop` is the stopping rule as the option spells it.
 pub(super) fn sentence(summary: &Value, stop: &Value) -> String {
     let number = |v: &Value| v.as_f64().unwrap_or(f64::NAN);
+    if summary["estimate"] == 0 {
+        return "the shard has none of the sketches: every value is 0\n".to_owned();
+    }
     if !summary["estimate"].is_null() {
         return format!(
             "{} sketches (seed {}), {:.2} s; LTG at most {:.6}, {:.6} on average, with a relative standard error of {:.1} %\n",
@@ -135,6 +138,11 @@ pub(super) fn sentence(summary: &Value, stop: &Value) -> String {
     if summary["sources"] == 0 {
         return "the field has no inner cells, or the shard none of them: every value is 0\n".to_owned();
     }
+    // With linear scattering nothing takes steps: the light that leaves a cell towards each neighbour is solved for.
+    let made = match summary["iterations_max"].as_u64() {
+        Some(0) => format!("{} solutions", summary["sources"]),
+        _ => format!("{} sources, {} steps at most", summary["sources"], summary["iterations_max"]),
+    };
     let limited = match summary["limited"].as_u64() {
         None | Some(0) => String::new(),
         Some(n) if stop == StopMeasure::Stationary.word() => {
@@ -143,9 +151,7 @@ pub(super) fn sentence(summary: &Value, stop: &Value) -> String {
         Some(n) => format!("; {n} sources met --max-iterations before the threshold"),
     };
     format!(
-        "{} sources, {} steps at most, {:.2} s; LTG at most {:.6}, {:.6} on average{limited}\n",
-        summary["sources"],
-        summary["iterations_max"],
+        "{made}, {:.2} s; LTG at most {:.6}, {:.6} on average{limited}\n",
         number(&summary["seconds"]["total"]),
         number(&summary["max"]),
         number(&summary["mean"]),

@@ -9,6 +9,7 @@ mod faults;
 mod geometry;
 #[cfg(unix)]
 mod interruption;
+mod linear;
 mod machine;
 mod odd_fields;
 mod own_fields;

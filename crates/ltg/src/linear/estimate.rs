@@ -66,43 +66,46 @@ impl Layout {
         2 * self.differences() + self.moved + 2 * self.values.len()
     }
 
-    /// Adds a batch's logarithms of a cell (in steps, by difference) to its sums. Only the first `pairs` groups hold
-    /// two sketches; others say nothing about the scatter.
+    /// Adds the logarithms of a batch of so many sketches of a cell (in steps, by difference) to its sums. Where their
+    /// number is odd, the group of the last one holds it alone. It then counts as its own partner, with half the weight
+    /// of a pair: `1/2 (2 a) (2 b) = 2 a b`.
     #[inline(always)]
-    pub(crate) fn add(&self, logarithms: &mut [[i32; GROUPS]], pairs: usize, sums: &mut [i64]) {
+    pub(crate) fn add(&self, logarithms: &[[i32; GROUPS]], sketches: usize, sums: &mut [i64]) {
+        let single = if sketches % 2 == 0 { GROUPS } else { sketches / 2 };
         let n = self.differences();
         let (first, products) = sums.split_at_mut(2 * n);
         let (linear, squares) = first.split_at_mut(n);
-        for ((log, sum), square) in logarithms.iter_mut().zip(linear).zip(squares) {
+        for ((log, sum), square) in logarithms.iter().zip(linear).zip(squares) {
             let mut total = 0;
             for g in 0..GROUPS {
                 total += log[g];
             }
             *sum += i64::from(total);
-            if pairs < GROUPS {
-                log[pairs..].fill(0);
-            }
-            *square += product(log, log);
+            *square += product(log, log, single);
         }
         let (xy, turned) = products.split_at_mut(self.moved);
         for (class, sum) in xy.iter_mut().enumerate() {
-            *sum += product(&logarithms[class], &logarithms[self.moved + class]);
+            *sum += product(&logarithms[class], &logarithms[self.moved + class], single);
         }
         let (xw, yw) = turned.split_at_mut(self.values.len());
         for (((class, turn), xw), yw) in self.values.iter().zip(xw).zip(yw) {
             let turned = &logarithms[2 * self.moved + turn];
-            *xw += product(&logarithms[*class], turned);
-            *yw += product(&logarithms[self.moved + class], turned);
+            *xw += product(&logarithms[*class], turned, single);
+            *yw += product(&logarithms[self.moved + class], turned, single);
         }
     }
 }
 
-/// Sum of the products of two lists of logarithms, in squared coarse steps.
+/// Sum of the products of two lists of logarithms, in squared coarse steps; that of the group `single`, if there is
+/// one, counts twice.
 #[inline(always)]
-fn product(a: &[i32; GROUPS], b: &[i32; GROUPS]) -> i64 {
+fn product(a: &[i32; GROUPS], b: &[i32; GROUPS], single: usize) -> i64 {
     let mut sum = 0;
     for g in 0..GROUPS {
         sum += i64::from(a[g] >> SQUARED_SHIFT) * i64::from(b[g] >> SQUARED_SHIFT);
+    }
+    if single < GROUPS {
+        sum += i64::from(a[single] >> SQUARED_SHIFT) * i64::from(b[single] >> SQUARED_SHIFT);
     }
     sum
 }
@@ -309,8 +312,9 @@ fn value_and_error(layout: &Layout, sums: &[i64], value: usize, sketches: u32) -
     let n = layout.differences();
     let at = [class, layout.moved + class, 2 * layout.moved + turn];
     let count = f64::from(sketches);
-    // Pairs of sketches; an odd one has no partner.
-    let groups = (count / 2.0).floor();
+    // Pairs of sketches, an odd one by itself with half the weight of a pair.
+    let groups = (count / 2.0).ceil();
+    let weights = count / 2.0;
     // Mean logarithm of a sketch, octaves.
     let means = at.map(|i| sums[i] as f64 / (f64::from(STEPS) * count));
     let bias = math::pow(math::cos(FRAC_PI_2 / count), count);
@@ -332,10 +336,10 @@ fn value_and_error(layout: &Layout, sums: &[i64], value: usize, sketches: u32) -
     };
     let coarse = f64::from(STEPS) / f64::from(1_u32 << SQUARED_SHIFT);
     // `v >> SHIFT` rounds down: half a coarse step on average.
-    let coarse_means = means.map(|mean| 2.0 * mean * coarse - 0.5);
+    let coarse_means = means.map(|mean| 2.0 * mean * coarse - 0.5 * groups / weights);
     let covariance = |i: usize, j: usize| {
-        let about_mean = sum_of_products(i, j) as f64 - groups * coarse_means[i] * coarse_means[j];
-        about_mean / (groups - 1.0).max(1.0) / (coarse * coarse) * LN_2 * LN_2 / (4.0 * groups)
+        let about_mean = sum_of_products(i, j) as f64 - weights * coarse_means[i] * coarse_means[j];
+        about_mean / (groups - 1.0).max(1.0) / (coarse * coarse) * LN_2 * LN_2 / (4.0 * weights)
     };
     let share = norms.map(|g| g * g / square);
     let mut variance = 0.0;

@@ -234,7 +234,9 @@ fn finish(
             1
         }
     };
-    let owned = own(cell.x, grid.width()) * own(cell.y, grid.height());
+    let (columns, rows) = (own(cell.x, grid.width()), own(cell.y, grid.height()));
+    // Nothing is compared with the corners.
+    let owned = columns * rows - (columns - 1) * (rows - 1);
     let work = SweepWork { sources: 8 * owned as u64, ..SweepWork::default() };
     volume.finish_cell(shard, cell, work, &value);
 }

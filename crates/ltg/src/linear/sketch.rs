@@ -407,7 +407,7 @@ impl<const N: usize> ArrayLoop for LookUps<'_, N> {
                 for (turn, [before, after]) in self.turns.iter().enumerate() {
                     logarithms[2 * moved + turn] = logarithm(&own[*before], &own[*after], sketches as usize);
                 }
-                layout.add(&mut logarithms, sketches as usize / 2, sums);
+                layout.add(&logarithms, sketches as usize, sums);
             }
         }
     }

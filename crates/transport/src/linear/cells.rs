@@ -17,13 +17,15 @@ pub struct LinearScattering<'a> {
     field: &'a Scattering<'a>,
     /// By cell; unused in walls.
     bands: Vec<Band>,
+    /// In which lobes light can arrive, a bit for each, by cell; empty without walls.
+    lit: Vec<u8>,
 }
 
 impl<'a> LinearScattering<'a> {
     /// Normalises the columns of every cell's matrix.
     #[must_use]
     pub fn new(field: &'a Scattering<'a>) -> Self {
-        Self { field, bands: bands(field) }
+        Self { field, bands: bands(field), lit: lit_lobes(field.transmission()) }
     }
 
     /// The grid.
@@ -48,11 +50,14 @@ impl<'a> LinearScattering<'a> {
     }
 
     /// `P[k][j]` of a cell: the part of the light in lobe j that leaves towards neighbour k. Columns add up to `Tbar`,
-    /// or to the reflectance of a wall.
+    /// or to the reflectance of a wall; those of lobes in which no light can arrive, inside a wall, are 0.
     #[must_use]
     pub fn matrix(&self, cell: Cell) -> [[f64; 8]; 8] {
         if let Some(wall) = self.transmission().reflection(cell) {
-            return *wall.shares();
+            let lit = self.lit[self.grid().index(cell)];
+            return wall
+                .shares()
+                .map(|row| std::array::from_fn(|j| if lit & (1 << j) == 0 { 0.0 } else { row[j] }));
         }
         let band = &self.bands[self.grid().index(cell)];
         let mut p = [[0.0; 8]; 8];
@@ -111,6 +116,41 @@ impl<'a> LinearScattering<'a> {
         }
         lobes
     }
+}
+
+/// In which lobes light can arrive at each cell. Between the cells of a wall it is dark, but what they would send to
+/// and fro there would look like trapped light.
+fn lit_lobes(transmission: &TransmissionField) -> Vec<u8> {
+    let grid = transmission.grid();
+    let walls: Vec<Cell> = transmission.reflections().map(|(cell, _)| cell).collect();
+    if walls.is_empty() {
+        return Vec::new();
+    }
+    let mut lit = vec![u8::MAX; grid.cells()];
+    walls.iter().for_each(|&wall| lit[grid.index(wall)] = 0);
+    let mut next = Vec::new();
+    for &wall in &walls {
+        for j in 0..8 {
+            let from = grid.neighbour(wall, (j + 4) % 8);
+            if from.is_some_and(|from| transmission.reflection(from).is_none()) {
+                lit[grid.index(wall)] |= 1 << j;
+                next.push((wall, j));
+            }
+        }
+    }
+    while let Some((wall, j)) = next.pop() {
+        let Some(reflection) = transmission.reflection(wall) else { continue };
+        for (k, row) in reflection.shares().iter().enumerate() {
+            if let Some(there) = grid.neighbour(wall, k)
+                && row[j] > 0.0
+                && lit[grid.index(there)] & (1 << k) == 0
+            {
+                lit[grid.index(there)] |= 1 << k;
+                next.push((there, k));
+            }
+        }
+    }
+    lit
 }
 
 /// [`LinearScattering::emitted`], without the matrices.

@@ -3,6 +3,7 @@
 use super::cells::LinearScattering;
 use super::dissection::Course;
 use super::stationary::stationary;
+use crate::error::BRIGHTEST;
 use crate::scattering::Scattering;
 use crate::{Emission, Outcome, Problem, TransportError};
 use std::ops::ControlFlow;
@@ -60,7 +61,8 @@ pub(crate) fn stationary_light(problem: &Problem<'_>, tolerance: f64) -> Result<
 ///
 /// # Errors
 /// [`TransportError::ReceiverOutside`], [`TransportError::ReceiverInWall`], [`TransportError::LightDirections`] for a
-/// sensitivity of another sampling, and [`TransportError::Unsettled`].
+/// sensitivity of another sampling, [`TransportError::BlindReceiver`], [`TransportError::TooSensitive`], and
+/// [`TransportError::Unsettled`].
 pub fn importance(
     field: &LinearScattering<'_>,
     receiver: Cell,
@@ -78,6 +80,13 @@ pub fn importance(
     }
     if sensitivity.len() != s {
         return Err(TransportError::LightDirections { x, y, samples: sensitivity.len(), expected: s });
+    }
+    let largest = sensitivity.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    if largest == 0.0 {
+        return Err(TransportError::BlindReceiver { x, y });
+    }
+    if largest > BRIGHTEST {
+        return Err(TransportError::TooSensitive { x, y, largest });
     }
     let weighed: Vec<f64> = sensitivity.iter().map(|v| v * directions.step_rad()).collect();
     let received = field.sampled_back(&weighed);

@@ -13,6 +13,9 @@ use tigereye_core::{Cell, NEIGHBOUR_OFFSETS};
 
 /// Sweeps after which a search ends: fields of ten thousand cells a side would settle by then.
 const MOST_SWEEPS: usize = 8000;
+/// What a plain step may still change, as a part of what the sources inject: where light is trapped, it grows until any
+/// change is a small part of it.
+const BALANCE: f64 = 1e-3;
 /// The order of the corners of a round: opposite ones follow each other.
 const CORNERS: [[bool; 2]; 4] = [[false, false], [true, true], [true, false], [false, true]];
 
@@ -27,8 +30,9 @@ pub struct Settled {
     pub residual: f64,
 }
 
-/// Solves `a = A a + q` (or the adjoint) until a plain step changes `a` by no more than `tolerance` (L1, relative).
-/// `watch` is told the sweeps and the residual after each iteration; `Break` ends the search as if it had failed.
+/// Solves `a = A a + q` (or the adjoint) until a plain step changes `a` by no more than `tolerance` (L1, relative), and
+/// by no more than a thousandth of `q`. `watch` is told the sweeps and the residual after each iteration; `Break` ends
+/// the search as if it had failed.
 ///
 /// # Errors
 /// [`TransportError::Unsettled`] where that is not reached: light that is trapped has no stationary state.
@@ -57,8 +61,9 @@ pub fn stationary(
         }
         if residual <= tolerance {
             // What the recurrence says of the residual is subject to rounding.
-            let residual = relative(&system.residual(q, &a), &a);
-            if residual <= 2.0 * tolerance {
+            let left = system.residual(q, &a);
+            let residual = relative(&left, &a);
+            if residual <= 2.0 * tolerance && relative(&left, q) <= BALANCE {
                 return Ok(Settled { lobes: a, sweeps, residual });
             }
         }

@@ -27,8 +27,8 @@ pub use error::TransportError;
 pub use light::{Emission, Light, check_lights, emitter};
 pub use limits::{Traffic, arithmetic};
 pub use linear::{
-    Combination, Course, Dissection, Lanes, LinearScattering, Parallel, Serial, Settled, Workspace,
-    importance, l1_norms, stationary,
+    Combination, Course, Dissection, Lanes, LinearScattering, Parallel, Serial, Settled, Watch, Workspace,
+    importance, l1_norms, stationary, stationary_light,
 };
 pub use oracle::SampleSpace;
 pub use pulses::{LaneOutcome, PulseDistribution, PulseSolver, l1_difference};

@@ -67,7 +67,7 @@ impl Engine for EightLobe {
                 if problem.scheme.scattering() == ScatteringRule::Linear
                     && problem.lights.iter().all(lasts) =>
             {
-                linear::stationary_light(problem, tolerance)
+                linear::stationary_light(problem, tolerance, &mut |_, _| ControlFlow::Continue(()))
             }
             _ => self.propagate_observed(problem, &mut |_| ControlFlow::Continue(())),
         }

@@ -5,8 +5,9 @@ use crate::commands::light_options::{cell_and_profile, parameters, stopping_of};
 use crate::commands::{PNG_SCALE, command_line, print_json, print_text};
 use crate::error::CliError;
 use crate::medium::MediumInput;
-use crate::{files, system};
+use crate::{files, interrupt, system};
 use serde_json::json;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 use tigereye_core::{Cell, CellShape, LightDistribution, TransmissionField};
@@ -51,7 +52,11 @@ pub(super) fn importance(
     let scheme = args.scheme.scheme();
     let scattering = Scattering::new(&scheme, &transmission);
     let field = LinearScattering::new(&scattering);
-    let found = tigereye_transport::importance(&field, cell, sensitivity.samples(), TOLERANCE);
+    let watch = &mut |_, _| {
+        if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let found = tigereye_transport::importance(&field, cell, sensitivity.samples(), TOLERANCE, watch);
+    interrupt::check()?;
     let (importance, work) = found.map_err(|e| match e {
         TransportError::Unsettled { .. } => CliError::input(input.name(), e),
         e => CliError::input("--towards", e),

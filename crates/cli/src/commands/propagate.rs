@@ -19,6 +19,7 @@ use tigereye_io::{Rows, npy, pvd, vti};
 use tigereye_render::{PolarOptions, Scene, TransmissionScale, polar_overlay};
 use tigereye_transport::{
     EightLobe, Emission, Engine, Light, Outcome, Problem, ScatteringRule, Stopping, StoppingRule,
+    stationary_light,
 };
 use tigereye_views::{Reel, light};
 
@@ -61,9 +62,17 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     }
     let mut fault = None;
     let line = progress_line(&args.input, &stopping);
-    // Who wants to see the steps makes them; otherwise a stationary state may be solved for.
-    let watched = !collections.is_empty() || reel.is_some() || scheme.scattering() == ScatteringRule::Joint;
-    let outcome = if watched {
+    // A stationary state of linear scattering is solved for, unless its steps are to be seen.
+    let has_flashes = lights.iter().any(|light| matches!(light.emission, Emission::Impulse(_)));
+    let is_solved = scheme.scattering() == ScatteringRule::Linear
+        && matches!(stopping.rule, StoppingRule::Converged { .. })
+        && !(has_flashes || reel.is_some() || !collections.is_empty());
+    let outcome = if is_solved {
+        stationary_light(&problem, stopping.rule.threshold(), &mut |sweeps, _| {
+            line.set_position(sweeps as u64);
+            if interrupt::asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
+    } else {
         EightLobe.propagate_observed(&problem, &mut |view| {
             line.set_position(view.step() as u64);
             if !collections.is_empty() {
@@ -76,12 +85,10 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
             let end = interrupt::asked() || fault.is_some();
             if end { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })
-    } else {
-        EightLobe.propagate(&problem)
     };
-    let outcome = outcome.map_err(|e| CliError::input("--light", e))?;
     line.finish_and_clear();
     interrupt::check()?;
+    let outcome = outcome.map_err(|e| CliError::input("--light", e))?;
     fault.map_or(Ok(()), Err)?;
     let drawn = Drawn {
         problem: &problem,
@@ -95,7 +102,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
         files::write(output, &encoded(output, args, &drawn, &story)?)?;
     }
     collections.into_iter().try_for_each(Frames::finish)?;
-    let unit = if watched { "step" } else { "sweep" };
+    let unit = if is_solved { "sweep" } else { "step" };
     report(args, &input, lights.len(), (&outcome, unit), start.elapsed().as_secs_f64())?;
     Ok(0)
 }

@@ -112,7 +112,7 @@ impl Plan {
         name: &str,
         media: &Media,
         _memory_bytes: u64,
-        _host: &dyn Host,
+        host: &dyn Host,
     ) -> Result<Outcome, RunError> {
         let medium = media.medium(self.setup.medium);
         let transmission = self.setup.transmission(name, medium)?;
@@ -120,8 +120,18 @@ impl Plan {
         let scattering = Scattering::new(&scheme, &transmission);
         let field = LinearScattering::new(&scattering);
         let tolerance = Stopping::STATIONARY.rule.threshold();
-        let (importance, work) = importance(&field, self.receiver, &self.sensitivity, tolerance)
-            .map_err(|source| RunError::Propagation { run: name.to_owned(), source })?;
+        let mut interrupted = false;
+        let watch = &mut |sweeps: usize, _| {
+            let progress = host.progress(name, sweeps as u64, 0);
+            interrupted |= progress.is_break();
+            progress
+        };
+        let found = importance(&field, self.receiver, &self.sensitivity, tolerance, watch);
+        if interrupted {
+            return Err(RunError::Interrupted);
+        }
+        let (importance, work) =
+            found.map_err(|source| RunError::Propagation { run: name.to_owned(), source })?;
         Ok(Outcome {
             receiver: self.receiver,
             sensitivity: self.sensitivity.clone(),

@@ -2,11 +2,10 @@
 
 use super::cells::LinearScattering;
 use super::dissection::Course;
-use super::stationary::stationary;
+use super::stationary::{Watch, stationary};
 use crate::error::BRIGHTEST;
 use crate::scattering::Scattering;
 use crate::{Emission, Outcome, Problem, TransportError};
-use std::ops::ControlFlow;
 use tigereye_core::{Cell, Field, LightDistribution, StopReason, Work};
 
 /// The stationary light of continuous lights and pulses, to a relative change of `tolerance` per step. Impulses have
@@ -14,7 +13,11 @@ use tigereye_core::{Cell, Field, LightDistribution, StopReason, Work};
 ///
 /// # Errors
 /// What [`Problem::check`] finds, and [`TransportError::Unsettled`].
-pub(crate) fn stationary_light(problem: &Problem<'_>, tolerance: f64) -> Result<Outcome, TransportError> {
+pub fn stationary_light(
+    problem: &Problem<'_>,
+    tolerance: f64,
+    watch: &mut Watch<'_>,
+) -> Result<Outcome, TransportError> {
     problem.check()?;
     let scattering = Scattering::new(problem.scheme, problem.transmission);
     let field = LinearScattering::new(&scattering);
@@ -29,8 +32,7 @@ pub(crate) fn stationary_light(problem: &Problem<'_>, tolerance: f64) -> Result<
             }
         }
     }
-    let found =
-        stationary(&field, Course::FromSources, &q, tolerance, &mut |_, _| ControlFlow::Continue(()))?;
+    let found = stationary(&field, Course::FromSources, &q, tolerance, watch)?;
     let s = directions.count();
     let mut samples = Vec::with_capacity(grid.cells() * s);
     for a in &found.lobes {
@@ -68,6 +70,7 @@ pub fn importance(
     receiver: Cell,
     sensitivity: &[f64],
     tolerance: f64,
+    watch: &mut Watch<'_>,
 ) -> Result<(LightDistribution, Work), TransportError> {
     let (grid, scheme) = (field.grid(), field.scheme());
     let (directions, Cell { x, y }) = (scheme.directions(), receiver);
@@ -98,7 +101,7 @@ pub fn importance(
             r[grid.index(behind)][back] += received;
         }
     }
-    let found = stationary(field, Course::ToReceivers, &r, tolerance, &mut |_, _| ControlFlow::Continue(()))?;
+    let found = stationary(field, Course::ToReceivers, &r, tolerance, watch)?;
     // What a flux of 1 W that leaves the cell towards neighbour k is worth.
     let leaving = |cell: Cell| -> [f64; 8] {
         let edges = &found.lobes[grid.index(cell)];

@@ -9,6 +9,7 @@
 use super::cells::LinearScattering;
 use super::dissection::Course;
 use crate::TransportError;
+use std::ops::ControlFlow;
 use tigereye_core::{Cell, NEIGHBOUR_OFFSETS};
 
 /// Sweeps after which a search ends: fields of ten thousand cells a side would settle by then.
@@ -30,6 +31,9 @@ pub struct Settled {
     pub residual: f64,
 }
 
+/// Told the sweeps and the residual after each iteration; `Break` ends the search as if it had failed.
+pub type Watch<'a> = dyn FnMut(usize, f64) -> ControlFlow<()> + 'a;
+
 /// Solves `a = A a + q` (or the adjoint) until a plain step changes `a` by no more than `tolerance` (L1, relative), and
 /// by no more than a thousandth of `q`. `watch` is told the sweeps and the residual after each iteration; `Break` ends
 /// the search as if it had failed.
@@ -43,7 +47,7 @@ pub fn stationary(
     course: Course,
     q: &[[f64; 8]],
     tolerance: f64,
-    watch: &mut dyn FnMut(usize, f64) -> std::ops::ControlFlow<()>,
+    watch: &mut Watch<'_>,
 ) -> Result<Settled, TransportError> {
     let system = System::new(field, course);
     assert_eq!(q.len(), system.matrices.len(), "a source in every cell");

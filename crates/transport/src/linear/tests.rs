@@ -174,7 +174,9 @@ fn importance_is_the_adjoint_of_light() {
     let h = directions.step_rad();
     let sensitivity: Vec<f64> = (0..16).map(|t| 1.0 + math::sin(t as f64).abs()).collect();
     let receiver = Cell::new(9, 4);
-    let (importance, _) = importance(&field, receiver, &sensitivity, 1e-13).expect("a receiver");
+    let (importance, _) =
+        importance(&field, receiver, &sensitivity, 1e-13, &mut |_, _| std::ops::ControlFlow::Continue(()))
+            .expect("a receiver");
     let light =
         |cell, f: &dyn Fn(usize) -> f64| Light::continuous(cell, PolarProfile::from_fn(directions, f));
     let lights = [

@@ -188,10 +188,14 @@ fn is_strain(name: &str) -> bool {
     // Abaqus repeats what is asked for: `LE.LE11`, `E:E11`.
     let last = short.rsplit('_').next().unwrap_or_default();
     let stem = if last.is_empty() { words.concat() } else { last.to_owned() };
-    let is_code =
-        ["e", "le", "ee", "pe", "ne", "the", "epto", "epel", "eppl", "epth"].contains(&stem.as_str());
-    words.iter().any(|w| is(w)) || is(&stem) || is_code
+    words.iter().any(|w| is(w)) || is(&stem) || STRAINS.contains(&stem.as_str())
 }
+
+/// What Abaqus calls its strains and rates of strain (Output variable identifiers), and Ansys its own.
+const STRAINS: [&str; 18] = [
+    "e", "le", "ne", "ee", "pe", "ce", "ie", "ve", "the", "er", "cke", "epto", "epel", "eppl", "epth",
+    "epcr", "eptt", "epdi",
+];
 
 /// A group of arrays of single numbers that are the components of one tensor.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -450,10 +454,17 @@ mod tests {
             "LE-LE12",
             "LE_LE22",
             "E:E11, E:E22, E:E12",
+            "CE",
+            "CE-CE11, CE-CE22, CE-CE12",
+            "IE12",
+            "ER_ER33",
+            "VE.VE12",
+            "CKE11",
+            "EPCRXY",
         ] {
             assert!(names_strain(name), "{name}");
         }
-        for name in ["stress", "S11", "sigma_xx", "energy", "constrained"] {
+        for name in ["stress", "S11", "sigma_xx", "energy", "constrained", "force", "PEEQ", "shape11"] {
             assert!(!names_strain(name), "{name}");
         }
     }

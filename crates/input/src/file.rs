@@ -20,8 +20,8 @@ pub struct TensorFile {
     pub blake3: String,
     /// What it holds.
     pub content: Content,
-    /// Whether the user says which axes vectors are along.
-    frame_is_given: bool,
+    /// The axes that vectors are along, where the user says so.
+    frame: Option<Frame>,
     /// Words of warning where the mask lies elsewhere in the patient.
     mask_elsewhere: Option<String>,
     /// Names of all files that were read.
@@ -102,8 +102,8 @@ pub fn open(
         };
         Content::Tensors(lattice.tensors(words)?)
     };
-    let (name, frame_is_given) = (name.to_owned(), reading.frame.is_some());
-    Ok(TensorFile { name, kind, blake3, content, frame_is_given, mask_elsewhere, files })
+    let (name, frame) = (name.to_owned(), reading.frame);
+    Ok(TensorFile { name, kind, blake3, content, frame, mask_elsewhere, files })
 }
 
 /// A volume with its tensors that are not finite as the reading wants them: refused, or zero.
@@ -205,6 +205,15 @@ impl TensorFile {
         self.lattice().scalar
     }
 
+    /// The axes that vectors are along and how they are known, in words; `None` for tensors and single numbers.
+    #[must_use]
+    pub fn words_of_vectors(&self) -> Option<String> {
+        match &self.content {
+            Content::Tensors(_) => None,
+            Content::Numbers(lattice) => lattice.words_of_vectors(self.frame),
+        }
+    }
+
     /// Whether a plane is chosen, or there is only one.
     #[must_use]
     pub fn has_plane(&self, reading: &Reading) -> bool {
@@ -243,7 +252,7 @@ impl TensorFile {
         let lattice = self.lattice();
         let is_open = match &self.content {
             Content::Tensors(volume) => volume.frame().1 == Known::Convention,
-            Content::Numbers(_) => lattice.components > 1 && !self.frame_is_given,
+            Content::Numbers(_) => lattice.components > 1 && self.frame.is_none(),
         };
         let is_plane = lattice.world == World::Absent && lattice.frame.1 == Known::Convention;
         (NUMPY.contains(&self.kind) && is_open && is_plane).then(|| {
@@ -256,11 +265,11 @@ impl TensorFile {
     fn assumptions_of_content(&self) -> Vec<String> {
         match &self.content {
             Content::Tensors(volume) => assumptions_of_tensors(volume),
-            Content::Numbers(lattice) if lattice.components > 1 && !self.frame_is_given => {
+            Content::Numbers(lattice) if lattice.components > 1 && self.frame.is_none() => {
                 let (frame, known) = lattice.frame;
                 let words = match known {
                     Known::Assumed => format!("assumed vectors along {} (--frame)", frame.words()),
-                    Known::Convention if lattice.is_of_scanner() && lattice.has_turned_axes() => {
+                    Known::Convention if lattice.is_of_scanner() => {
                         format!(
                             "took vectors along {}, right, anterior and superior, as the format has them (--frame lps for images of \
                              vectors that ITK and ANTs write)",

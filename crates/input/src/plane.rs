@@ -79,6 +79,7 @@ fn derived(lattice: &Lattice, reading: &Reading, how: Derivation) -> Result<Plan
         (found, samples.map(), slice.cut)
     };
     let mut story = lattice.story();
+    story.extend(lattice.words_of_vectors(reading.frame));
     story.push(cut.story(""));
     story.push(words_of(how));
     let loss = samples.loss(&found);

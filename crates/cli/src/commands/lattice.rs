@@ -48,10 +48,7 @@ pub(super) fn number_facts(file: &TensorFile, lattice: &Lattice) -> Value {
     let values = Range::of(lattice.values.iter().copied());
     let mut facts = about(&file.name, file.kind, &file.blake3, lattice);
     let mut story = lattice.story();
-    if lattice.components > 1 {
-        let (frame, known) = lattice.frame;
-        story.push(format!("vectors along {} ({})", frame.words(), known.words()));
-    }
+    story.extend(file.words_of_vectors());
     story.extend(lattice.warnings.iter().map(|w| format!("WARNING: {w}")));
     story.push("no tensors; commands that take tensors need --derive".to_owned());
     let more = json!({ "assumptions": story, "range": range(&values) });

@@ -161,3 +161,44 @@ fn axes_of_a_patient_are_named_where_the_format_has_no_name() {
         assert!(!run.stderr.contains("the input's axes"), "{}", run.stderr);
     }
 }
+
+/// Whether vectors are along right and anterior or left and posterior matters on axes of any direction.
+#[test]
+fn the_frame_of_vectors_of_images_is_said() {
+    let place = Place::new();
+    let words = "took vectors along the world axes, right, anterior and superior";
+    // u = 2 x, 0, 0 on three columns.
+    let along_x = [0.0, 2.0, 4.0].repeat(3).into_iter().chain(vec![0.0; 18]).collect::<Vec<f64>>();
+    for (intent, steps) in [(1007, [1.0; 3]), (1006, [1.0; 3]), (1007, [-1.0, 1.0, 1.0])] {
+        place.write("u.nii", nifti_file([5, 3, 3, 1, 1, 3, 1, 1], steps, intent, &along_x));
+        place.says(&["convert", "u.nii", "o.npy", "--derive", "gradient", "--force"], words);
+        let xx = |name: &str| npy::read_tensors(&place.read(name)).unwrap().at(Cell::new(1, 1)).xx();
+        assert_eq!(xx("o.npy"), f64::from(steps[0]) * 2.0, "intent {intent}");
+        place.succeeds(&["convert", "u.nii", "l.npy", "--derive", "gradient", "--frame", "lps", "--force"]);
+        assert_eq!(xx("l.npy"), f64::from(-steps[0]) * 2.0, "intent {intent}");
+        let of_vectors = "vectors along the world axes (this program's convention for the format)";
+        let info = ["info", "u.nii", "--derive", "gradient"];
+        let run = place.tigereye(&info);
+        assert!(run.stdout.contains(of_vectors), "{}", run.stdout);
+        let run = place.tigereye(&[&info[..], &["--frame", "lps"]].concat());
+        let given = "vectors along the axes left, posterior, superior (as given)";
+        assert!(run.stdout.contains(given), "{}", run.stdout);
+    }
+}
+
+/// Abaqus writes engineering shears for every kind of strain.
+#[test]
+fn strains_of_every_kind_may_have_engineering_shears() {
+    let place = Place::new();
+    for name in ["E", "LE", "NE", "EE", "PE", "CE", "IE", "VE", "THE", "ER"] {
+        let column = |pair: &str| format!("{name}-{name}{pair}");
+        let names = format!("x,y,{},{},{}", column("11"), column("22"), column("12"));
+        place.write("t.csv", table(&names, |x, y| format!("{x},{y},1,2,3")));
+        place.says(&["convert", "t.csv", "t.npy", "--force"], "--shear engineering");
+    }
+    let mut image = tigereye_io::ImageData::empty([2, 2, 1]);
+    let array = tigereye_io::DataArray::new("CE", 6, vec![1.0; 24]);
+    image.point_arrays.push(array.with_component_names(&["CE11", "CE22", "CE33", "CE12", "CE13", "CE23"]));
+    place.write("t.vti", tigereye_io::vti::write(&image).unwrap());
+    place.says(&["convert", "t.vti", "t.npy", "--force"], "--shear engineering");
+}

@@ -101,3 +101,21 @@ pub(crate) fn npy_file(dictionary: &str, data: usize) -> Vec<u8> {
 pub(crate) fn unit_text(width: usize, height: usize) -> String {
     (0..height).map(|_| format!("{}\n{}\n", "1 0 ".repeat(width), "0 1 ".repeat(width))).collect()
 }
+
+/// A NIfTI file of double precision: lengths of the axes after their number, steps along the first three in a world
+/// right-anterior-superior, the code of the intent, and the numbers, x fastest.
+pub(crate) fn nifti_file(shape: [i16; 8], steps: [f32; 3], intent: i16, values: &[f64]) -> Vec<u8> {
+    let mut bytes = vec![0_u8; 352];
+    let mut put = |at: usize, field: &[u8]| bytes[at..at + field.len()].copy_from_slice(field);
+    put(0, &348_i32.to_le_bytes());
+    shape.iter().enumerate().for_each(|(i, n)| put(40 + 2 * i, &n.to_le_bytes()));
+    put(68, &intent.to_le_bytes());
+    put(70, &64_i16.to_le_bytes());
+    put(72, &64_i16.to_le_bytes());
+    put(108, &352_f32.to_le_bytes());
+    put(254, &1_i16.to_le_bytes());
+    steps.iter().enumerate().for_each(|(axis, step)| put(280 + 20 * axis, &step.to_le_bytes()));
+    put(344, b"n+1\0");
+    bytes.extend(values.iter().flat_map(|v| v.to_le_bytes()));
+    bytes
+}

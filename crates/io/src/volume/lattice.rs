@@ -212,6 +212,13 @@ impl Lattice {
         story
     }
 
+    /// The axes that vectors are along, as `given` or as the file has them, in words; single numbers are along none.
+    #[must_use]
+    pub fn words_of_vectors(&self, given: Option<Frame>) -> Option<String> {
+        let (frame, known) = given.map_or(self.frame, |frame| (frame, Known::Given));
+        (self.components > 1).then(|| format!("vectors along {} ({})", frame.words(), known.words()))
+    }
+
     /// Voxels in all.
     #[must_use]
     pub fn voxels(&self) -> usize {

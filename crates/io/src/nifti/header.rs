@@ -17,6 +17,35 @@ pub(super) const MATRIX: i16 = 1004;
 /// Displacements and other vectors.
 const VECTORS: [i16; 2] = [1006, 1007];
 
+/// What other intents make of several numbers a voxel: no tensors, and no vectors along known axes. FSL's are those of
+/// its warps (fnirt, topup).
+const FOREIGN: [(i16, &str); 12] = [
+    (1008, "a set of points"),
+    (1009, "triangles"),
+    (1010, "quaternions"),
+    (2003, "RGB colours"),
+    (2004, "RGBA colours"),
+    (FNIRT_WARP, "a warp of FNIRT"),
+    (2007, "coefficients of a cubic spline of FNIRT"),
+    (2008, "coefficients of a cosine transform of FNIRT"),
+    (2009, "coefficients of a quadratic spline of FNIRT"),
+    (2016, "coefficients of a cubic spline of TOPUP"),
+    (2017, "coefficients of a quadratic spline of TOPUP"),
+    (2018, "a field of TOPUP"),
+];
+const FNIRT_WARP: i16 = 2006;
+
+/// Refuses intents that are known to hold something else than tensors and vectors.
+fn check_intent(intent: i16) -> Result<(), NiftiError> {
+    let Some((_, words)) = FOREIGN.iter().find(|(code, _)| *code == intent) else { return Ok(()) };
+    let expected = if intent == FNIRT_WARP {
+        "tensors or vectors; displacements along FSL's axes are read by --frame fsl where the intent is 0 and they are relative"
+    } else {
+        "tensors (intent 1004, 1005 or 0) or vectors (1006, 1007 or 0)"
+    };
+    Err(fault(68, "intent_code", format!("{intent} ({words})"), expected))
+}
+
 /// Steps along the voxel axes, and the first voxel.
 pub(super) type Position = ([[f64; 3]; 3], [f64; 3]);
 
@@ -214,6 +243,9 @@ fn meaning(
         (0.0, n) if n == components => true,
         (p, _) => p == if matches!(components, 3 | 4) { 2.0 } else { 3.0 },
     };
+    if components > 1 {
+        check_intent(intent)?;
+    }
     const SYMMETRIC_WORDS: &str = "symmetric matrix (intent 1005)";
     const MATRIX_WORDS: &str = "matrix (intent 1004)";
     match intent {

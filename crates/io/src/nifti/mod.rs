@@ -3,7 +3,8 @@
 //! Read: both byte orders, all integer and floating-point types of up to 64 bits, scaling, sform and qform; symmetric
 //! and general matrices as the standard has them (5-D, intents 1005 and 1004), and 4-D or 5-D images of several
 //! components, whose order the file does not state; ITK's, whose intent has no size. Refused by name: NIfTI-2, ANALYZE
-//! and `.hdr`/`.img` pairs, complex and colour numbers, time series.
+//! and `.hdr`/`.img` pairs, complex and colour numbers, time series, and intents of something else than tensors and
+//! vectors (FSL's warps and their coefficients, points, colours).
 //!
 //! Written, in the precision of the input: symmetric or general matrices (5-D, intents 1005 and 1004) along the voxel
 //! axes, or six components along the fourth axis as FSL or MRtrix3 have them; an sform, and what made the file as an

@@ -647,6 +647,30 @@ fn nifti_vectors_of_an_intent_are_along_the_world() {
     }
 }
 
+/// Colours, points and FSL's warps are no vectors along known axes; single numbers are numbers under any intent.
+#[test]
+fn nifti_intents_of_something_else_are_refused_by_name() {
+    for (intent, name) in [
+        (1008, "points"),
+        (1009, "triangles"),
+        (1010, "quaternions"),
+        (2003, "RGB"),
+        (2004, "RGBA"),
+        (2006, "a warp of FNIRT"),
+        (2007, "cubic spline of FNIRT"),
+        (2009, "quadratic spline of FNIRT"),
+        (2016, "TOPUP"),
+    ] {
+        for shape in [[5, 1, 1, 1, 1, 3, 1, 1], [4, 1, 1, 1, 3, 1, 1, 1]] {
+            let fault = nifti::read(&nifti_voxel(RAS, shape, intent, &[1.0, 2.0, 3.0], None)).unwrap_err();
+            let fault = fault.to_string();
+            assert!(fault.starts_with("byte 68: NIfTI field intent_code") && fault.contains(name), "{fault}");
+            assert_eq!(fault.contains("--frame fsl"), intent == 2006, "{fault}");
+        }
+        assert!(nifti::read(&nifti_voxel(RAS, [3, 1, 1, 1, 1, 1, 1, 1], intent, &[1.0], None)).is_ok());
+    }
+}
+
 #[test]
 fn transforms_that_disagree_are_said() {
     let file = |qform| nifti_voxel(RAS, [4, 1, 1, 1, 6, 1, 1, 1], 0, &[0.0; 6], qform);

@@ -39,8 +39,8 @@ fn over_white(brightness: f64, alpha: f64) -> f64 {
     alpha * brightness + (1.0 - alpha)
 }
 
-/// Reads a PNG picture: brightness from 0 to 1, row 0 on top, pixels at distance 1. What is transparent shows white
-/// behind it.
+/// Reads a PNG picture: brightness from 0 to 1, row 0 on top, pixels at distance 1. Transparent pixels hold no data:
+/// the opacity is the confidence of the mask. Partly transparent ones show white behind them.
 ///
 /// # Errors
 /// [`PictureError::Png`], [`LimitError::Cells`].
@@ -54,7 +54,7 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
     if reader.info().interlaced {
         return Err(PictureError::Png { problem: "it is interlaced, expected plain rows".to_owned() }.into());
     }
-    let (mut values, mut format) = (Vec::new(), ScalarType::UInt8);
+    let (mut values, mut opacity, mut format) = (Vec::new(), Vec::new(), ScalarType::UInt8);
     let (colour, depth) = reader.output_color_type();
     let channels = colour.samples();
     // Row by row, so that memory grows with what is really there.
@@ -66,13 +66,19 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
         } else {
             row.data().iter().map(|&b| f64::from(b) / 255.0).collect()
         };
-        values.extend(samples.chunks_exact(channels).map(|p| match p {
-            [grey, alpha] => over_white(*grey, *alpha),
-            [r, g, b] => luma(*r, *g, *b),
-            [r, g, b, alpha] => over_white(luma(*r, *g, *b), *alpha),
-            _ => p[0],
-        }));
+        for pixel in samples.chunks_exact(channels) {
+            let (brightness, alpha) = match pixel {
+                [grey, alpha] => (*grey, *alpha),
+                [r, g, b] => (luma(*r, *g, *b), 1.0),
+                [r, g, b, alpha] => (luma(*r, *g, *b), *alpha),
+                _ => (pixel[0], 1.0),
+            };
+            values.push(over_white(brightness, alpha));
+            opacity.push(alpha);
+        }
     }
+    let remarks = transparent(&opacity);
+    let is_opaque = opacity.iter().all(|alpha| *alpha == 1.0);
     let warnings = orientation(reader.info()).map(unapplied).into_iter().collect();
     if values.len() as u128 != cells {
         return Err(PictureError::Png { problem: "the rows do not fill the picture".to_owned() }.into());
@@ -86,16 +92,28 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
         origin: [0.0, (height - 1) as f64, 0.0],
         world: World::Absent,
         measurement: None,
-        mask: None,
+        mask: (!is_opaque).then_some(opacity),
         order: None,
         frame: (Frame::World, Known::Stated),
         array: "brightness".to_owned(),
         component_names: Vec::new(),
         notes: vec!["brightness of a picture, 0 to 1, row 0 on top".to_owned()],
-        remarks: Vec::new(),
+        remarks,
         order_remarks: Vec::new(),
         warnings,
     })
+}
+
+/// What is said of pixels that are not opaque.
+fn transparent(opacity: &[f64]) -> Vec<String> {
+    let all = opacity.len();
+    let clear = opacity.iter().filter(|alpha| **alpha == 0.0).count();
+    let partly = opacity.iter().filter(|alpha| **alpha > 0.0 && **alpha < 1.0).count();
+    let clear = (clear > 0)
+        .then(|| format!("{clear} of {all} pixels are transparent, taken as samples without data"));
+    let partly = (partly > 0)
+        .then(|| format!("{partly} of {all} pixels are partly transparent, taken as seen in front of white"));
+    clear.into_iter().chain(partly).collect()
 }
 
 /// Words for an orientation that is not applied: masks and other pictures of the same pixels would no longer fit.

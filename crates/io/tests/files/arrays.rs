@@ -187,6 +187,37 @@ fn pictures_become_brightness() {
     assert!(picture::read_png(&lie).is_err());
 }
 
+#[test]
+fn transparent_pixels_hold_no_data() {
+    use png::{BitDepth, ColorType};
+    let read = |colour, data: &[u8]| {
+        let lattice = picture::read_png(&png(colour, BitDepth::Eight, 3, 1, data)).unwrap();
+        (lattice.mask, lattice.remarks)
+    };
+    assert_eq!(read(ColorType::Rgba, &[9, 9, 9, 255].repeat(3)), (None, Vec::new()));
+    let said = |share: &str, words: &str| format!("{share} of 3 pixels are {words}");
+    let clear = said("1", "transparent, taken as samples without data");
+    let partly = said("1", "partly transparent, taken as seen in front of white");
+    for (colour, data) in [
+        (ColorType::Rgba, &[9, 9, 9, 0, 9, 9, 9, 51, 9, 9, 9, 255][..]),
+        (ColorType::GrayscaleAlpha, &[9, 0, 9, 51, 9, 255]),
+    ] {
+        assert_eq!(read(colour, data), (Some(vec![0.0, 0.2, 1.0]), vec![clear.clone(), partly.clone()]));
+    }
+    // A colour that stands for nothing.
+    let mut info = png::Info::with_size(3, 1);
+    info.trns = Some(vec![0, 9].into());
+    let mut bytes = Vec::new();
+    png::Encoder::with_info(&mut bytes, info)
+        .unwrap()
+        .write_header()
+        .unwrap()
+        .write_image_data(&[9, 8, 9])
+        .unwrap();
+    let lattice = picture::read_png(&bytes).unwrap();
+    assert_eq!(lattice.mask, Some(vec![0.0, 1.0, 0.0]));
+}
+
 /// Pixels are taken as stored, so that masks of the same pixels fit; EXIF data that would turn them are said.
 #[test]
 fn orientations_of_pictures_are_said() {

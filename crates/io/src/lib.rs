@@ -49,7 +49,7 @@ pub use error::IoError;
 pub use image::{ActiveArrays, DataArray, FieldEntry, FieldValues, ImageData};
 pub use inflate::DataError;
 pub use limits::{LimitError, Limits};
-pub(crate) use points::Y_UPWARDS;
+pub(crate) use points::taken_upwards;
 pub use polydata::{Cells, PolyData};
 pub use scalar::{ByteOrder, ScalarType};
 pub use text::TextError;

@@ -7,9 +7,10 @@ pub(crate) const TOLERANCE: f64 = 1e-3;
 /// The same while counting, where steps are not yet known to the last digit.
 const COARSE: f64 = 0.25;
 
-/// What is said of positions with components beside them, wherever a format does not say which way y runs.
-pub(crate) const Y_UPWARDS: &str =
-    "y taken to run upwards; where a file has y downwards the picture is upside down";
+/// What is said of a plane of positions, whose format does not say which way its vertical `axis` runs.
+pub(crate) fn taken_upwards(axis: char) -> String {
+    format!("{axis} taken to run upwards; where a file has {axis} downwards the picture is upside down")
+}
 
 /// Points along three axes, the steps along them, and the first point.
 #[derive(Clone, Copy, Debug, PartialEq)]

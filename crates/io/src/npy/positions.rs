@@ -4,7 +4,7 @@ use super::error::NpyError;
 use super::{NpyArray, read_array};
 use crate::points::PointLattice;
 use crate::volume::{Frame, Known, Lattice, World};
-use crate::{ImageData, Y_UPWARDS};
+use crate::{ImageData, taken_upwards};
 
 /// What the axes of positions are called, in any case; the third is that of volumes.
 const AXES: [[&str; 3]; 5] = [
@@ -117,8 +117,8 @@ impl Positions {
         lattice.world = World::Viewer;
         lattice.notes.retain(|note| !note.starts_with("indexed"));
         lattice.notes.push(format!("cells at the positions {names}"));
-        if !self.is_volume && lattice.components > 1 {
-            lattice.remarks.push(Y_UPWARDS.to_owned());
+        if let Some(axis) = lattice.vertical_axis().filter(|_| !self.is_volume) {
+            lattice.remarks.push(taken_upwards(axis));
         }
         if self.is_volume {
             // Whoever has positions has components along the same axes, rather than along those of the array.

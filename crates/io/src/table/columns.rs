@@ -6,7 +6,7 @@ use super::times;
 use super::validity::{Validity, parsed_validity};
 use crate::text::{TextError, shortened};
 use crate::volume::{Lattice, lattice_from_points};
-use crate::{ArrayChoice, DataArray, IoError, PolyData, Wanted, Y_UPWARDS};
+use crate::{ArrayChoice, DataArray, IoError, PolyData, Wanted, taken_upwards};
 
 /// Names of the columns of positions along x, y and z, in lower case without marks: `X`, `Points:0`, `coor.X`, `X [m]`.
 const POSITIONS: [[&str; 18]; 3] = [
@@ -266,8 +266,8 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
              upside down and xy has the other sign"
                 .to_owned(),
         );
-    } else if lattice.size[2] == 1 && wanted != Wanted::Scalars {
-        lattice.remarks.push(Y_UPWARDS.to_owned());
+    } else if let Some(axis) = lattice.vertical_axis() {
+        lattice.remarks.push(taken_upwards(axis));
     }
     let read =
         |name: &str| arrays.iter().find(|(n, _)| n == name).map(|(_, c)| c.clone()).unwrap_or_default();
@@ -465,16 +465,39 @@ mod tests {
         assert!(vectors.iter().any(|r| r.contains("y taken to run upwards")), "{vectors:?}");
     }
 
+    /// The vertical axis is that of the plane.
+    #[test]
+    fn the_axis_that_is_taken_upwards_is_named() {
+        for (names, points, axis) in [
+            ("x,y,z", ["0,0,5", "1,0,5", "0,1,5", "1,1,5"], "y"),
+            ("x,y,z", ["0,5,0", "1,5,0", "0,5,1", "1,5,1"], "z"),
+            ("x,y,z", ["0,5,0", "0,5,1", "1,5,1", "1,5,0"], "z"),
+            ("x,y,z", ["5,0,0", "5,1,0", "5,0,1", "5,1,1"], "z"),
+        ] {
+            let lines = points.map(|at| format!("{at},1,2,3")).join("\n");
+            let text = format!("{names},f,g,h\n{lines}\n");
+            let lattice = read(text.as_bytes(), ArrayChoice::Named("f"), Wanted::Scalars).unwrap();
+            let words = format!("{axis} taken to run upwards");
+            assert!(
+                lattice.remarks.iter().any(|r| r.starts_with(&words)),
+                "{points:?}: {:?}",
+                lattice.remarks
+            );
+        }
+    }
+
     /// As beside vectors: what a column of validity leaves out is masked, and said.
     #[test]
     fn columns_of_validity_are_masks() {
         let read = |bytes: &[u8]| read(bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap();
         for (name, out, kept, convention) in [
-            ("isValid", "False", "True", "below 1"),
-            ("valid", "no", "yes", "below 1"),
-            ("CHC", "-2", "1", "below 1"),
-            ("Vector type [-]", "0", "1", "below 1"),
-            ("mask", "1", "0", "not 0"),
+            ("isValid", "False", "True", "is below 1"),
+            ("valid", "no", "yes", "is below 1"),
+            ("CHC", "-2", "1", "is below 1"),
+            ("Vector type [-]", "0", "1", "is below 1"),
+            ("mask", "1", "0", "is not 0"),
+            ("vtkValidPointMask", "0", "1", "is below 1"),
+            ("vtkGhostType", "2", "1", "marks hidden points"),
         ] {
             let word = |x: f64| if x < 2.0 { out } else { kept };
             // Positions in any order are masked at the same points.
@@ -495,8 +518,7 @@ mod tests {
                     "{name}: {mask:?}"
                 );
                 let name = name.split(" [").next().unwrap();
-                let words =
-                    format!("3 of 12 points left out by the column `{name}`, where it is {convention}");
+                let words = format!("3 of 12 points left out by the column `{name}`, where it {convention}");
                 assert!(lattice.remarks.contains(&words), "{:?}", lattice.remarks);
                 assert!(!lattice.remarks.iter().any(|r| r.contains("not read")), "{:?}", lattice.remarks);
             }

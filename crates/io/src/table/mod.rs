@@ -22,6 +22,8 @@
 //! | `chc` | below 1 | Insight |
 //! | `vector type` | 0 | PIVlab |
 //! | `isvalid`, `valid`, `validity` | below 1 | DaVis and others |
+//! | `vtkValidPointMask` | below 1 | ParaView |
+//! | `vtkGhostType` | hidden points | ParaView |
 //! | `flags` (fifth without names) | never: such vectors were mostly replaced; counted | OpenPIV |
 //!
 //! `status` is none of them: programs disagree about whether its 0 is good or bad. Like every column that is not read,

@@ -1,5 +1,7 @@
 //! Columns that say which points of a table hold no measurement.
 
+use crate::volume::HIDDEN_POINT;
+
 /// What a column says of the points beside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Validity {
@@ -9,6 +11,8 @@ pub(super) enum Validity {
     Mask,
     /// Left out below 1.
     Valid,
+    /// VTK's flags of points: left out where hidden.
+    Ghost,
 }
 
 impl Validity {
@@ -27,7 +31,10 @@ impl Validity {
         match word.replace(['_', ':', '-', '.'], "").as_str() {
             "flags" | "flag" => Some(Self::Flags),
             "mask" => Some(Self::Mask),
-            "chc" | "vector" | "vectortype" | "isvalid" | "valid" | "validity" => Some(Self::Valid),
+            "chc" | "vector" | "vectortype" | "isvalid" | "valid" | "validity" | "vtkvalidpointmask" => {
+                Some(Self::Valid)
+            }
+            "vtkghosttype" => Some(Self::Ghost),
             _ => None,
         }
     }
@@ -38,6 +45,7 @@ impl Validity {
             Self::Flags => false,
             Self::Mask => value != 0.0,
             Self::Valid => value.is_nan() || value < 1.0,
+            Self::Ghost => value as u8 & HIDDEN_POINT != 0,
         }
     }
 
@@ -47,6 +55,7 @@ impl Validity {
             Self::Flags => "flags",
             Self::Mask => "mask (left out where not 0)",
             Self::Valid => "validity (left out below 1)",
+            Self::Ghost => "flags of VTK (left out where hidden)",
         }
     }
 
@@ -59,11 +68,12 @@ impl Validity {
                 return (flagged > 0)
                     .then(|| format!("{flagged} {what} with a flag other than 0, taken as they stand"));
             }
-            Self::Mask => ("not 0", self.count(values)),
-            Self::Valid => ("below 1", self.count(values)),
+            Self::Mask => ("is not 0", self.count(values)),
+            Self::Valid => ("is below 1", self.count(values)),
+            Self::Ghost => ("marks hidden points", self.count(values)),
         };
         (count > 0).then(|| {
-            format!("{count} of {all} {what} left out by the column `{name}`, where it is {convention}")
+            format!("{count} of {all} {what} left out by the column `{name}`, where it {convention}")
         })
     }
 
@@ -97,6 +107,8 @@ mod tests {
             ("vector direction [degrees]", None),
             ("Mask (0 or 1)", Some(Validity::Mask)),
             ("flags", Some(Validity::Flags)),
+            ("vtkValidPointMask", Some(Validity::Valid)),
+            ("\"vtkGhostType\"", Some(Validity::Ghost)),
             ("Status", None),
             ("S11", None),
             ("", None),
@@ -115,5 +127,7 @@ mod tests {
         assert_eq!(out(Validity::Mask), [false, true, true, true, true]);
         assert_eq!(out(Validity::Valid), [true, false, false, true, true]);
         assert_eq!(out(Validity::Flags), [false; 5]);
+        let hidden = [0.0, 1.0, 2.0, 3.0, f64::NAN].map(|v| Validity::Ghost.leaves_out(v));
+        assert_eq!(hidden, [false, false, true, true, false], "duplicates are data");
     }
 }

@@ -16,7 +16,7 @@ use crate::{DataArray, ImageData, IoError, PolyData};
 
 /// Bits of `vtkGhostType`: points that are hidden, and cells that are hidden or replaced by finer ones
 /// (vtkDataSetAttributes.h of VTK 9). Duplicates of other pieces are data like any other.
-const HIDDEN_POINT: u8 = 2;
+pub(crate) const HIDDEN_POINT: u8 = 2;
 const HIDDEN_CELL: u8 = 32 | 8;
 
 /// Takes an array out of poly data whose points form a lattice: row by row in any direction, or along the world's axes

@@ -92,7 +92,7 @@ impl Cut {
     }
 
     /// A field of what `value` says of each voxel, by its index `(k * ny + j) * nx + i`.
-    fn field<T>(&self, mut value: impl FnMut(usize) -> T) -> Field<T> {
+    pub(super) fn field<T>(&self, mut value: impl FnMut(usize) -> T) -> Field<T> {
         let (width, height) = (self.grid.width(), self.grid.height());
         Field::from_fn(self.grid, |c| {
             let mut at = [self.index; 3];
@@ -132,6 +132,12 @@ impl Lattice {
             grid: Grid::new(self.size[right.voxel], self.size[up.voxel])?,
             size: self.size,
         })
+    }
+
+    /// The world's axis that is vertical in the picture of a single layer.
+    pub(crate) fn vertical_axis(&self) -> Option<char> {
+        let cut = self.cut(PlaneChoice::default()).ok()?;
+        Some(Axis::ALL[cut.up.world].name())
     }
 
     /// Of several axes of one voxel, that of the last world axis is the normal where nobody chooses, so that a single

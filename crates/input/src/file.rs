@@ -6,8 +6,8 @@ use crate::formats::{Format, NUMPY, Request, format_of, is_readable};
 use crate::provenance::hash_of_bytes;
 use crate::reading::{Derivation, Reading};
 use tigereye_core::math;
-use tigereye_io::volume::{Frame, Known, Lattice, PlaneChoice, TensorVolume, World};
-use tigereye_io::{ArrayChoice, Limits, ScalarType, Wanted};
+use tigereye_io::volume::{Frame, Known, Lattice, Overlay, PlaneChoice, TensorVolume, World};
+use tigereye_io::{ArrayChoice, Limits, ScalarType, Wanted, npy};
 
 /// What a data file holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +22,8 @@ pub struct TensorFile {
     pub content: Content,
     /// The axes that vectors are along, where the user says so.
     frame: Option<Frame>,
-    /// Words of warning where the mask lies elsewhere in the patient.
-    mask_elsewhere: Option<String>,
+    /// How the mask lies over the input, where that is not plain.
+    mask_overlay: Option<String>,
     /// Names of all files that were read.
     pub files: Vec<String>,
 }
@@ -64,11 +64,15 @@ pub fn open(
     if reading.wanted() == Wanted::Tensors {
         lattice = lattice.with_mask_apart();
     }
-    let mut mask_elsewhere = None;
+    let mut mask_overlay = None;
     if let Some(mask) = &reading.mask {
-        let (found, bytes) = mask_lattice(mask, lattice.size, reading.limits(), &mut read)?;
-        mask_elsewhere = (lattice.mask_by(&found))
-            .then(|| format!("WARNING: the mask {mask} has the same size but lies elsewhere in the world, or in another; applied voxel by voxel"));
+        let (found, bytes) = mask_lattice(mask, reading.limits(), &mut read)?;
+        let overlay = lattice.mask_by(&found).ok_or_else(|| InputError::MaskSize {
+            mask: mask.clone(),
+            found: found.size,
+            expected: lattice.size,
+        })?;
+        mask_overlay = overlay_words(overlay, mask, found.world == World::Absent);
         hashed.extend(bytes);
     }
     match &mut lattice.mask {
@@ -103,7 +107,7 @@ pub fn open(
         Content::Tensors(lattice.tensors(words)?)
     };
     let (name, frame) = (name.to_owned(), reading.frame);
-    Ok(TensorFile { name, kind, blake3, content, frame, mask_elsewhere, files })
+    Ok(TensorFile { name, kind, blake3, content, frame, mask_overlay, files })
 }
 
 /// A volume with its tensors that are not finite as the reading wants them: refused, or zero.
@@ -156,16 +160,38 @@ fn beside(name: &str, file: &str) -> String {
     name.rfind(['/', '\\']).map_or_else(|| file.to_owned(), |at| format!("{}{file}", &name[..=at]))
 }
 
-/// One number a voxel of a lattice of `size`, and the bytes they come from.
-fn mask_lattice(
-    mask: &str,
-    size: [usize; 3],
-    limits: Limits,
-    read: &mut Read,
-) -> Result<(Lattice, Vec<u8>), InputError> {
+/// How a mask lies over the input, in words, where one of them has no place or they lie apart.
+fn overlay_words(overlay: Overlay, mask: &str, mask_is_without: bool) -> Option<String> {
+    let without = if mask_is_without { "the mask" } else { "the input" };
+    match overlay {
+        Overlay::Coincident => None,
+        Overlay::Pictures => Some(format!(
+            "mask {mask} laid over the picture, its top row over the top row and its left column over the left column: {without} does \
+             not say where it lies"
+        )),
+        Overlay::Voxels => {
+            Some(format!("mask {mask} applied voxel by voxel: {without} does not say where it lies"))
+        }
+        Overlay::Elsewhere => Some(format!(
+            "WARNING: the cells of the mask {mask} do not coincide with those of the input; applied voxel by voxel"
+        )),
+        Overlay::Incomparable => Some(format!(
+            "WARNING: the axes of the mask {mask} and of the input are of different worlds, so that their cells cannot be compared; \
+             applied voxel by voxel"
+        )),
+    }
+}
+
+/// One number a voxel, and the bytes they come from.
+fn mask_lattice(mask: &str, limits: Limits, read: &mut Read) -> Result<(Lattice, Vec<u8>), InputError> {
     let fault = |words: String| InputError::Mask { mask: mask.to_owned(), words };
     if !is_readable(mask) {
         return Err(fault(unreadable(mask).to_string()));
+    }
+    if format_of(mask) == "npy" {
+        let bytes = read(mask)?;
+        let lattice = npy::read_numbers(&bytes).map_err(|e| fault(InputError::from(e).to_string()))?;
+        return Ok((lattice, bytes));
     }
     let (_, lattice, bytes) = match lattice_of(mask, ArrayChoice::Usual, Wanted::Scalars, limits, read) {
         Err(e @ InputError::Unread { .. }) => return Err(e),
@@ -173,9 +199,6 @@ fn mask_lattice(
     };
     if lattice.components != 1 {
         return Err(fault(format!("{} numbers a voxel: expected one", lattice.components)));
-    }
-    if lattice.size != size {
-        return Err(InputError::MaskSize { mask: mask.to_owned(), found: lattice.size, expected: size });
     }
     Ok((lattice, bytes))
 }
@@ -300,7 +323,7 @@ impl TensorFile {
             .chain(said)
             .chain(of_vectors)
             .chain(warnings)
-            .chain(self.mask_elsewhere.clone())
+            .chain(self.mask_overlay.clone())
             .collect()
     }
 }

@@ -11,6 +11,7 @@ mod geometry;
 mod interruption;
 mod linear;
 mod machine;
+mod masks;
 mod odd_fields;
 mod own_fields;
 #[cfg(unix)]

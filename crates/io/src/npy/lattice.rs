@@ -261,8 +261,11 @@ fn components_among(members: &[(String, Vec<u8>)], choice: ArrayChoice, wanted: 
     all.map(|i| names[i].to_owned()).collect()
 }
 
-/// An array of single numbers, whatever the length of its last axis.
-fn read_numbers(bytes: &[u8]) -> Result<Lattice, IoError> {
+/// Reads an array of single numbers, whatever the length of its last axis: a mask of few layers is no image of vectors.
+///
+/// # Errors
+/// As [`read_lattice`].
+pub fn read_numbers(bytes: &[u8]) -> Result<Lattice, IoError> {
     let array = read_array(bytes)?;
     let layout = match array.shape[..] {
         [height, width] => Some(Layout::Picture { height, width, tuple: 1, content: Content::NumpyPlane }),

@@ -227,7 +227,7 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
     let mask = mask(&data.points, &rows, &validity)?;
     let mut lattice = lattice_from_points(data, choice, wanted)?;
     if let Some(mask) = mask {
-        lattice.mask_by(&mask);
+        let _ = lattice.mask_by(&mask);
     }
     lattice.notes[0] = match header.line {
         0 => "one point a line, columns x, y and a number by their places".to_owned(),

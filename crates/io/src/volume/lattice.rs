@@ -134,68 +134,6 @@ impl Lattice {
         [x, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
     }
 
-    /// Takes a mask of another file: a voxel keeps the smaller of both confidences. Where an axis of one lattice runs
-    /// against that of the other, as far as both say where they lie, the mask is turned round along it. Returns whether
-    /// the mask lies elsewhere all the same, or in a world that cannot be compared.
-    ///
-    /// # Panics
-    /// Where the mask has another size or holds tuples.
-    pub fn mask_by(&mut self, mask: &Self) -> bool {
-        assert!(mask.size == self.size && mask.components == 1, "a mask of the lattice's size");
-        let [nx, ny, _] = self.size;
-        let signs = match (self.world.signs(), mask.world.signs()) {
-            (Some(a), Some(b)) => Some((a, b)),
-            // Viewers, what has rows on top or below, and worlds of one name.
-            _ if self.world == mask.world || !(self.world.is_scanner() || mask.world.is_scanner()) => {
-                Some(([1.0; 3], [1.0; 3]))
-            }
-            _ => None,
-        };
-        let place = |v: [f64; 3], signs: [f64; 3]| [0, 1, 2].map(|i| signs[i] * v[i]);
-        let mut reversed = [false; 3];
-        if let Some((a, b)) = signs {
-            for axis in 0..3 {
-                let (own, other) = (place(self.axes[axis], a), place(mask.axes[axis], b));
-                reversed[axis] = (0..3).map(|i| own[i] * other[i]).sum::<f64>() < 0.0;
-            }
-        }
-        let mut confidence = Vec::with_capacity(self.voxels());
-        for voxel in 0..self.voxels() {
-            let at = [voxel % nx, voxel / nx % ny, voxel / (nx * ny)];
-            let [x, y, z] = [0, 1, 2].map(|a| if reversed[a] { self.size[a] - 1 - at[a] } else { at[a] });
-            let of_mask = mask.values[(z * ny + y) * nx + x];
-            let own = self.mask.as_ref().and_then(|m| m.get(voxel).copied());
-            // What is not a number is no confidence.
-            let both = own.map_or(of_mask, |own| if own < of_mask { own } else { of_mask });
-            confidence.push(if both.is_nan() { 0.0 } else { both });
-        }
-        self.mask = Some(confidence);
-        let names = ["x", "y", "z"];
-        let turned: Vec<&str> =
-            (0..3).filter(|&a| reversed[a] && self.size[a] > 1).map(|a| names[a]).collect();
-        if !turned.is_empty() {
-            self.notes.push(format!(
-                "the mask turned round along {}, where its axes run the other way",
-                turned.join(" and ")
-            ));
-        }
-        if self.world == World::Absent || mask.world == World::Absent {
-            return false;
-        }
-        // Worlds of different kinds cannot be compared.
-        let Some((a, b)) = signs else { return true };
-        let step = self.spacing().into_iter().fold(f64::INFINITY, f64::min);
-        let far = |v: [f64; 3], w: [f64; 3]| (0..3).any(|i| (v[i] - w[i]).abs() > 1e-2 * step);
-        let mut first = mask.origin;
-        for axis in (0..3).filter(|&axis| reversed[axis]) {
-            let last = (self.size[axis] - 1) as f64;
-            (0..3).for_each(|i| first[i] += last * mask.axes[axis][i]);
-        }
-        let turned = |axis: usize| mask.axes[axis].map(|v| if reversed[axis] { -v } else { v });
-        far(place(self.origin, a), place(first, b))
-            || (0..3).any(|axis| far(place(self.axes[axis], a), place(turned(axis), b)))
-    }
-
     /// What was read, a sentence each.
     #[must_use]
     pub fn story(&self) -> Vec<String> {

@@ -118,10 +118,6 @@ const SCANNERS: [(&str, &str, [f64; 3]); 3] = [
 ];
 
 impl World {
-    pub(crate) const fn is_scanner(&self) -> bool {
-        matches!(self, Self::Scanner(_))
-    }
-
     /// Whether the axes are named after the patient: left or right, posterior or anterior.
     #[must_use]
     pub fn is_of_patient(&self) -> bool {

@@ -14,6 +14,7 @@ mod error;
 mod geometry;
 mod image;
 mod lattice;
+mod mask;
 mod matrix3;
 mod meaning;
 mod names;
@@ -33,6 +34,7 @@ pub use geometry::PlaneGeometry;
 pub(crate) use image::{HIDDEN_POINT, points_of_image};
 pub use image::{image_from_volume, lattice_from_image, lattice_from_points, points_from_image};
 pub use lattice::Lattice;
+pub use mask::Overlay;
 pub(crate) use matrix3::IDENTITY;
 pub use meaning::{Frame, Known, Shear, World};
 pub(crate) use names::{

@@ -5,8 +5,8 @@ use std::io::Write as _;
 use tigereye_core::{Cell, Tensor2};
 use tigereye_io::nifti::NiftiError;
 use tigereye_io::volume::{
-    Axis, Crop, Frame, Known, Lattice, Plane, PlaneChoice, PlaneError, Reading, TensorOrder, TensorVolume,
-    VolumeError, World, image_from_volume, lattice_from_image,
+    Axis, Crop, Frame, Known, Lattice, Overlay, Plane, PlaneChoice, PlaneError, Reading, TensorOrder,
+    TensorVolume, VolumeError, World, image_from_volume, lattice_from_image,
 };
 use tigereye_io::{IoError, ScalarType, Wanted, legacy, nifti, nrrd, vti};
 
@@ -468,8 +468,8 @@ fn masks_follow_their_axes() {
     let down = [[1.0, 0.0, 0.0], [0.0, -2.0, 0.0], [0.0, 0.0, 3.0]];
     let masked = |own: Lattice, mask: Lattice| {
         let mut own = own;
-        let elsewhere = own.mask_by(&mask);
-        (own.mask.unwrap(), elsewhere)
+        let overlay = own.mask_by(&mask).unwrap();
+        (own.mask.unwrap(), overlay != Overlay::Coincident)
     };
     let plain = vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
     let turned = vec![4.0, 5.0, 2.0, 3.0, 0.0, 1.0];
@@ -499,6 +499,45 @@ fn masks_follow_their_axes() {
     let mut own = ras();
     own.mask = Some(vec![9.0, 0.5, 0.0, f64::NAN, 9.0, 9.0]);
     assert_eq!(masked(own, ras()).0, [0.0, 0.5, 0.0, 3.0, 4.0, 5.0]);
+}
+
+/// A picture has no place, but a top: its mask fits the picture that the other one makes. Whole volumes have none.
+#[test]
+fn masks_without_a_place_lie_over_the_picture() {
+    let absent = |size, axes| Lattice { world: World::Absent, ..scalars(size, axes, [0.0; 3], "") };
+    let masked = |mut own: Lattice, mask: &Lattice| own.mask_by(mask).map(|o| (o, own.mask.unwrap()));
+    let down = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
+    let picture = absent([2, 3, 1], down);
+    let flipped = vec![4.0, 5.0, 2.0, 3.0, 0.0, 1.0];
+    let laid = Some((Overlay::Pictures, flipped));
+    // Over a sagittal, coronal or axial layer, whatever its world, and the other way round.
+    for size in [[2, 3, 1], [2, 1, 3], [1, 2, 3]] {
+        for world in ["", "RAS", "not stated"] {
+            let layer = scalars(size, STEPS, [5.0; 3], world);
+            assert_eq!(masked(layer.clone(), &picture), laid, "{size:?} {world}");
+            assert_eq!(masked(picture.clone(), &layer), laid, "{size:?} {world}");
+        }
+    }
+    let plain: Vec<f64> = (0..6).map(f64::from).collect();
+    assert_eq!(masked(picture.clone(), &picture), Some((Overlay::Coincident, plain)));
+    assert_eq!(masked(scalars([3, 2, 1], STEPS, [0.0; 3], "RAS"), &picture), None);
+    let volume = scalars([2, 3, 2], STEPS, [5.0; 3], "RAS");
+    let (overlay, mask) = masked(volume.clone(), &absent([2, 3, 2], STEPS)).unwrap();
+    assert_eq!((overlay, mask), (Overlay::Voxels, volume.values.clone()));
+    assert_eq!(masked(volume, &picture), None);
+}
+
+/// How thick the only layer is moves no point.
+#[test]
+fn masks_of_another_thickness_coincide() {
+    let thick = [STEPS[0], STEPS[1], [0.0, 0.0, 50.0]];
+    for size in [[2, 3, 1], [1, 1, 1]] {
+        let mut own = scalars(size, STEPS, [5.0; 3], "RAS");
+        assert_eq!(own.mask_by(&scalars(size, thick, [5.0; 3], "RAS")), Some(Overlay::Coincident));
+        assert_eq!(own.mask_by(&scalars(size, thick, [5.0, 5.0, 6.0], "RAS")), Some(Overlay::Elsewhere));
+    }
+    let mut own = scalars([2, 3, 2], STEPS, [5.0; 3], "RAS");
+    assert_eq!(own.mask_by(&scalars([2, 3, 2], thick, [5.0; 3], "RAS")), Some(Overlay::Elsewhere));
 }
 
 /// An axis that runs against the world's is reversed, so that a position and positive distances tell where a plane

@@ -2,7 +2,7 @@
 
 use crate::error::InputError;
 use crate::foreign::unreadable;
-use crate::formats::{Format, NUMPY, Request, format_of, is_readable};
+use crate::formats::{Format, NUMPY, ROWS_OF_NUMBERS, Request, TABLE, format_of, is_readable};
 use crate::provenance::hash_of_bytes;
 use crate::reading::{Derivation, Reading};
 use tigereye_core::math;
@@ -266,6 +266,7 @@ impl TensorFile {
     pub fn assumptions(&self) -> Vec<String> {
         let mut all = self.assumptions_of_content();
         all.extend(self.runs_of_rows());
+        all.extend(self.y_of_numbers());
         all
     }
 
@@ -281,6 +282,19 @@ impl TensorFile {
         (NUMPY.contains(&self.kind) && is_open && is_plane).then(|| {
             "took row 0 on top and components along x (right) and y (up); --frame voxel for components along columns and rows, y \
              down"
+                .to_owned()
+        })
+    }
+
+    /// What is assumed of images of numbers without positions. Their derivatives fit the picture in any case; which way
+    /// it is up only their author knows. Pictures in files of pictures have row 0 on top.
+    fn y_of_numbers(&self) -> Option<String> {
+        let Content::Numbers(lattice) = &self.content else { return None };
+        let is_array = NUMPY.contains(&self.kind) || [TABLE, ROWS_OF_NUMBERS].contains(&self.kind);
+        let has_rows = lattice.world == World::Absent && lattice.axes[1][1] < 0.0;
+        (is_array && has_rows && lattice.components == 1).then(|| {
+            "took row 0 on top and y upwards, from the last row to the first; where y grows with the row, the picture is upside down \
+             and xy has the other sign: reverse the rows of the array"
                 .to_owned()
         })
     }

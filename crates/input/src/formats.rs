@@ -75,7 +75,10 @@ pub const TEXT_MATRICES: &str = "text matrices";
 pub(crate) const NUMPY: [&str; 2] = ["NumPy array", "NumPy archive"];
 
 /// A table, one point a line.
-const TABLE: &str = "table";
+pub(crate) const TABLE: &str = "table";
+
+/// An image of single numbers as text.
+pub(crate) const ROWS_OF_NUMBERS: &str = "rows of numbers";
 
 /// Every format that tensors, or what they are derived from, are read from.
 pub const FORMATS: &[Format] = &[
@@ -317,9 +320,7 @@ fn read_text(request: &Request<'_>) -> Result<Found, InputError> {
     match (is_table(request.bytes, request.wanted), option) {
         (true, _) => Ok((TABLE, read_table(request)?)),
         (false, Some(option)) => Err(InputError::nameless(option)),
-        _ if request.wanted == Wanted::Scalars => {
-            Ok(("rows of numbers", table::read_numbers(request.bytes)?))
-        }
+        _ if request.wanted == Wanted::Scalars => Ok((ROWS_OF_NUMBERS, table::read_numbers(request.bytes)?)),
         _ => Ok((TEXT_MATRICES, matrices::read_lattice(request.bytes)?)),
     }
 }

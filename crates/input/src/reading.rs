@@ -135,7 +135,7 @@ impl Reading {
             (
                 numbers && self.frame.is_some(),
                 "--frame",
-                "--derive hessian, structure and orientation take single numbers",
+                "--derive hessian, structure and orientation take single numbers, which are along no axes",
             ),
             (
                 !kind.has_window() && window.is_some(),

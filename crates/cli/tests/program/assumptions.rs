@@ -54,9 +54,22 @@ fn the_direction_of_y_in_arrays_is_said() {
     place.write("v.npy", tilted(&[4, 6, 2]));
     place.says(&["convert", "v.npy", "v.txt", "--derive", "gradient"], words);
     place.succeeds(&["convert", "v.npy", "v.txt", "--derive", "gradient", "--frame", "voxel", "--force"]);
-    // Numbers have no components.
+    // Numbers have no components, but their derivatives have.
     place.write("n.npy", tilted(&[4, 4]));
-    place.succeeds(&["convert", "n.npy", "n.txt", "--derive", "hessian"]);
+    place.write("n.csv", "1,2,3\n4,5,6\n7,8,9\n");
+    place.write("rows.txt", "1 2 3\n4 5 6\n7 8 9\n");
+    for name in ["n.npy", "n.csv", "rows.txt"] {
+        let words = "took row 0 on top and y upwards, from the last row to the first";
+        for derived in ["hessian", "structure"] {
+            place.says(&["convert", name, "n.vti", "--derive", derived, "--force"], words);
+        }
+        place.refuses(
+            &["info", name, "--derive", "hessian", "--frame", "voxel"],
+            &["--frame has nothing to do", "single numbers, which are along no axes"],
+        );
+    }
+    place.write("at.csv", table("x,y,f", |x, y| format!("{x},{y},{}", x * y)));
+    place.says(&["convert", "at.csv", "n.vti", "--derive", "hessian", "--force"], "y taken to run upwards");
 }
 
 /// COMSOL's exports of several times are read one at a time.

@@ -153,10 +153,13 @@ impl SketchSums {
     /// [`LtgError::Length`] and [`LtgError::Sum`] where the numbers are not those of such sums; [`LtgError::Sketches`],
     /// [`LtgError::OmegaStep`], [`LtgError::NoSlices`] and [`LtgError::Slice`] where there is no such shape. Nothing is
     /// allocated for sizes that do not fit.
-    pub fn restored(shape: SketchShape, values: &[f64], done: Vec<bool>) -> Result<Self, LtgError> {
+    pub fn restored(mut shape: SketchShape, values: &[f64], done: Vec<bool>) -> Result<Self, LtgError> {
         if !(FEWEST_SKETCHES..=MOST_SKETCHES).contains(&shape.sketches) {
             return Err(LtgError::Sketches { sketches: shape.sketches.into() });
         }
+        // As they are computed: a file may have them in any order.
+        shape.slices.sort_unstable();
+        shape.slices.dedup();
         let scheme = Scheme::new(shape.directions, SharedWeights::Thesis);
         let comparisons = Comparisons::new(&scheme, shape.every_sample, &shape.slices, shape.omega_step)?;
         let layout = Layout::new(&comparisons);

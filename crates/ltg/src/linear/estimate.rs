@@ -71,7 +71,7 @@ impl Layout {
     /// of a pair: `1/2 (2 a) (2 b) = 2 a b`.
     #[inline(always)]
     pub(crate) fn add(&self, logarithms: &[[i32; GROUPS]], sketches: usize, sums: &mut [i64]) {
-        let single = if sketches % 2 == 0 { GROUPS } else { sketches / 2 };
+        let single = if sketches.is_multiple_of(2) { GROUPS } else { sketches / 2 };
         let n = self.differences();
         let (first, products) = sums.split_at_mut(2 * n);
         let (linear, squares) = first.split_at_mut(n);

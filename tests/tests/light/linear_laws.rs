@@ -173,8 +173,7 @@ fn published_volumes_are_met() {
     let Some(folder) = reference_folder("linear") else { return };
     let array = |name: &str| {
         let path = folder.join(name);
-        let bytes = std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-        bytes
+        std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
     };
     for (name, samples, rule, normalization) in [
         ("absorb13", 16, "global", Normalization::Global),
@@ -550,7 +549,9 @@ fn asking_for_an_error_takes_as_many_sketches_as_it_needs() {
         assert!(estimate.relative_error <= target, "{target}: {}", estimate.relative_error);
         // The same sketches as if their number had been known.
         assert_eq!(sums, scene.sketched(scene.sketches(estimate.sketches, 1)));
-        let most = 64.0_f64.max(2.0 * (std::f64::consts::FRAC_PI_2 / target).powi(2));
+        // Twice what one norm takes.
+        let one_norm = std::f64::consts::FRAC_PI_2 / target;
+        let most = 64.0_f64.max(2.0 * one_norm * one_norm);
         assert!(f64::from(estimate.sketches) <= most, "{target}: {} sketches", estimate.sketches);
     }
     let refused = scene.with_sketches(scene.sketches(64, 1), |g| g.run_to_error(1e-4, &()));

@@ -71,7 +71,7 @@ impl Layout {
     /// of a pair: `1/2 (2 a) (2 b) = 2 a b`.
     #[inline(always)]
     pub(crate) fn add(&self, logarithms: &[[i32; GROUPS]], sketches: usize, sums: &mut [i64]) {
-        let single = if sketches % 2 == 0 { GROUPS } else { sketches / 2 };
+        let single = if sketches.is_multiple_of(2) { GROUPS } else { sketches / 2 };
         let n = self.differences();
         let (first, products) = sums.split_at_mut(2 * n);
         let (linear, squares) = first.split_at_mut(n);
@@ -153,10 +153,13 @@ impl SketchSums {
     /// [`LtgError::Length`] and [`LtgError::Sum`] where the numbers are not those of such sums; [`LtgError::Sketches`],
     /// [`LtgError::OmegaStep`], [`LtgError::NoSlices`] and [`LtgError::Slice`] where there is no such shape. Nothing is
     /// allocated for sizes that do not fit.
-    pub fn restored(shape: SketchShape, values: &[f64], done: Vec<bool>) -> Result<Self, LtgError> {
+    pub fn restored(mut shape: SketchShape, values: &[f64], done: Vec<bool>) -> Result<Self, LtgError> {
         if !(FEWEST_SKETCHES..=MOST_SKETCHES).contains(&shape.sketches) {
             return Err(LtgError::Sketches { sketches: shape.sketches.into() });
         }
+        // As they are computed: a file may have them in any order.
+        shape.slices.sort_unstable();
+        shape.slices.dedup();
         let scheme = Scheme::new(shape.directions, SharedWeights::Thesis);
         let comparisons = Comparisons::new(&scheme, shape.every_sample, &shape.slices, shape.omega_step)?;
         let layout = Layout::new(&comparisons);

@@ -54,6 +54,8 @@ pub struct HeatOptions {
     pub sources: Vec<Cell>,
     /// What a star marks, in the singular.
     pub source_name: &'static str,
+    /// What cells below a logarithmic scale are called; `None` for "no light".
+    pub dark_name: Option<&'static str>,
     /// Bands over the map.
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the map and its bands.
@@ -80,6 +82,7 @@ impl Default for HeatOptions {
             walls: None,
             sources: Vec::new(),
             source_name: "light source",
+            dark_name: None,
             ribbons: Vec::new(),
             overlays: Vec::new(),
             cell_px: None,
@@ -119,7 +122,8 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     let colour = |first| cell_colour(block_mean(field, first, block), &axis, map);
     page.scene.items.push(sampling.raster(&page, colour));
     page.hatch(&sampling.cells_where(|sample| !field.at(sample).is_finite()));
-    let mut legend = value_legend(&seen, &summary, &axis, options.missing.as_deref(), &sampling);
+    let names = [options.missing.as_deref(), options.dark_name];
+    let mut legend = value_legend(&seen, &summary, &axis, names, &sampling);
     if let Some(text) = sampling.mean_in_words(block) {
         legend.push(Entry::of(Mark::None, text));
     }
@@ -239,14 +243,15 @@ fn value_legend(
     values: &[f64],
     summary: &Summary,
     axis: &Axis,
-    missing: Option<&str>,
+    [missing, dark_name]: [Option<&str>; 2],
     sampling: &Sampling,
 ) -> Vec<Entry> {
+    let dark_name = dark_name.unwrap_or("no light");
     let mut legend = Vec::new();
     if axis.logarithmic && values.iter().any(|v| v.is_finite() && *v < axis.low) {
         let negative = values.iter().any(|v| v.is_finite() && *v < 0.0);
         let text = format!(
-            "{} or below {}",
+            "{dark_name}: {} or below {}",
             if negative { "0, negative" } else { "0" },
             number::significant(axis.low, 2)
         );

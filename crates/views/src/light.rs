@@ -19,6 +19,8 @@ pub struct Request {
     pub sources: Vec<Cell>,
     /// What a marked cell is, in the singular; `None` for a light source.
     pub source_name: Option<&'static str>,
+    /// What cells below a logarithmic scale are called; `None` for "no light".
+    pub dark_name: Option<&'static str>,
     /// The surfaces of a scene.
     pub walls: Option<Field<Option<Surface>>>,
     /// Lines and points drawn on top.
@@ -39,6 +41,7 @@ impl Request {
             scale: self.decades.map_or(HeatScale::Linear, |decades| HeatScale::Logarithmic { decades }),
             sources: self.sources,
             source_name: self.source_name.unwrap_or(HeatOptions::default().source_name),
+            dark_name: self.dark_name,
             walls: self.walls,
             overlays: self.overlays,
             cell_px: self.cell_px,

@@ -135,6 +135,7 @@ fn picture(
                 decades: Some(DECADES),
                 sources: vec![receiver],
                 source_name: Some("receiver"),
+                dark_name: Some("unimportant"),
                 walls: walls.cloned(),
                 cell,
                 ..light::Request::default()

@@ -32,6 +32,7 @@ impl PanelKind for Importance {
                 decades,
                 sources: vec![outcome.receiver],
                 source_name: Some("receiver"),
+                dark_name: Some("unimportant"),
                 walls: outcome.surfaces.clone(),
                 cell_px: drawing.cell_px(outcome.importance.grid()),
                 ..Request::default()

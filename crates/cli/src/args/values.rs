@@ -57,8 +57,8 @@ pub(crate) fn parse_seed(text: &str) -> Result<u64, String> {
 /// `3%` or `3`, as 0.03.
 pub(crate) fn parse_percentage(text: &str) -> Result<f64, String> {
     match text.strip_suffix('%').unwrap_or(text).trim().parse::<f64>() {
-        Ok(percent @ 0.1..=50.0) => Ok(percent / 100.0),
-        _ => Err("expected a percentage from 0.1% to 50%".to_owned()),
+        Ok(percent @ 0.2..=50.0) => Ok(percent / 100.0),
+        _ => Err("expected a percentage from 0.2% to 50%".to_owned()),
     }
 }
 

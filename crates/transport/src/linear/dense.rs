@@ -245,6 +245,9 @@ pub(super) fn inverse_of_one_minus<T: Real, const N: usize>(
     inverse(m, smallest, level, parallel)
 }
 
+/// Rows of matrices that are inverted by elimination. The same for all numbers of lanes, so that the bits are, too.
+const SMALL: usize = 32;
+
 /// By halves: with `[[a, b], [c, d]]` and `s = d - c a^-1 b`, the inverse is
 /// `[[a^-1 + a^-1 b s^-1 c a^-1, -a^-1 b s^-1], [-s^-1 c a^-1, s^-1]]`.
 fn inverse<T: Real, const N: usize>(
@@ -254,10 +257,10 @@ fn inverse<T: Real, const N: usize>(
     parallel: &dyn Parallel,
 ) -> Result<Tiles<T, N>, SmallPivot> {
     let n = m.rows;
-    if n <= N {
+    if n <= SMALL {
         return small_inverse(m, smallest, level);
     }
-    let half = (n / 2).div_ceil(N) * N;
+    let half = (n / 2).div_ceil(SMALL) * SMALL;
     let block = |r0: usize, r1: usize, c0: usize, c1: usize| {
         Tiles::<T, N>::from_fn(r1 - r0, c1 - c0, |r, c| m.at(r0 + r, c0 + c))
     };

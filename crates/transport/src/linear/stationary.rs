@@ -10,7 +10,7 @@ use super::cells::LinearScattering;
 use super::dissection::Course;
 use crate::TransportError;
 use std::ops::ControlFlow;
-use tigereye_core::{Cell, NEIGHBOUR_OFFSETS};
+use tigereye_core::{Cell, NEIGHBOUR_OFFSETS, math};
 
 /// Sweeps after which a search ends: fields of ten thousand cells a side would settle by then.
 const MOST_SWEEPS: usize = 8000;
@@ -51,13 +51,32 @@ pub fn stationary(
 ) -> Result<Settled, TransportError> {
     let system = System::new(field, course);
     assert_eq!(q.len(), system.matrices.len(), "a source in every cell");
+    // A power of two, so that it changes no digit: squares of the faintest lights would vanish.
+    let largest = q.as_flattened().iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let scale = if largest > 0.0 { math::pow(2.0, math::log2(largest).floor()) } else { 1.0 };
+    let scaled: Vec<[f64; 8]> = q.iter().map(|lobes| lobes.map(|v| v / scale)).collect();
+    let mut settled = search(&system, &scaled, tolerance, watch)?;
+    for v in settled.lobes.as_flattened_mut() {
+        *v *= scale;
+    }
+    Ok(settled)
+}
+
+/// [`stationary`] for sources that are not extreme.
+fn search(
+    system: &System,
+    q: &[[f64; 8]],
+    tolerance: f64,
+    watch: &mut Watch<'_>,
+) -> Result<Settled, TransportError> {
+    let breaks_down = |x: f64| x == 0.0 || !x.is_finite();
+    let dark = || vec![[0.0; 8]; q.len()];
     let mut sweeps = CORNERS.len();
     let mut a = system.round(q);
     let mut r = system.residual(q, &a);
-    let shadow = r.clone();
+    let mut shadow = r.clone();
     let (mut rho, mut alpha, mut omega) = (1.0, 1.0, 1.0);
-    let mut v = vec![[0.0; 8]; q.len()];
-    let mut p = v.clone();
+    let (mut v, mut p) = (dark(), dark());
     loop {
         let residual = relative(&r, &a);
         if watch(sweeps, residual).is_break() {
@@ -74,23 +93,48 @@ pub fn stationary(
         if !residual.is_finite() || sweeps >= MOST_SWEEPS {
             return Err(TransportError::Unsettled { sweeps, residual });
         }
-        let next = dot(&shadow, &r);
-        let beta = next / rho * (alpha / omega);
-        rho = next;
-        for ((p, r), v) in p.as_flattened_mut().iter_mut().zip(r.as_flattened()).zip(v.as_flattened()) {
-            *p = r + beta * (*p - omega * v);
-        }
-        let y = system.round(&p);
-        v = system.kept_from(&y);
-        alpha = rho / dot(&shadow, &v);
-        add(&mut r, -alpha, &v);
-        let z = system.round(&r);
-        let t = system.kept_from(&z);
-        omega = dot(&t, &r) / dot(&t, &t);
-        add(&mut a, alpha, &y);
-        add(&mut a, omega, &z);
-        add(&mut r, -omega, &t);
+        let goes_on = 'step: {
+            let next = dot(&shadow, &r);
+            let beta = next / rho * (alpha / omega);
+            if breaks_down(next) || !beta.is_finite() {
+                break 'step false;
+            }
+            rho = next;
+            for ((p, r), v) in p.as_flattened_mut().iter_mut().zip(r.as_flattened()).zip(v.as_flattened()) {
+                *p = r + beta * (*p - omega * v);
+            }
+            let y = system.round(&p);
+            v = system.kept_from(&y);
+            let along = dot(&shadow, &v);
+            if breaks_down(along) {
+                break 'step false;
+            }
+            alpha = rho / along;
+            add(&mut r, -alpha, &v);
+            add(&mut a, alpha, &y);
+            let z = system.round(&r);
+            let t = system.kept_from(&z);
+            let square = dot(&t, &t);
+            if breaks_down(square) {
+                break 'step false;
+            }
+            omega = dot(&t, &r) / square;
+            add(&mut a, omega, &z);
+            add(&mut r, -omega, &t);
+            !breaks_down(omega)
+        };
         sweeps += 2 * CORNERS.len() + 2;
+        if !goes_on {
+            // The recurrence has nothing to divide by, as where all light is gone after a few steps: one plain round, and a
+            // new start from there.
+            let correction = system.round(&system.residual(q, &a));
+            add(&mut a, 1.0, &correction);
+            r = system.residual(q, &a);
+            shadow.clone_from(&r);
+            (rho, alpha, omega) = (1.0, 1.0, 1.0);
+            (v, p) = (dark(), dark());
+            sweeps += CORNERS.len() + 2;
+        }
     }
 }
 

@@ -130,7 +130,7 @@ fn following_light_back_gives_the_adjoint() {
 
 #[test]
 fn sweeps_settle_on_the_direct_solution() {
-    with_linear(&transmission(23, 17), |field| {
+    with_linear(&transmission(41, 37), |field| {
         let grid = field.grid();
         for course in [Course::FromSources, Course::ToReceivers] {
             let direct = solved::<f64, 32>(field, course, Level::detect(), &|l| sources(grid, l));
@@ -142,12 +142,46 @@ fn sweeps_settle_on_the_direct_solution() {
             };
             let settled = stationary(field, course, &q, 1e-12, watch).expect("light that leaves");
             assert_eq!(told, settled.sweeps);
+            let narrow = solved::<f32, 32>(field, course, Level::detect(), &|l| sources(grid, l));
+            let wide = solved::<f32, 64>(field, course, Level::detect(), &|l| sources(grid, l));
+            for (narrow, wide) in narrow.iter().zip(&wide) {
+                assert_eq!(narrow.0.map(f32::to_bits)[..], wide.0.map(f32::to_bits)[..32], "{course:?}");
+            }
             let all: f64 = direct.iter().map(|lanes| lanes.0[3]).sum();
             let apart: f64 =
                 settled.lobes.as_flattened().iter().zip(&direct).map(|(a, b)| (a - b.0[3]).abs()).sum();
             assert!(apart < 1e-10 * all, "{course:?}: {}", apart / all);
         }
     });
+}
+
+#[test]
+fn light_that_is_gone_after_a_few_steps_and_faint_light_are_found() {
+    // Totally anisotropic cells absorb what does not come along their axis.
+    let directions = Directions::new(16).expect("directions");
+    let grid = Grid::new(9, 9).expect("a grid");
+    let tensors = Field::from_fn(grid, |c| Tensor2::from_axes(0.37 * (c.x * 7 + c.y * 11) as f64, 1.0, 0.0));
+    let needles =
+        TransmissionField::from_tensors(&tensors, directions, Normalization::Local).expect("a field");
+    for (t, strength) in [(&needles, 1.0), (&transmission(9, 9), 1e-170), (&transmission(9, 9), 1e90)] {
+        with_linear(t, |field| {
+            for source in (0..81 * 8).step_by(5) {
+                if field.grid().neighbour(field.grid().cell(source / 8), (source + 4) % 8).is_none() {
+                    continue;
+                }
+                let mut q = vec![[0.0; 8]; 81];
+                q[source / 8][source % 8] = strength;
+                let watch = &mut |_, _| std::ops::ControlFlow::Continue(());
+                let settled = stationary(field, Course::FromSources, &q, 1e-10, watch);
+                let settled = settled.unwrap_or_else(|e| panic!("source {source}: {e}"));
+                let one: Vec<f64> = q.as_flattened().iter().map(|v| v / strength).collect();
+                let expected = by_steps(field, &one);
+                for (got, expected) in settled.lobes.as_flattened().iter().zip(expected) {
+                    assert!((got / strength - expected).abs() < 1e-7, "source {source}");
+                }
+            }
+        });
+    }
 }
 
 #[test]

@@ -105,7 +105,7 @@ fn numbers_out_of_range_are_refused() {
         (&["--estimate", "64", "--seed", "-1"], &["--seed", "expected 0 to 9007199254740991"]),
         (&["--estimate", "64", "--seed", "9007199254740992"], &["--seed", "9007199254740991"]),
         (&["--estimate", "64", "--seed", "x"], &["--seed", "expected 0 to 9007199254740991"]),
-        (&["--error", "0"], &["--error", "expected a percentage from 0.1% to 50%"]),
+        (&["--error", "0"], &["--error", "expected a percentage from 0.2% to 50%"]),
         (&["--error", "51%"], &["--error", "expected a percentage"]),
         (&["--error", "-5%"], &["--error", "expected a percentage"]),
         (&["--error", "few"], &["--error", "expected a percentage"]),
@@ -243,7 +243,10 @@ fn an_error_asked_for_is_met() {
         place.succeeds(&args);
         assert_eq!(place.image("a.vti").point_arrays, place.image("b.vti").point_arrays, "{percentage}");
     }
-    place.refuses(&with(&SHORT, &["--error", "0.1%", "-o", "c.vti"]), &["--error", "expected 16 to 1048576"]);
+    place.refuses(
+        &with(&SHORT, &["--error", "0.1%", "-o", "c.vti"]),
+        &["--error", "expected a percentage from 0.2% to 50%"],
+    );
 }
 
 #[test]

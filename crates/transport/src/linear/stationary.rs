@@ -125,8 +125,8 @@ fn search(
         };
         sweeps += 2 * CORNERS.len() + 2;
         if !goes_on {
-            // The recurrence has nothing to divide by, as where all light is gone after a few steps: one plain round, and a
-            // new start from there.
+            // The recurrence has nothing to divide by, as where all light is gone after a few steps: one plain round,
+            // and a new start from there.
             let correction = system.round(&system.residual(q, &a));
             add(&mut a, 1.0, &correction);
             r = system.residual(q, &a);

@@ -44,7 +44,7 @@ pub enum LtgError {
         value: f64,
     },
     /// Too few sketches to say anything, or more than are worth their time.
-    #[error("{sketches} sketches: expected 16 to 1048576 (the exact gradient takes no longer than more)")]
+    #[error("{sketches} sketches: expected 16 to 1048576; for a smaller error, compute the exact gradient")]
     Sketches {
         /// How many were asked for, or would be needed.
         sketches: u64,

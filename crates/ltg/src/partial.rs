@@ -64,6 +64,23 @@ impl PartialVolume {
         Ok(empty)
     }
 
+    /// `start`, which must be of this gradient; without it, nothing finished.
+    ///
+    /// # Errors
+    /// As [`Self::empty`], and [`LtgError::Unlike`].
+    pub(crate) fn started(
+        grid: Grid,
+        directions: Directions,
+        slices: Vec<usize>,
+        omega_step: usize,
+        start: Option<Self>,
+    ) -> Result<Self, LtgError> {
+        let empty = Self::empty(grid, directions, slices, omega_step)?;
+        let Some(start) = start else { return Ok(empty) };
+        empty.check_like(&start)?;
+        Ok(start)
+    }
+
     /// The finished part of an earlier run. Nothing is allocated for sizes that do not fit.
     ///
     /// # Errors

@@ -51,14 +51,7 @@ pub fn sweep_part(
     let (grid, directions) = (field.grid(), field.scheme().directions());
     let slices = settings.checked_slices(directions)?;
     check_fit(grid, directions, walls_of(field), settings)?;
-    let empty = || PartialVolume::empty(grid, directions, slices, settings.omega_step);
-    let volume = match start {
-        None => empty()?,
-        Some(start) => {
-            empty()?.check_like(&start)?;
-            start
-        }
-    };
+    let volume = PartialVolume::started(grid, directions, slices, settings.omega_step, start)?;
     match settings.precision {
         Precision::F64 => run::<f64>(field, settings, shard, volume, observer),
         Precision::F32 => run::<f32>(field, settings, shard, volume, observer),

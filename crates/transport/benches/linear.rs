@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 use tigereye_core::{Directions, Field, Grid, Normalization, Tensor2, TransmissionField};
 use tigereye_transport::{
-    Combination, Course, Dissection, Lanes, Level, LinearScattering, Real, Scattering, Scheme, Serial,
+    Combination, Dissection, Lanes, Level, LinearScattering, Operator, Real, Scattering, Scheme, Serial,
     SharedWeights, l1_norms, stationary,
 };
 
@@ -26,7 +26,7 @@ fn direct<T: Real, const N: usize>(c: &mut Criterion) {
         let field = LinearScattering::new(&scattering);
         let name = |what: &str| format!("{what}, {}, {side}x{side}", T::NAME);
         for level in Level::available() {
-            let prepare = || Dissection::<T, N>::new(&field, Course::FromSources, level, &Serial);
+            let prepare = || Dissection::<T, N>::new(&field, Operator::Forward, level, &Serial);
             let mut group = c.benchmark_group(name("dissection"));
             group.bench_function(BenchmarkId::from_parameter(level.name()), |b| {
                 b.iter(|| prepare().expect("light that leaves"));
@@ -55,7 +55,7 @@ fn sweeps(c: &mut Criterion) {
         let mut q = vec![[0.0; 8]; side * side];
         q[side * side / 2] = [1.0; 8];
         let solve = || {
-            stationary(&field, Course::FromSources, &q, 1e-6, &mut |_, _| ControlFlow::Continue(()))
+            stationary(&field, Operator::Forward, &q, 1e-6, &mut |_, _| ControlFlow::Continue(()))
                 .expect("light that leaves")
         };
         group.throughput(Throughput::Elements((solve().sweeps * side * side) as u64));

@@ -27,7 +27,7 @@ pub use error::TransportError;
 pub use light::{Emission, Light, check_lights, emitter};
 pub use limits::{Traffic, arithmetic};
 pub use linear::{
-    Combination, Course, Dissection, Lanes, LinearScattering, Parallel, Serial, Settled, Watch, Workspace,
+    Combination, Dissection, Lanes, LinearScattering, Operator, Parallel, Serial, Settled, Watch, Workspace,
     importance, l1_norms, stationary, stationary_light,
 };
 pub use oracle::SampleSpace;

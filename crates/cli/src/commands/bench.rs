@@ -12,7 +12,7 @@ use std::time::Instant;
 use tigereye_core::{Directions, Field, Grid, Normalization, Tensor2, TransmissionField};
 use tigereye_ltg::{Phase, Shard, SketchObserver, SketchSettings, SketchedGradient, omega_step_of_volumes};
 use tigereye_transport::{
-    Course, Dissection, Lanes, Level, LinearScattering, PulseDistribution, PulseSolver, Real, Scattering,
+    Dissection, Lanes, Level, LinearScattering, Operator, PulseDistribution, PulseSolver, Real, Scattering,
     Scheme, Serial, SharedWeights, Stopping, Traffic, arithmetic,
 };
 
@@ -158,7 +158,7 @@ fn measure_linear(level: Level, threads: usize, side: usize) -> Result<LinearRow
     let field = LinearScattering::new(&scattering);
     let start = Instant::now();
     let dissection =
-        Dissection::<f32, LANES>::new(&field, Course::ToReceivers, level, &Serial).map_err(|e| fault(&e))?;
+        Dissection::<f32, LANES>::new(&field, Operator::Adjoint, level, &Serial).map_err(|e| fault(&e))?;
     let prepare = start.elapsed().as_secs_f64();
     let lanes = || (vec![Lanes::<f32, LANES>::zero(); 8 * grid.cells()], dissection.workspace());
     let mut states: Vec<_> = (0..threads).map(|_| lanes()).collect();

@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError, RwLock};
 use tigereye_core::{Cell, Directions, Grid, SweepWork};
 use tigereye_transport::{
-    Combination, Course, Dissection, Lanes, Level, LinearScattering, Real, Workspace, l1_norms,
+    Combination, Dissection, Lanes, Level, LinearScattering, Operator, Real, Workspace, l1_norms,
 };
 
 /// Computes what `shard` has of the exact gradient of the linear scheme and `start` lacks; `settings.stopping` has no
@@ -34,14 +34,7 @@ pub fn linear_sweep_part(
     let (grid, directions) = (field.grid(), field.scheme().directions());
     let slices = settings.checked_slices(directions)?;
     check_linear_fit(grid, directions, settings)?;
-    let empty = || PartialVolume::empty(grid, directions, slices.clone(), settings.omega_step);
-    let volume = match start {
-        None => empty()?,
-        Some(start) => {
-            empty()?.check_like(&start)?;
-            start
-        }
-    };
+    let volume = PartialVolume::started(grid, directions, slices.clone(), settings.omega_step, start)?;
     match settings.precision {
         Precision::F64 => run::<f64, 32>(field, settings, &slices, shard, volume, observer),
         Precision::F32 => run::<f32, 64>(field, settings, &slices, shard, volume, observer),
@@ -148,7 +141,7 @@ fn run<T: Real, const N: usize>(
         return Ok(volume);
     }
     observer.busy(Some(Phase::Propagation));
-    let dissection = Dissection::new(field, Course::FromSources, settings.level, &Pool)?;
+    let dissection = Dissection::new(field, Operator::Forward, settings.level, &Pool)?;
     observer.busy(None);
     let before = volume.finished().work.sources;
     let needed = |x: usize, y: usize| {

@@ -8,7 +8,7 @@
 
 use crate::LtgError;
 use crate::settings::check_slices;
-use tigereye_core::{Cell, math};
+use tigereye_core::Cell;
 use tigereye_transport::{LinearScattering, Scheme};
 
 /// Classes of equal pulses, and the comparisons that a gradient needs of each cell.
@@ -73,13 +73,7 @@ impl Comparisons {
 
     /// The energy that a pulse of each class puts into the field, W: 0 where the cell transmits nothing of it.
     pub(crate) fn energies(&self, field: &LinearScattering<'_>, cell: Cell) -> Vec<f64> {
-        let transmission = field.transmission();
-        if transmission.reflection(cell).is_some() {
-            return vec![0.0; self.classes.len()];
-        }
-        let shape = transmission.shape(cell);
-        let energy = math::TAU * transmission.rate(cell);
-        self.samples.iter().map(|&t| if shape[t] > 0.0 { energy } else { 0.0 }).collect()
+        self.samples.iter().map(|&t| field.pulse_energy(cell, t)).collect()
     }
 }
 

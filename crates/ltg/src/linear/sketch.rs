@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use std::ops::ControlFlow;
 use tigereye_core::{Cell, Grid};
 use tigereye_transport::{
-    ArrayLoop, Course, Dissection, Lanes, Level, LinearScattering, Workspace, sector_lobes,
+    ArrayLoop, Dissection, Lanes, Level, LinearScattering, Operator, Workspace, sector_lobes,
 };
 
 /// Settings of a sketched gradient.
@@ -188,11 +188,14 @@ impl<'a> SketchedGradient<'a> {
         }
         observer.busy(Some(Phase::Propagation));
         let dissection =
-            Dissection::<f32, N>::new(self.field, Course::ToReceivers, self.settings.level, &Pool)?;
+            Dissection::<f32, N>::new(self.field, Operator::Adjoint, self.settings.level, &Pool)?;
         observer.busy(None);
         let energies = self.energies();
-        let mut workers: Vec<Worker<N>> =
-            (0..arrays.min(batches.len())).map(|_| Worker::new(&dissection)).collect();
+        let mut workers: Vec<Worker<N>> = Vec::new();
+        let interrupted = |sums: &SketchSums| LtgError::Interrupted {
+            done: sums.sketches().into(),
+            total: (sums.done().len() * BATCH) as u64,
+        };
         loop {
             for round in batches.chunks(arrays * (N / BATCH)) {
                 let batches: Vec<&[u32]> = round.chunks(N / BATCH).collect();
@@ -215,16 +218,14 @@ impl<'a> SketchedGradient<'a> {
                     }
                 });
                 if observer.pulse().is_break() {
-                    let total = sums.done().len() * BATCH;
-                    return Err(LtgError::Interrupted { done: sums.sketches().into(), total: total as u64 });
+                    return Err(interrupted(&sums));
                 }
                 for (worker, batches) in workers.iter().zip(&batches) {
                     self.look_up(&worker.edges, batches, &energies, &mut sums, observer);
                 }
                 round.iter().for_each(|&batch| sums.mark(batch));
                 if observer.finished(&sums).is_break() {
-                    let total = sums.done().len() * BATCH;
-                    return Err(LtgError::Interrupted { done: sums.sketches().into(), total: total as u64 });
+                    return Err(interrupted(&sums));
                 }
             }
             let Some(target) = target else { return Ok(sums) };

@@ -96,12 +96,16 @@ impl<'a> LinearScattering<'a> {
     /// The flux towards each neighbour (W) of a pulse of height S in sample `t`: `2 pi Tbar w_k(t)`.
     #[must_use]
     pub fn emitted_by_pulse(&self, cell: Cell, t: usize) -> [f64; 8] {
-        let transmission = self.transmission();
-        if transmission.reflection(cell).is_some() || transmission.shape(cell)[t] <= 0.0 {
-            return [0.0; 8];
-        }
-        let energy = tigereye_core::math::TAU * transmission.rate(cell);
+        let energy = self.pulse_energy(cell, t);
         self.scheme().weights(t).map(|w| energy * w)
+    }
+
+    /// The total flux of such a pulse (W): `2 pi Tbar`, and 0 if the cell transmits nothing of the sample or is a wall.
+    #[must_use]
+    pub fn pulse_energy(&self, cell: Cell, t: usize) -> f64 {
+        let transmission = self.transmission();
+        let is_lost = transmission.reflection(cell).is_some() || transmission.shape(cell)[t] <= 0.0;
+        if is_lost { 0.0 } else { tigereye_core::math::TAU * transmission.rate(cell) }
     }
 
     /// `sum_t v(t) c_j(t)`: the weights of the eight lobes in a weighted sum over the samples of a cell, `C^T v`.

@@ -21,13 +21,13 @@ use crate::simd::{Level, Proven, Task, Vector};
 use std::sync::{Mutex, OnceLock};
 use tigereye_core::{Cell, Grid};
 
-/// Which way light is followed.
+/// Which system is solved: that of light, or its adjoint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Course {
+pub enum Operator {
     /// From sources: `a = A a + q`.
-    FromSources,
+    Forward,
     /// Back from receivers: `x = A^T x + r`.
-    ToReceivers,
+    Adjoint,
 }
 
 /// A field, prepared for stationary light of many sources in N lanes.
@@ -91,7 +91,7 @@ impl<T: Real, const N: usize> Dissection<T, N> {
     /// no stationary state then.
     pub fn new(
         field: &LinearScattering<'_>,
-        course: Course,
+        operator: Operator,
         level: Level,
         parallel: &dyn Parallel,
     ) -> Result<Self, TransportError> {
@@ -105,7 +105,7 @@ impl<T: Real, const N: usize> Dissection<T, N> {
         }
         let merges = blocks.blocks.iter().map(|_| OnceLock::new()).collect();
         let made = Self { grid, level, blocks, merges, longest };
-        made.factorize(field, course, parallel)?;
+        made.factorize(field, operator, parallel)?;
         Ok(made)
     }
 
@@ -155,14 +155,14 @@ impl<T: Real, const N: usize> Dissection<T, N> {
     fn factorize(
         &self,
         field: &LinearScattering<'_>,
-        course: Course,
+        operator: Operator,
         parallel: &dyn Parallel,
     ) -> Result<(), TransportError> {
         let answers: Vec<Mutex<Option<Tiles<T, N>>>> =
             self.blocks.blocks.iter().map(|_| Mutex::new(None)).collect();
         let take = |block: usize| {
             let known = answers[block].lock().expect("no task panics").take();
-            known.unwrap_or_else(|| self.answer_of_cell(field, course, block))
+            known.unwrap_or_else(|| self.answer_of_cell(field, operator, block))
         };
         let trapped = Mutex::new(None);
         for generation in self.blocks.generations.iter().rev() {
@@ -197,17 +197,17 @@ impl<T: Real, const N: usize> Dissection<T, N> {
     }
 
     /// What a single cell answers: rows are edges that leave, columns edges that enter.
-    fn answer_of_cell(&self, field: &LinearScattering<'_>, course: Course, block: usize) -> Tiles<T, N> {
+    fn answer_of_cell(&self, field: &LinearScattering<'_>, operator: Operator, block: usize) -> Tiles<T, N> {
         let block = &self.blocks.blocks[block];
         let shape = &self.blocks.shapes[block.shape];
         let p = field.matrix(self.grid.cell(block.first));
         let direction = |edge: isize| edge.rem_euclid(8) as usize;
         Tiles::from_fn(shape.leaving.len(), shape.entering.len(), |r, c| {
             let (k, j) = (direction(shape.leaving[r]), direction(shape.entering[c]));
-            T::from_f64(match course {
-                Course::FromSources => p[k][j],
+            T::from_f64(match operator {
+                Operator::Forward => p[k][j],
                 // Opposite directions trade places, and so do cause and effect.
-                Course::ToReceivers => p[(j + 4) % 8][(k + 4) % 8],
+                Operator::Adjoint => p[(j + 4) % 8][(k + 4) % 8],
             })
         })
     }

@@ -1,7 +1,7 @@
 //! Stationary light and importance in the linear scheme.
 
 use super::cells::LinearScattering;
-use super::dissection::Course;
+use super::dissection::Operator;
 use super::stationary::{Watch, stationary};
 use crate::error::BRIGHTEST;
 use crate::scattering::Scattering;
@@ -32,7 +32,7 @@ pub fn stationary_light(
             }
         }
     }
-    let found = stationary(&field, Course::FromSources, &q, tolerance, watch)?;
+    let found = stationary(&field, Operator::Forward, &q, tolerance, watch)?;
     let s = directions.count();
     let mut samples = Vec::with_capacity(grid.cells() * s);
     for a in &found.lobes {
@@ -101,7 +101,7 @@ pub fn importance(
             r[grid.index(behind)][back] += received;
         }
     }
-    let found = stationary(field, Course::ToReceivers, &r, tolerance, watch)?;
+    let found = stationary(field, Operator::Adjoint, &r, tolerance, watch)?;
     // What a flux of 1 W that leaves the cell towards neighbour k is worth.
     let leaving = |cell: Cell| -> [f64; 8] {
         let edges = &found.lobes[grid.index(cell)];
@@ -117,9 +117,7 @@ pub fn importance(
     }
     let arriving = Field::from_fn(grid, |cell| {
         let passed = field.passed_back(cell, &leaving(cell));
-        std::array::from_fn(|j| {
-            passed[j] + if cell == receiver { field.sampled_back(&weighed)[j] } else { 0.0 }
-        })
+        std::array::from_fn(|j| passed[j] + if cell == receiver { received[j] } else { 0.0 })
     });
     let work = Work { steps: found.sweeps, cell_updates: (found.sweeps * grid.cells()) as u64 };
     Ok((LightDistribution::new(directions, samples, arriving), work))

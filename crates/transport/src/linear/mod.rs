@@ -16,7 +16,7 @@ pub use cells::LinearScattering;
 pub(crate) use cells::{Band, banded, bands, emitted};
 pub use combinations::{Combination, l1_norms};
 pub use dense::Lanes;
-pub use dissection::{Course, Dissection, Workspace};
+pub use dissection::{Dissection, Operator, Workspace};
 pub use light::{importance, stationary_light};
 pub use parallel::{Parallel, Serial};
 pub use stationary::{Settled, Watch, stationary};

@@ -7,7 +7,7 @@
 //! Vorst 1992) a round settles 512 x 512 cells to 1e-6 in 170 to 250 sweeps on the thesis's fields.
 
 use super::cells::LinearScattering;
-use super::dissection::Course;
+use super::dissection::Operator;
 use crate::TransportError;
 use std::ops::ControlFlow;
 use tigereye_core::{Cell, NEIGHBOUR_OFFSETS, math};
@@ -44,12 +44,12 @@ pub type Watch<'a> = dyn FnMut(usize, f64) -> ControlFlow<()> + 'a;
 /// Panics where `q` has not one entry per cell.
 pub fn stationary(
     field: &LinearScattering<'_>,
-    course: Course,
+    operator: Operator,
     q: &[[f64; 8]],
     tolerance: f64,
     watch: &mut Watch<'_>,
 ) -> Result<Settled, TransportError> {
-    let system = System::new(field, course);
+    let system = System::new(field, operator);
     assert_eq!(q.len(), system.matrices.len(), "a source in every cell");
     // A power of two, so that it changes no digit: squares of the faintest lights would vanish.
     let largest = q.as_flattened().iter().fold(0.0_f64, |m, v| m.max(v.abs()));
@@ -138,7 +138,7 @@ fn search(
     }
 }
 
-/// The matrices of all cells, along one course.
+/// The matrices of all cells, along one operator.
 struct System {
     matrices: Vec<[[f64; 8]; 8]>,
     width: usize,
@@ -146,13 +146,13 @@ struct System {
 }
 
 impl System {
-    fn new(field: &LinearScattering<'_>, course: Course) -> Self {
+    fn new(field: &LinearScattering<'_>, operator: Operator) -> Self {
         let grid = field.grid();
         let matrix = |cell: Cell| {
             let p = field.matrix(cell);
-            match course {
-                Course::FromSources => p,
-                Course::ToReceivers => {
+            match operator {
+                Operator::Forward => p,
+                Operator::Adjoint => {
                     std::array::from_fn(|k| std::array::from_fn(|j| p[(j + 4) % 8][(k + 4) % 8]))
                 }
             }

@@ -65,11 +65,11 @@ fn sources(grid: Grid, lane: usize) -> Vec<f64> {
 
 fn solved<T: crate::Real, const N: usize>(
     field: &LinearScattering<'_>,
-    course: Course,
+    operator: Operator,
     level: Level,
     q: &dyn Fn(usize) -> Vec<f64>,
 ) -> Vec<Lanes<T, N>> {
-    let dissection = Dissection::<T, N>::new(field, course, level, &Serial).expect("light that leaves");
+    let dissection = Dissection::<T, N>::new(field, operator, level, &Serial).expect("light that leaves");
     let mut edges = vec![Lanes::zero(); field.grid().cells() * 8];
     for lane in 0..N {
         for (to, q) in edges.iter_mut().zip(q(lane)) {
@@ -85,7 +85,7 @@ fn direct_solution_is_the_limit_of_plain_steps() {
     for (width, height) in [(1, 1), (1, 7), (2, 2), (9, 5), (16, 13)] {
         with_linear(&transmission(width, height), |field| {
             let grid = field.grid();
-            let edges = solved::<f64, 32>(field, Course::FromSources, Level::detect(), &|l| sources(grid, l));
+            let edges = solved::<f64, 32>(field, Operator::Forward, Level::detect(), &|l| sources(grid, l));
             for lane in [0, 31] {
                 let expected = by_steps(field, &sources(grid, lane));
                 for (e, (got, expected)) in edges.iter().zip(expected).enumerate() {
@@ -113,8 +113,8 @@ fn following_light_back_gives_the_adjoint() {
             }
             edges
         };
-        let light = solved::<f64, 32>(field, Course::FromSources, Level::detect(), &q);
-        let worth = solved::<f64, 32>(field, Course::ToReceivers, Level::detect(), &back);
+        let light = solved::<f64, 32>(field, Operator::Forward, Level::detect(), &q);
+        let worth = solved::<f64, 32>(field, Operator::Adjoint, Level::detect(), &back);
         for lane in 0..32 {
             let received: f64 = light.iter().zip(r(lane)).map(|(a, r)| a.0[lane] * r).sum();
             let mut sent = 0.0;
@@ -132,25 +132,25 @@ fn following_light_back_gives_the_adjoint() {
 fn sweeps_settle_on_the_direct_solution() {
     with_linear(&transmission(41, 37), |field| {
         let grid = field.grid();
-        for course in [Course::FromSources, Course::ToReceivers] {
-            let direct = solved::<f64, 32>(field, course, Level::detect(), &|l| sources(grid, l));
+        for operator in [Operator::Forward, Operator::Adjoint] {
+            let direct = solved::<f64, 32>(field, operator, Level::detect(), &|l| sources(grid, l));
             let q: Vec<[f64; 8]> = sources(grid, 3).as_chunks().0.to_vec();
             let mut told = 0;
             let watch = &mut |sweeps, _| {
                 told = sweeps;
                 std::ops::ControlFlow::Continue(())
             };
-            let settled = stationary(field, course, &q, 1e-12, watch).expect("light that leaves");
+            let settled = stationary(field, operator, &q, 1e-12, watch).expect("light that leaves");
             assert_eq!(told, settled.sweeps);
-            let narrow = solved::<f32, 32>(field, course, Level::detect(), &|l| sources(grid, l));
-            let wide = solved::<f32, 64>(field, course, Level::detect(), &|l| sources(grid, l));
+            let narrow = solved::<f32, 32>(field, operator, Level::detect(), &|l| sources(grid, l));
+            let wide = solved::<f32, 64>(field, operator, Level::detect(), &|l| sources(grid, l));
             for (narrow, wide) in narrow.iter().zip(&wide) {
-                assert_eq!(narrow.0.map(f32::to_bits)[..], wide.0.map(f32::to_bits)[..32], "{course:?}");
+                assert_eq!(narrow.0.map(f32::to_bits)[..], wide.0.map(f32::to_bits)[..32], "{operator:?}");
             }
             let all: f64 = direct.iter().map(|lanes| lanes.0[3]).sum();
             let apart: f64 =
                 settled.lobes.as_flattened().iter().zip(&direct).map(|(a, b)| (a - b.0[3]).abs()).sum();
-            assert!(apart < 1e-10 * all, "{course:?}: {}", apart / all);
+            assert!(apart < 1e-10 * all, "{operator:?}: {}", apart / all);
         }
     });
 }
@@ -172,7 +172,7 @@ fn light_that_is_gone_after_a_few_steps_and_faint_light_are_found() {
                 let mut q = vec![[0.0; 8]; 81];
                 q[source / 8][source % 8] = strength;
                 let watch = &mut |_, _| std::ops::ControlFlow::Continue(());
-                let settled = stationary(field, Course::FromSources, &q, 1e-10, watch);
+                let settled = stationary(field, Operator::Forward, &q, 1e-10, watch);
                 let settled = settled.unwrap_or_else(|e| panic!("source {source}: {e}"));
                 let one: Vec<f64> = q.as_flattened().iter().map(|v| v / strength).collect();
                 let expected = by_steps(field, &one);
@@ -191,7 +191,7 @@ fn sweeps_grow_no_faster_than_fields() {
             let mut q = vec![[0.0; 8]; n * n];
             q[n * n / 2] = [1.0; 8];
             let watch = &mut |_, _| std::ops::ControlFlow::Continue(());
-            stationary(field, Course::FromSources, &q, 1e-6, watch).expect("light that leaves").sweeps
+            stationary(field, Operator::Forward, &q, 1e-6, watch).expect("light that leaves").sweeps
         })
     };
     let [small, large] = [24, 96].map(sweeps);
@@ -291,7 +291,7 @@ fn levels_lanes_and_near_sources_give_the_same_bits() {
     with_linear(&transmission(14, 9), |field| {
         let grid = field.grid();
         let q = |lane| sources(grid, lane);
-        let of = |level| solved::<f64, 32>(field, Course::FromSources, level, &q);
+        let of = |level| solved::<f64, 32>(field, Operator::Forward, level, &q);
         let first = of(Level::BASELINE);
         for level in Level::available() {
             for (a, b) in first.iter().zip(&of(level)) {
@@ -318,7 +318,7 @@ fn levels_lanes_and_near_sources_give_the_same_bits() {
             }
         }
         let dissection =
-            Dissection::<f64, 32>::new(field, Course::FromSources, Level::detect(), &Serial).expect("light");
+            Dissection::<f64, 32>::new(field, Operator::Forward, Level::detect(), &Serial).expect("light");
         dissection.solve(&mut all, &mut dissection.workspace());
         dissection.solve_near(&lit, &placed, &mut near, &mut dissection.workspace());
         for (a, b) in all.iter().zip(&near) {
@@ -332,8 +332,8 @@ fn single_precision_stays_near_double() {
     with_linear(&transmission(17, 21), |field| {
         let grid = field.grid();
         let q = |lane| sources(grid, lane);
-        let double = solved::<f64, 32>(field, Course::FromSources, Level::detect(), &q);
-        let single = solved::<f32, 64>(field, Course::FromSources, Level::detect(), &q);
+        let double = solved::<f64, 32>(field, Operator::Forward, Level::detect(), &q);
+        let single = solved::<f32, 64>(field, Operator::Forward, Level::detect(), &q);
         for (a, b) in double.iter().zip(&single) {
             assert!((a.0[5] - f64::from(b.0[5])).abs() <= 1e-5 * a.0[5]);
         }
@@ -370,7 +370,7 @@ fn light_between_perfect_mirrors_is_trapped() {
     let ring = t.grid().iter().filter(|c| c.x.abs_diff(3).max(c.y.abs_diff(3)) == 2);
     let room = t.clone().with_reflections(ring.map(|c| (c, mirror.clone())));
     with_linear(&room, |field| {
-        let trapped = Dissection::<f64, 32>::new(field, Course::FromSources, Level::detect(), &Serial);
+        let trapped = Dissection::<f64, 32>::new(field, Operator::Forward, Level::detect(), &Serial);
         assert!(matches!(trapped.err(), Some(TransportError::Trapped { .. })));
     });
 }

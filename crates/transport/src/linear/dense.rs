@@ -102,7 +102,15 @@ impl<T: Real, const N: usize> Tiles<T, N> {
 pub(super) struct Packed<T> {
     rows: usize,
     depth: usize,
-    data: Box<[T]>,
+    data: Vec<T>,
+}
+
+/// A [`Packed`] matrix whose numbers lie elsewhere.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PackedSlice<'a, T> {
+    rows: usize,
+    depth: usize,
+    data: &'a [T],
 }
 
 impl<T: Real> Packed<T> {
@@ -113,7 +121,7 @@ impl<T: Real> Packed<T> {
                 data.extend(panel.clone().map(|row| value(row, column)));
             }
         }
-        Self { rows, depth, data: data.into_boxed_slice() }
+        Self { rows, depth, data }
     }
 
     pub(super) fn of<const N: usize>(m: &Tiles<T, N>) -> Self {
@@ -124,9 +132,22 @@ impl<T: Real> Packed<T> {
         Self::from_fn(m.rows, m.columns, |r, c| T::default() - m.at(r, c))
     }
 
-    /// Bytes of the numbers.
-    pub(super) fn bytes(&self) -> usize {
-        self.data.len() * size_of::<T>()
+    /// The numbers, to be kept beside those of other matrices.
+    pub(super) fn numbers(&self) -> &[T] {
+        &self.data
+    }
+
+    pub(super) fn as_slice(&self) -> PackedSlice<'_, T> {
+        PackedSlice { rows: self.rows, depth: self.depth, data: &self.data }
+    }
+}
+
+impl<'a, T: Real> PackedSlice<'a, T> {
+    /// The first `rows * depth` of `numbers` as a matrix, and the numbers after them.
+    #[inline(always)]
+    pub(super) fn split_from(numbers: &'a [T], [rows, depth]: [usize; 2]) -> (Self, &'a [T]) {
+        let (data, rest) = numbers.split_at(rows * depth);
+        (Self { rows, depth, data }, rest)
     }
 
     /// `c += self b`, with as many rows of `b` as columns and of `c` as rows.
@@ -138,7 +159,7 @@ impl<T: Real> Packed<T> {
         c: &mut [Lanes<T, N>],
     ) {
         let b = &b[..self.depth];
-        let mut rest = &*self.data;
+        let mut rest = self.data;
         for rows in panels(self.rows) {
             let (panel, after) = rest.split_at(rows.len() * self.depth);
             rest = after;
@@ -218,7 +239,7 @@ impl<T: Real, const N: usize> Task for Product<'_, T, N> {
 
     #[inline(always)]
     fn work<P: Proven<T>>(self, proof: P) {
-        self.a.add_to(proof, self.b, self.c);
+        self.a.as_slice().add_to(proof, self.b, self.c);
     }
 }
 

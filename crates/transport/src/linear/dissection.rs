@@ -11,13 +11,14 @@
 //! what the sources inside it send between its halves and out of it while nothing enters; from the whole to the cells,
 //! it learns what really enters. Nothing iterates, so nothing has to converge.
 
-use super::blocks::{Blocks, Halves};
+use super::blocks::{Blocks, Halves, Shape};
 use super::cells::LinearScattering;
-use super::dense::{Lanes, Packed, Tiles, inverse_of_one_minus};
+use super::dense::{Lanes, Packed, PackedSlice, Tiles, inverse_of_one_minus};
 use super::parallel::{Parallel, Serial};
 use crate::TransportError;
 use crate::real::Real;
 use crate::simd::{Level, Proven, Task, Vector};
+use std::ops::Range;
 use std::sync::{Mutex, OnceLock};
 use tigereye_core::{Cell, Grid};
 
@@ -45,15 +46,51 @@ pub struct Dissection<T, const N: usize> {
     longest: [usize; 2],
 }
 
-/// What passes between the two halves of a block.
-struct Merge<T> {
+/// What passes between the two halves of a block: seven matrices, one after the other. A grid has as many of these as
+/// cells, most of them a few dozen numbers, so that an allocation for each matrix would cost as much as the numbers.
+struct Merge<T>(Box<[T]>);
+
+/// The matrices of a [`Merge`].
+struct Matrices<'a, T> {
     /// `(I - R2' R1')^-1`, over the edges back.
-    to_and_fro: Packed<T>,
+    to_and_fro: PackedSlice<'a, T>,
     /// What each half answers to light from the other, back to it and out of the block.
-    returned: [Packed<T>; 2],
-    sent_out: [Packed<T>; 2],
+    returned: [PackedSlice<'a, T>; 2],
+    sent_out: [PackedSlice<'a, T>; 2],
     /// What each half passes to the other of light from outside of the block.
-    let_through: [Packed<T>; 2],
+    let_through: [PackedSlice<'a, T>; 2],
+}
+
+/// Rows and columns of the matrices between two halves, in the order of [`Matrices`].
+fn shapes_between(halves: &Halves) -> [[usize; 2]; 7] {
+    let (forth, back) = (halves.forth.len(), halves.back.len());
+    let [one, two] = &halves.sides;
+    [
+        [back, back],
+        [forth, back],
+        [back, forth],
+        [one.leaving.len(), back],
+        [two.leaving.len(), forth],
+        [forth, one.entering.len()],
+        [back, two.entering.len()],
+    ]
+}
+
+impl<T: Real> Merge<T> {
+    fn of(matrices: [&Packed<T>; 7]) -> Self {
+        Self(matrices.map(Packed::numbers).concat().into_boxed_slice())
+    }
+
+    #[inline(always)]
+    fn matrices(&self, halves: &Halves) -> Matrices<'_, T> {
+        let mut rest = &*self.0;
+        let [to_and_fro, r1, r2, s1, s2, l1, l2] = shapes_between(halves).map(|shape| {
+            let (matrix, after) = PackedSlice::split_from(rest, shape);
+            rest = after;
+            matrix
+        });
+        Matrices { to_and_fro, returned: [r1, r2], sent_out: [s1, s2], let_through: [l1, l2] }
+    }
 }
 
 /// Buffers of a solution.
@@ -76,6 +113,21 @@ enum Pass {
     Collect,
     /// Adds to the edges between the halves of a block what enters it from outside; those edges are final.
     Distribute,
+}
+
+/// What a block answers to what enters it: rows are edges that leave, columns edges that enter.
+type Answer<T, const N: usize> = Result<Tiles<T, N>, Trapped>;
+
+/// Light can get into a block and (next to) nothing of it ever leaves.
+#[derive(Clone, Copy, Debug)]
+struct Trapped {
+    block: usize,
+}
+
+/// The generation whose blocks are prepared by one thread each: enough of them to keep the threads equally busy.
+fn subtrees(blocks: &Blocks) -> usize {
+    let many = blocks.generations.iter().position(|generation| generation.len() >= 64);
+    many.unwrap_or(blocks.generations.len() - 1)
 }
 
 /// Of light that cannot leave, less than this part leaves per passage: what rounding makes of 0.
@@ -118,82 +170,95 @@ impl<T: Real, const N: usize> Dissection<T, N> {
     /// Bytes of the prepared matrices.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let merge = |m: &Merge<T>| {
-            let pairs = [&m.returned, &m.sent_out, &m.let_through];
-            m.to_and_fro.bytes() + pairs.into_iter().flatten().map(Packed::bytes).sum::<usize>()
-        };
-        self.merges.iter().filter_map(|m| m.get()).map(merge).sum()
+        self.merges.iter().filter_map(|m| m.get()).map(|m| size_of_val(&*m.0)).sum()
     }
 
-    /// Bytes of the matrices that [`Self::new`] would prepare for a grid, and of the largest buffers on the way.
+    /// Bytes that [`Self::new`] needs for a grid at the same time: the matrices it prepares, and what lies between its
+    /// blocks on the way.
     #[must_use]
     pub fn bytes_for(grid: Grid) -> u128 {
         let blocks = Blocks::of(grid);
-        let numbers = |halves: &Halves| {
-            let (f, b) = (halves.forth.len(), halves.back.len());
-            let [one, two] = &halves.sides;
-            b * b
-                + 2 * f * b
-                + one.leaving.len() * b
-                + two.leaving.len() * f
-                + one.entering.len() * f
-                + two.entering.len() * b
+        let kept = |shape: &Shape| {
+            let matrices = shape.halves.as_ref().map_or([[0, 0]; 7], shapes_between);
+            let numbers: usize = matrices.into_iter().map(|[rows, columns]| rows * columns).sum();
+            // The cell of the list, and what an allocation costs.
+            size_of::<T>() * numbers + size_of::<OnceLock<Merge<T>>>() + 16
         };
-        let mut of_shape = vec![0_u128; blocks.shapes.len()];
-        for (numbers_of, shape) in of_shape.iter_mut().zip(&blocks.shapes) {
-            *numbers_of = shape.halves.as_ref().map_or(0, numbers) as u128;
+        let answer =
+            |shape: &Shape| shape.leaving.len() * shape.entering.len().div_ceil(N) * size_of::<Lanes<T, N>>();
+        let kept: Vec<usize> = blocks.shapes.iter().map(kept).collect();
+        let answers: Vec<usize> = blocks.shapes.iter().map(answer).collect();
+        let of_generation = |of_shape: &[usize], generation: &Range<usize>| -> u128 {
+            blocks.blocks[generation.clone()].iter().map(|b| of_shape[b.shape] as u128).sum()
+        };
+        let subtrees = subtrees(&blocks);
+        let below = &blocks.generations[subtrees + 1..];
+        let mut done: u128 = below.iter().map(|g| of_generation(&kept, g)).sum();
+        let mut most = 0;
+        for generation in blocks.generations[..=subtrees].iter().rev() {
+            done += of_generation(&kept, generation);
+            most = most.max(done + of_generation(&answers, generation));
         }
-        let kept: u128 = blocks.blocks.iter().map(|b| of_shape[b.shape]).sum();
-        let answer = |b: usize| {
-            let shape = &blocks.shapes[blocks.blocks[b].shape];
-            (shape.leaving.len() * shape.entering.len().div_ceil(N) * N) as u128
-        };
-        let answers = blocks.generations.iter().map(|g| g.clone().map(answer).sum::<u128>()).max();
-        (kept + 2 * answers.unwrap_or(0)) * size_of::<T>() as u128
+        // The products of the largest blocks.
+        most + 8 * answers.iter().max().map_or(0, |bytes| *bytes as u128)
     }
 
+    /// Subtrees first, each by one thread and its deepest blocks first, so that no more answers than those of its
+    /// halves wait at a time; then the few large blocks above, which share the threads in each product.
     fn factorize(
         &self,
         field: &LinearScattering<'_>,
         operator: Operator,
         parallel: &dyn Parallel,
     ) -> Result<(), TransportError> {
-        let answers: Vec<Mutex<Option<Tiles<T, N>>>> =
-            self.blocks.blocks.iter().map(|_| Mutex::new(None)).collect();
-        let take = |block: usize| {
-            let known = answers[block].lock().expect("no task panics").take();
-            known.unwrap_or_else(|| self.answer_of_cell(field, operator, block))
-        };
-        let trapped = Mutex::new(None);
-        for generation in self.blocks.generations.iter().rev() {
-            // Few large blocks share the threads in each product, many small ones each have their own.
-            let shared = generation.len() < 16;
-            let inner: &dyn Parallel = if shared { parallel } else { &Serial };
-            let one = |i: usize| {
-                let block = generation.start + i;
-                let Some((halves, [first, second])) = self.blocks.halves(block) else { return };
-                match self.merge(halves, [take(first), take(second)], block == 0, inner) {
-                    Ok((merge, answer)) => {
-                        assert!(self.merges[block].set(merge).is_ok(), "each block once");
-                        *answers[block].lock().expect("no task panics") = answer;
+        let subtrees = subtrees(&self.blocks);
+        let roots = self.blocks.generations[subtrees].clone();
+        let answers: Vec<Mutex<Option<Answer<T, N>>>> = (0..roots.end).map(|_| Mutex::new(None)).collect();
+        let keep = |block: usize, answer| *answers[block].lock().expect("no task panics") = Some(answer);
+        parallel.for_each(roots.len(), &|i| {
+            keep(roots.start + i, self.answer_of(field, operator, roots.start + i));
+        });
+        for generation in self.blocks.generations[..subtrees].iter().rev() {
+            for block in generation.clone() {
+                let take = |half: usize| answers[half].lock().expect("no task panics").take();
+                let answer = match self.blocks.halves(block) {
+                    None => Ok(self.answer_of_cell(field, operator, block)),
+                    Some((halves, [first, second])) => {
+                        let halves_answer =
+                            [take(first), take(second)].map(|a| a.expect("halves before wholes"));
+                        self.join(block, halves, halves_answer, parallel)
                     }
-                    Err(_) => {
-                        let mut found = trapped.lock().expect("no task panics");
-                        *found = Some(found.map_or(block, |other: usize| other.min(block)));
-                    }
-                }
-            };
-            if shared {
-                (0..generation.len()).for_each(one)
-            } else {
-                parallel.for_each(generation.len(), &one)
-            }
-            if let Some(block) = *trapped.lock().expect("no task panics") {
-                let Cell { x, y } = self.grid.cell(self.blocks.blocks[block].first);
-                return Err(TransportError::Trapped { x, y });
+                };
+                keep(block, answer);
             }
         }
-        Ok(())
+        let whole = answers[0].lock().expect("no task panics").take();
+        let Some(Err(Trapped { block })) = whole else { return Ok(()) };
+        let Cell { x, y } = self.grid.cell(self.blocks.blocks[block].first);
+        Err(TransportError::Trapped { x, y })
+    }
+
+    /// What a block answers, with everything inside it prepared.
+    fn answer_of(&self, field: &LinearScattering<'_>, operator: Operator, block: usize) -> Answer<T, N> {
+        let Some((halves, numbers)) = self.blocks.halves(block) else {
+            return Ok(self.answer_of_cell(field, operator, block));
+        };
+        let answers = numbers.map(|half| self.answer_of(field, operator, half));
+        self.join(block, halves, answers, &Serial)
+    }
+
+    /// Prepares a block of two halves. Where both trap light, the first one's place is reported.
+    fn join(
+        &self,
+        block: usize,
+        halves: &Halves,
+        [first, second]: [Answer<T, N>; 2],
+        parallel: &dyn Parallel,
+    ) -> Answer<T, N> {
+        let (merge, answer) =
+            self.merge(halves, [first?, second?], block == 0, parallel).map_err(|_| Trapped { block })?;
+        assert!(self.merges[block].set(merge).is_ok(), "each block once");
+        Ok(answer)
     }
 
     /// What a single cell answers: rows are edges that leave, columns edges that enter.
@@ -219,7 +284,7 @@ impl<T: Real, const N: usize> Dissection<T, N> {
         answers: [Tiles<T, N>; 2],
         whole: bool,
         parallel: &dyn Parallel,
-    ) -> Result<(Merge<T>, Option<Tiles<T, N>>), super::dense::SmallPivot> {
+    ) -> Result<(Merge<T>, Tiles<T, N>), super::dense::SmallPivot> {
         let level = self.level;
         let [one, two] = &halves.sides;
         let [a1, a2] = &answers;
@@ -234,7 +299,7 @@ impl<T: Real, const N: usize> Dissection<T, N> {
         let to_and_fro = inverse_of_one_minus(&loops, smallest_pivot::<T>(), level, parallel)?;
         let to_and_fro = Packed::of(&to_and_fro);
         let packed_out = sent_out.each_ref().map(Packed::of);
-        let answer = (!whole).then(|| {
+        let answer_of_both = || {
             let (n1, n2) = (one.entering.len(), two.entering.len());
             let entering = n1 + n2;
             // What goes back, and then forth, per flux that enters the block.
@@ -270,14 +335,13 @@ impl<T: Real, const N: usize> Dissection<T, N> {
                 entering,
                 |r, c| if r < m1 { upper.at(r, c) } else { lower.at(r - m1, c) },
             )
-        });
-        let merge = Merge {
-            to_and_fro,
-            returned: packed_returned,
-            sent_out: packed_out,
-            let_through: let_through.each_ref().map(Packed::of),
         };
-        Ok((merge, answer))
+        let answer = if whole { Tiles::zero(0, 0) } else { answer_of_both() };
+        let packed_through = let_through.each_ref().map(Packed::of);
+        let [r1, r2] = &packed_returned;
+        let [s1, s2] = &packed_out;
+        let [l1, l2] = &packed_through;
+        Ok((Merge::of([&to_and_fro, r1, r2, s1, s2, l1, l2]), answer))
     }
 
     /// Buffers for [`Self::solve`].
@@ -370,6 +434,7 @@ impl<T: Real, const N: usize> Task for Solve<'_, T, N> {
         for (block, pass) in collect.chain(distribute) {
             let Some((halves, _)) = blocks.halves(block) else { continue };
             let Some(merge) = dissection.merges[block].get() else { continue };
+            let merge = merge.matrices(halves);
             let first = blocks.blocks[block].first as isize * 8;
             let [one, two] = &halves.sides;
             let between = [(&halves.forth, FORTH), (&halves.back, BACK), (&halves.back, FIRST_BACK)];
@@ -384,9 +449,9 @@ impl<T: Real, const N: usize> Task for Solve<'_, T, N> {
                 gather(list, first, edges, &mut buffers[buffer]);
             }
             let to_and_fro = [
-                (&merge.returned[1], FORTH, FIRST_BACK),
-                (&merge.to_and_fro, FIRST_BACK, BACK),
-                (&merge.returned[0], BACK, FORTH),
+                (merge.returned[1], FORTH, FIRST_BACK),
+                (merge.to_and_fro, FIRST_BACK, BACK),
+                (merge.returned[0], BACK, FORTH),
             ];
             let [t0, t1, t2] = to_and_fro;
             let products = match pass {
@@ -397,13 +462,13 @@ impl<T: Real, const N: usize> Task for Solve<'_, T, N> {
                         t0,
                         t1,
                         t2,
-                        (&merge.sent_out[0], BACK, OUTSIDE[0]),
-                        (&merge.sent_out[1], FORTH, OUTSIDE[1]),
+                        (merge.sent_out[0], BACK, OUTSIDE[0]),
+                        (merge.sent_out[1], FORTH, OUTSIDE[1]),
                     ]
                 }
                 Pass::Distribute => [
-                    (&merge.let_through[0], OUTSIDE[0], FORTH),
-                    (&merge.let_through[1], OUTSIDE[1], FIRST_BACK),
+                    (merge.let_through[0], OUTSIDE[0], FORTH),
+                    (merge.let_through[1], OUTSIDE[1], FIRST_BACK),
                     t0,
                     t1,
                     t2,

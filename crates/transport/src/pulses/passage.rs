@@ -67,7 +67,7 @@ impl<T: Number> Passage<T> {
     /// a), 11 for the rest.
     #[inline(always)]
     pub(crate) fn pass<V: Vector<Number = T>>(&self, proof: V::Proof, a: &[V; 8]) -> Passed<V> {
-        let (sides, p) = intensities(proof, a);
+        let (sides, mut p) = intensities(proof, a);
         // Sides 0 and 4 hold the odd directions, 1 and 5 the even ones.
         let energy = (sides[0] + sides[4]) + (sides[1] + sides[5]);
         let column = |m: usize| V::splat(proof, self.columns[m]);
@@ -76,7 +76,10 @@ impl<T: Number> Passage<T> {
         for m in 1..4 {
             sum = pair(m).mul_add(column(m), sum);
         }
-        let factor = V::splat(proof, self.rate) * energy / (sum + V::splat(proof, T::TINY));
+        let mut factor = V::splat(proof, self.rate) * energy / (sum + V::splat(proof, T::TINY));
+        // The division takes about as long as the products below. Where registers are few, compilers put it behind them
+        // and its operands into memory.
+        V::before_others(&mut p, &mut factor);
         let mut phi = self.scattered(proof, &p);
         for k in 0..8 {
             phi[k] = factor * phi[k];

@@ -332,14 +332,14 @@ impl<T: Number, const N: usize> Stream<T, N> {
         flux: &mut [f64; N],
     ) {
         let first = Cell::new(span.start, y);
-        let reached = if INNER { [true; 8] } else { self.reached(first) };
+        let kept: [V; 8] = kept(proof, &if INNER { [true; 8] } else { self.reached(first) });
         let cell = self.grid.index(first);
         let here = self.index(span.start, y);
         let passages = &medium.cells[cell..cell + span.len()];
         for (slots, passage) in self.slots_mut()[here..here + span.len()].iter_mut().zip(passages) {
             for c in 0..N / V::WIDTH {
                 let a: [V; 8] = load8(proof, c, |k| &slots[k]);
-                let phi = left::<INNER, V, N>(proof, passage, &a, &reached, flux, c);
+                let phi = left::<INNER, V, N>(proof, passage, &a, &kept, flux, c);
                 for k in 0..8 {
                     phi[k].store(&mut slots[opposite(k)], c);
                 }
@@ -357,7 +357,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         flux: &mut [f64; N],
     ) {
         let first = Cell::new(span.start, y);
-        let reached = if INNER { [true; 8] } else { self.reached(first) };
+        let kept: [V; 8] = kept(proof, &if INNER { [true; 8] } else { self.reached(first) });
         let cell = self.grid.index(first);
         let passages = &medium.cells[cell..cell + span.len()];
         let mut rows = self.three_rows(first, span.len());
@@ -365,7 +365,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
             let mut around = rows.each_mut().map(|row| &mut row[j..j + 3]);
             for c in 0..N / V::WIDTH {
                 let a: [V; 8] = load8(proof, c, |k| slot(&around, opposite(k)));
-                let phi = left::<INNER, V, N>(proof, passage, &a, &reached, flux, c);
+                let phi = left::<INNER, V, N>(proof, passage, &a, &kept, flux, c);
                 for k in 0..8 {
                     phi[k].store(slot_mut(&mut around, k), c);
                 }
@@ -392,7 +392,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         cell: Cell,
         flux: &mut [f64; N],
     ) {
-        let reached = self.reached(cell);
+        let kept: [V; 8] = kept(proof, &self.reached(cell));
         let index = self.grid.index(cell);
         let mut a = [[T::default(); N]; 8];
         let mut rows = self.three_rows(cell, 1);
@@ -405,7 +405,7 @@ impl<T: Number, const N: usize> Stream<T, N> {
         for c in 0..N / V::WIDTH {
             let a: [V; 8] = load8(proof, c, |k| &a[k]);
             let mut phi = medium.passed(proof, c, index, cell, &a);
-            keep_reached(proof, &mut phi, &reached);
+            keep(&mut phi, &kept);
             super::passage::sum_of_eight(&phi).add_to(flux, c);
             for k in 0..8 {
                 match parity {
@@ -424,7 +424,7 @@ fn left<const INNER: bool, V: Vector, const N: usize>(
     proof: V::Proof,
     passage: &Passage<V::Number>,
     a: &[V; 8],
-    reached: &[bool; 8],
+    kept: &[V; 8],
     flux: &mut [f64; N],
     c: usize,
 ) -> [V; 8] {
@@ -432,18 +432,29 @@ fn left<const INNER: bool, V: Vector, const N: usize>(
     if INNER {
         passed.total.add_to(flux, c);
     } else {
-        keep_reached(proof, &mut passed.phi, reached);
+        keep(&mut passed.phi, kept);
         super::passage::sum_of_eight(&passed.phi).add_to(flux, c);
     }
     passed.phi
 }
 
+/// 1 in every lane for directions towards existing neighbours, 0 for the others: factors that change no bit of what is
+/// kept.
 #[inline(always)]
-fn keep_reached<V: Vector>(proof: V::Proof, phi: &mut [V; 8], reached: &[bool; 8]) {
+fn kept<V: Vector>(proof: V::Proof, reached: &[bool; 8]) -> [V; 8] {
+    let mut kept = [V::splat(proof, V::Number::default()); 8];
     for k in 0..8 {
-        if !reached[k] {
-            phi[k] = V::splat(proof, V::Number::default());
+        if reached[k] {
+            kept[k] = V::splat(proof, V::Number::narrowed(1.0));
         }
+    }
+    kept
+}
+
+#[inline(always)]
+fn keep<V: Vector>(phi: &mut [V; 8], kept: &[V; 8]) {
+    for k in 0..8 {
+        phi[k] = phi[k] * kept[k];
     }
 }
 

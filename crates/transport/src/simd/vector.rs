@@ -27,6 +27,9 @@ pub(crate) trait Vector:
     fn mul_add(self, factor: Self, term: Self) -> Self;
     /// Adds to part `c` of an array of sums in double precision.
     fn add_to<const N: usize>(self, sums: &mut [f64; N], c: usize);
+    /// Asks the compiler to compute these vectors before anything that follows from them. It changes no number.
+    #[inline(always)]
+    fn before_others(_these: &mut [Self; 8], _and: &mut Self) {}
 }
 
 /// Eight numbers, one for each direction.

@@ -63,7 +63,7 @@ operators_of_pairs!(Add add _mm256_add_pd, Sub sub _mm256_sub_pd, Mul mul _mm256
 /// A vector that is one register.
 macro_rules! vector {
     ($vector:ty, $proof:ty, $number:ty, $width:literal, $splat:ident, $load:ident, $store:ident, $fma:ident,
-     |$it:ident, $sums:ident, $c:ident| $add:expr) => {
+     |$it:ident, $sums:ident, $c:ident| $add:expr $(, $fence:ident)?) => {
         // SAFETY of every block in this implementation: the vectors prove the instructions, and the parts of arrays
         // have the vector's size.
         impl Vector for $vector {
@@ -92,6 +92,13 @@ macro_rules! vector {
                 let $it = self.0;
                 unsafe { $add };
             }
+            $(
+                #[inline(always)]
+                fn before_others(these: &mut [Self; 8], and: &mut Self) {
+                    // SAFETY: the vectors prove the instructions.
+                    unsafe { $fence(these.each_mut().map(|v| &mut v.0), &mut and.0) };
+                }
+            )?
         }
     };
 }
@@ -118,6 +125,35 @@ unsafe fn add_avx512<const N: usize>(sums: &mut [f64; N], c: usize, v: __m512d) 
     unsafe { _mm512_storeu_pd(to, _mm512_add_pd(_mm512_loadu_pd(to), v)) };
 }
 
+/// Nothing but the statement that the numbers in nine registers might change here: what they are computed from comes
+/// before, what is computed from them comes after.
+macro_rules! fence {
+    ($name:ident, $register:ty) => {
+        #[inline]
+        #[target_feature(enable = "avx")]
+        fn $name([a, b, c, d, e, f, g, h]: [&mut $register; 8], i: &mut $register) {
+            // SAFETY: no instruction.
+            unsafe {
+                core::arch::asm!(
+                    "/* {} {} {} {} {} {} {} {} {} */",
+                    inout(ymm_reg) * a,
+                    inout(ymm_reg) * b,
+                    inout(ymm_reg) * c,
+                    inout(ymm_reg) * d,
+                    inout(ymm_reg) * e,
+                    inout(ymm_reg) * f,
+                    inout(ymm_reg) * g,
+                    inout(ymm_reg) * h,
+                    inout(ymm_reg) * i,
+                    options(pure, nomem, nostack, preserves_flags),
+                );
+            }
+        }
+    };
+}
+
+fence!(fence_pd, __m256d);
+
 vector!(
     Avx2<__m256d>,
     HasAvx2,
@@ -127,7 +163,8 @@ vector!(
     _mm256_loadu_pd,
     _mm256_storeu_pd,
     _mm256_fmadd_pd,
-    |v, sums, c| add_avx2(sums, c, v)
+    |v, sums, c| add_avx2(sums, c, v),
+    fence_pd
 );
 vector!(
     Avx2<__m256>,

@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use tigereye_core::{Choice, Directions, Normalization};
 use tigereye_ltg::{Precision, Shard};
-use tigereye_transport::{ScatteringRule, Scheme, SharedWeights, StopMeasure};
+use tigereye_transport::{ScatteringRule, Scheme, SharedWeights, StopMeasure, Stopping};
 
 /// What a computation may use.
 #[derive(Clone, Debug, Args)]
@@ -31,12 +31,12 @@ pub(crate) struct SchemeArgs {
     /// What a cell does to light from several sides.
     #[arg(long, default_value = ScatteringRule::Joint.word(), value_parser = choice::<ScatteringRule>())]
     pub(crate) scattering: ScatteringRule,
-    /// Stop when the stopping rule's measure falls below F; 0 never stops early.
-    #[arg(long, value_name = "F", default_value = "0.5", value_parser = parse_threshold, allow_hyphen_values = true)]
-    pub(crate) threshold: f64,
-    /// At most N+1 steps.
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = parse_count, allow_hyphen_values = true)]
-    pub(crate) max_iterations: usize,
+    /// Stop when the stopping rule's measure falls below F, 0.5 by default; 0 never stops early.
+    #[arg(long, value_name = "F", value_parser = parse_threshold, allow_hyphen_values = true)]
+    pub(crate) threshold: Option<f64>,
+    /// At most N+1 steps; 1000 by default.
+    #[arg(long, value_name = "N", value_parser = parse_count, allow_hyphen_values = true)]
+    pub(crate) max_iterations: Option<usize>,
     /// What the threshold is compared with; `stationary` by default with linear scattering, `flux` otherwise.
     #[arg(long, value_parser = choice::<StopMeasure>())]
     pub(crate) stop: Option<StopMeasure>,
@@ -54,6 +54,13 @@ impl SchemeArgs {
             ScatteringRule::Joint => StopMeasure::Flux,
             ScatteringRule::Linear => StopMeasure::Stationary,
         })
+    }
+
+    /// When a propagation ends.
+    pub(crate) fn stopping(&self) -> Stopping {
+        let usual = Stopping::REFERENCE;
+        let threshold = self.threshold.unwrap_or(usual.rule.threshold());
+        self.stop().stopping(threshold, self.max_iterations.unwrap_or(usual.max_iterations))
     }
 
     /// Weights, lobes and scattering.

@@ -1,7 +1,7 @@
 //! `tigereye propagate --towards`: where the light at a receiver comes from.
 
 use crate::args::light::{Picture, PropagateArgs};
-use crate::commands::light_options::{cell_and_profile, parameters, stopping_of};
+use crate::commands::light_options::{cell_and_profile, parameters};
 use crate::commands::{PNG_SCALE, command_line, print_json, print_text};
 use crate::error::CliError;
 use crate::medium::MediumInput;
@@ -33,7 +33,7 @@ pub(super) fn importance(
         let problem = "only light that superposes can be followed back: expected --scattering linear";
         return Err(CliError::input("--towards", problem));
     }
-    let stopping = stopping_of(&args.scheme);
+    let stopping = args.scheme.stopping();
     if !matches!(stopping.rule, StoppingRule::Converged { .. }) {
         return Err(CliError::input(
             "--stop",

@@ -1,6 +1,6 @@
 //! Values of the options that commands of light share.
 
-use crate::args::light::{PropagateArgs, SchemeArgs};
+use crate::args::light::PropagateArgs;
 use crate::error::CliError;
 use crate::input::insert_reading;
 use serde_json::{Value, json};
@@ -27,11 +27,6 @@ pub(super) fn cell_and_profile(
         Some(expression) => profile_of_expression(expression, directions).map_err(fault)?,
     };
     Ok((cell, profile))
-}
-
-/// The stopping rule of the options.
-pub(super) fn stopping_of(args: &SchemeArgs) -> Stopping {
-    args.stop().stopping(args.threshold, args.max_iterations)
 }
 
 /// The parameters of a propagation, for its provenance.

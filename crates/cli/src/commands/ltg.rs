@@ -2,7 +2,6 @@
 
 use crate::args::light::LtgArgs;
 use crate::checkpoint::Checkpoint;
-use crate::commands::light_options::stopping_of;
 use crate::commands::propagate::check_outputs;
 use crate::commands::{command_line, print_json, print_text, volume};
 use crate::error::CliError;
@@ -71,6 +70,16 @@ fn check_method(args: &LtgArgs) -> Result<(), CliError> {
         let problem =
             "gradients of linear scattering are those of the stationary state: expected --stop stationary";
         return Err(CliError::input(&format!("--stop {}", stop.word()), problem));
+    } else {
+        let asked = [
+            (args.scheme.threshold.is_some(), "--threshold"),
+            (args.scheme.max_iterations.is_some(), "--max-iterations"),
+        ];
+        for (_, option) in asked.iter().filter(|(asked, _)| *asked) {
+            eprintln!(
+                "tigereye: {option} has no effect: gradients of linear scattering are solved for directly, without iterations"
+            );
+        }
     }
     if !sketched {
         let asked = [(args.seed.is_some(), "--seed"), (args.preview.is_some(), "--preview")];
@@ -269,7 +278,7 @@ fn of_program(args: &LtgArgs, error: LtgError) -> LtgError {
 
 fn settings_of(args: &LtgArgs) -> Result<LtgSettings, CliError> {
     let mut settings = LtgSettings {
-        stopping: stopping_of(&args.scheme),
+        stopping: args.scheme.stopping(),
         omega_step: args.omega_step.unwrap_or_else(|| omega_step_of_volumes(args.scheme.directions)),
         slices: args.slices.clone(),
         memory_bytes: memory_bound(args).saturating_sub(PROGRAM_BYTES),

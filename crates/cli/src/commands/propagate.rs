@@ -1,7 +1,7 @@
 //! `tigereye propagate`: one light distribution.
 
 use crate::args::light::{Picture, PropagateArgs};
-use crate::commands::light_options::{cell_and_profile, parameters, stopping_of};
+use crate::commands::light_options::{cell_and_profile, parameters};
 use crate::commands::{PNG_SCALE, command_line, counted, importance, print_json, print_text};
 use crate::error::CliError;
 use crate::medium::MediumInput;
@@ -44,7 +44,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     let lights = lights(args, &input)?;
     let transmission = input.transmission(args.scheme.directions, normalization)?;
     let scheme = args.scheme.scheme();
-    let stopping = args.steps.map_or_else(|| stopping_of(&args.scheme), Stopping::steps);
+    let stopping = args.steps.map_or_else(|| args.scheme.stopping(), Stopping::steps);
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
     let parameters = parameters(args, &stopping, &input.normalization_name(normalization));
     let rows = Rows::of_results(input.geometry());

@@ -48,4 +48,5 @@ tables! {
     comparison::Comparison,
     noise::Noise,
     runtimes::Runtimes,
+    growth::Growth,
 }

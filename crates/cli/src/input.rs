@@ -6,13 +6,11 @@ use crate::host::FileHost;
 use crate::{files, interrupt};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use tigereye_core::{Field, Normalization, Tensor2};
+use tigereye_core::{Field, Tensor2};
 use tigereye_experiments::scene::is_scene_file;
 use tigereye_experiments::sources::{defined_plane, is_field_file, load_field, make_plane};
 use tigereye_input::provenance::hash_of_field;
-use tigereye_input::{
-    Derived, InputError, PlaneField, Reading, TEXT_MATRICES, TensorFile, is_readable, open,
-};
+use tigereye_input::{Derived, InputError, PlaneField, Reading, TensorFile, is_readable, open};
 use tigereye_io::volume::{PlaneGeometry, Shear};
 
 /// What INPUT is, before a plane is chosen.
@@ -196,14 +194,6 @@ impl Input {
         let blake3 = hash_of_field(&plane.field);
         let plane = defined_plane(plane, reading).map_err(|e| CliError::input(name, e))?;
         Ok(Self::placed(name.to_owned(), plane, Vec::new(), kind, blake3))
-    }
-
-    /// The normalisation asked for, or the kind's own: local for generators and text matrices, global otherwise.
-    pub(crate) fn normalization(&self, asked: Option<Normalization>) -> Normalization {
-        asked.unwrap_or(match self.kind {
-            GENERATOR | FIELD_FILE | TEXT_MATRICES => Normalization::Local,
-            _ => Normalization::Global,
-        })
     }
 }
 

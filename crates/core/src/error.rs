@@ -97,6 +97,24 @@ pub enum CoreError {
         /// Fraction given.
         fraction: f64,
     },
+    /// A word that names no rule of total anisotropy.
+    #[error(
+        "`{text}` is not a rule of total anisotropy: expected a ratio R of the semi-axes, R:WIDTH, `smooth` (20:2) or `none`"
+    )]
+    TotalAnisotropyWord {
+        /// What was given.
+        text: String,
+    },
+    /// A rule of total anisotropy whose ratios are out of range.
+    #[error(
+        "total anisotropy at a ratio of {ratio} with a width of {width} is out of range: expected a width from 1, R/WIDTH from 1 and R*WIDTH up to 1e12"
+    )]
+    TotalAnisotropy {
+        /// Ratio of the semi-axes given.
+        ratio: f64,
+        /// Width given.
+        width: f64,
+    },
     /// A transmission profile that would create light.
     #[error(
         "the transmission profile of cell ({x}, {y}) has mean {mean} or a negative sample: expected samples from 0 and a mean of at most 1"

@@ -8,6 +8,7 @@
 //!
 //! The program's commands and the fields of experiment files go the same way. Whoever calls reads the bytes.
 
+mod dip;
 mod error;
 mod facts;
 mod file;

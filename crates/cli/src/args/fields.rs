@@ -1,10 +1,11 @@
 //! The command line of the test fields.
 
+use super::light::ProfileArgs;
 use super::reading::ReadingArgs;
-use super::values::{choice, parse_cell, parse_normalization};
+use super::values::{choice, parse_cell};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
-use tigereye_core::{Choice, Normalization};
+use tigereye_core::Choice;
 use tigereye_transport::ScatteringRule;
 
 #[derive(Debug, Subcommand)]
@@ -54,9 +55,8 @@ pub(crate) struct FieldShowArgs {
     /// What a cell does to light from several sides.
     #[arg(long, default_value = ScatteringRule::Joint.word(), value_parser = choice::<ScatteringRule>())]
     pub(crate) scattering: ScatteringRule,
-    /// Scaling of transmission profiles; as `ltg` by default.
-    #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
-    pub(crate) normalization: Option<Normalization>,
+    #[command(flatten)]
+    pub(crate) profiles: ProfileArgs,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
 }

@@ -4,10 +4,11 @@ use super::reading::ReadingArgs;
 use super::values::{
     choice, parse_bytes, parse_count, parse_directions, parse_normalization, parse_percentage, parse_seconds,
     parse_seed, parse_shard, parse_side, parse_sketches, parse_threads, parse_threshold,
+    parse_total_anisotropy,
 };
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use tigereye_core::{Choice, Directions, Normalization};
+use tigereye_core::{Choice, Directions, Normalization, ProfileRule, TotalAnisotropy};
 use tigereye_ltg::{Precision, Shard};
 use tigereye_transport::{ScatteringRule, Scheme, SharedWeights, StopMeasure};
 
@@ -22,6 +23,30 @@ pub(crate) struct Resources {
     pub(crate) memory: Option<u64>,
 }
 
+/// How tensors become transmission profiles.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct ProfileArgs {
+    /// Scaling of transmission profiles: local (each by itself, nothing absorbs; the default), global (all by the
+    /// largest mean of the field: weaker cells absorb), local-above:F (local from the fraction F of it upwards, weaker
+    /// cells absorb all) or local-above-global:F (weaker cells as global).
+    #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
+    pub(crate) normalization: Option<Normalization>,
+    /// Beyond which ratio R of its semi-axes a tensor transmits along one axis only; 20 by default. R:WIDTH blends
+    /// gradually from R/WIDTH to R*WIDTH, `smooth` is 20:2; with `none` only tensors with a vanishing axis do.
+    #[arg(long, value_name = "R", value_parser = parse_total_anisotropy, allow_hyphen_values = true)]
+    pub(crate) total_anisotropy: Option<TotalAnisotropy>,
+}
+
+impl ProfileArgs {
+    /// The rule, asked for or usual.
+    pub(crate) fn rule(&self) -> ProfileRule {
+        ProfileRule {
+            normalization: self.normalization.unwrap_or(Normalization::Local),
+            total_anisotropy: self.total_anisotropy.unwrap_or_default(),
+        }
+    }
+}
+
 /// What determines a propagation.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct SchemeArgs {
@@ -34,15 +59,14 @@ pub(crate) struct SchemeArgs {
     /// Stop when the stopping rule's measure falls below F; 0 never stops early.
     #[arg(long, value_name = "F", default_value = "0.5", value_parser = parse_threshold, allow_hyphen_values = true)]
     pub(crate) threshold: f64,
-    /// At most N+1 steps.
+    /// Stop after N+1 steps at the latest.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) max_iterations: usize,
     /// What the threshold is compared with; `stationary` by default with linear scattering, `flux` otherwise.
     #[arg(long, value_parser = choice::<StopMeasure>())]
     pub(crate) stop: Option<StopMeasure>,
-    /// global, local, local-above:F or local-above-global:F; `local` for generators and .txt, `global` otherwise.
-    #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
-    pub(crate) normalization: Option<Normalization>,
+    #[command(flatten)]
+    pub(crate) profiles: ProfileArgs,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
 }

@@ -1,7 +1,7 @@
 //! Values of options: from their words, or what was expected.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use tigereye_core::{Choice, CoreError, Directions, Normalization};
+use tigereye_core::{Choice, CoreError, Directions, Normalization, TotalAnisotropy};
 use tigereye_fields::images::MAX_SIGMA;
 use tigereye_lines::Family;
 use tigereye_ltg::{FEWEST_SKETCHES, MOST_SKETCHES, Shard};
@@ -105,6 +105,10 @@ pub(crate) fn parse_bytes(text: &str) -> Result<u64, String> {
 }
 
 pub(crate) fn parse_normalization(text: &str) -> Result<Normalization, String> {
+    text.parse().map_err(|e: CoreError| e.to_string())
+}
+
+pub(crate) fn parse_total_anisotropy(text: &str) -> Result<TotalAnisotropy, String> {
     text.parse().map_err(|e: CoreError| e.to_string())
 }
 

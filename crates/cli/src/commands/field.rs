@@ -79,7 +79,7 @@ pub(crate) fn show(args: &FieldShowArgs) -> Result<u8, CliError> {
     input.check_apart(std::slice::from_ref(&args.output))?;
     let options = SheetOptions {
         title: input.title.clone().unwrap_or_else(|| input.name.clone()),
-        normalization: input.normalization(args.normalization),
+        rule: args.profiles.rule(),
         scattering: args.scattering,
         light: args.light.map(|[x, y]| Cell::new(x, y)),
         slice_deg: args.slice_deg,

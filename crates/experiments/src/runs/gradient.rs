@@ -1,6 +1,8 @@
 //! The light transport gradient of a field.
 
-use crate::form::{Chosen, DirectionCount, Finite, NormalizationRule, OmegaStep, Placed, Scope, Stop};
+use crate::form::{
+    Chosen, DirectionCount, Finite, NormalizationRule, OmegaStep, Placed, Scope, Stop, TotalAnisotropyRule,
+};
 use crate::host::Host;
 use crate::ids::MediumId;
 use crate::lights::sample_of;
@@ -23,6 +25,7 @@ use tigereye_ltg::{
 use tigereye_report::DataFile;
 use tigereye_transport::{LinearScattering, Scattering, ScatteringRule, SharedWeights, StoppingRule};
 use tigereye_views::gradient::where_result;
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// The light transport gradient of a field.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -36,6 +39,9 @@ pub struct Gradient {
     /// How profiles are scaled.
     #[serde(default)]
     normalization: NormalizationRule,
+    /// Which tensors transmit along one axis only.
+    #[serde(default)]
+    total_anisotropy: TotalAnisotropyRule,
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
@@ -81,7 +87,7 @@ impl Gradient {
         let setup = run.setup(
             &self.field,
             self.directions,
-            self.normalization,
+            (self.normalization, self.total_anisotropy),
             self.weights,
             self.scattering,
             self.stop,
@@ -137,6 +143,8 @@ pub(crate) struct Outcome {
     pub(crate) relative_error: Option<f64>,
     /// What the cells are, in a scene.
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
+    /// The totally anisotropic cells of a field.
+    pub(crate) thin: Option<ThinCells>,
 }
 
 impl Plan {
@@ -184,7 +192,8 @@ impl Plan {
             source => failed(source),
         })?;
         let surfaces = medium.scene().map(|scene| scene.layout.surfaces.clone());
-        Ok(Outcome { outcome, relative_error, surfaces })
+        let thin = self.setup.thin_cells(medium);
+        Ok(Outcome { outcome, relative_error, surfaces, thin })
     }
 
     /// The gradient of linear scattering, exact or estimated.

@@ -2,6 +2,7 @@
 
 use crate::form::{
     Chosen, DirectionCount, EngineChoice, LightSource, NormalizationRule, Placed, Scope, Stop,
+    TotalAnisotropyRule,
 };
 use crate::host::Host;
 use crate::ids::MediumId;
@@ -22,6 +23,7 @@ use tigereye_io::{IoError, image_from_light, vti};
 use tigereye_report::DataFile;
 use tigereye_transport::{Problem, ScatteringRule, SharedWeights, StepView, StoppingRule, TransportError};
 use tigereye_views::Reel;
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// Propagation of light from one or more cells.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -35,6 +37,9 @@ pub struct Light {
     /// How profiles are scaled.
     #[serde(default)]
     normalization: NormalizationRule,
+    /// Which tensors transmit along one axis only.
+    #[serde(default)]
+    total_anisotropy: TotalAnisotropyRule,
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
@@ -102,7 +107,7 @@ impl Light {
         let setup = run.setup(
             &self.field,
             self.directions,
-            self.normalization,
+            (self.normalization, self.total_anisotropy),
             self.weights,
             self.scattering,
             self.stop,
@@ -158,6 +163,8 @@ pub(crate) struct Outcome {
     pub(crate) work: Work,
     /// What the cells are, in a scene.
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
+    /// The totally anisotropic cells of a field.
+    pub(crate) thin: Option<ThinCells>,
     /// Cells that pass light on, in a scene.
     pub(crate) open: Option<Field<bool>>,
 }
@@ -244,6 +251,7 @@ impl Plan {
             work: outcome.work,
             transmission,
             surfaces: scene.map(|scene| scene.layout.surfaces.clone()),
+            thin: self.setup.thin_cells(medium),
             open: scene.map(PreparedScene::open),
         })
     }

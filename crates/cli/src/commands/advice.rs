@@ -1,0 +1,150 @@
+//! What commands of light say about a field and a result, on standard error: what to beware of, and what to try.
+
+use crate::commands::counted;
+use crate::medium::MediumInput;
+use tigereye_core::{Below, LightDistribution, Normalization, ProfileRule, TransmissionField};
+use tigereye_transport::{Light, Stopping, StoppingRule};
+use tigereye_views::light::DECADES;
+use tigereye_views::total_anisotropy::ThinCells;
+
+/// The share of totally anisotropic cells, if there are any, and what it means.
+pub(super) fn tell_thin(name: &str, thin: Option<&ThinCells>) {
+    if let Some(thin) = thin {
+        eprintln!(
+            "{name}: {} totally anisotropic ({}) and transmit along one axis only; their border, outlined in pictures, \
+             is an edge of the method (--total-anisotropy)",
+            share_with_verb(thin),
+            thin.rule_in_words()
+        );
+    }
+}
+
+fn share_with_verb(thin: &ThinCells) -> String {
+    let share = thin.share_in_words();
+    let verb = if share == "one cell" { "is" } else { "are" };
+    format!("{share} {verb}")
+}
+
+/// Steps after which light that has ended was never under way.
+const FEW_STEPS: usize = 3;
+/// Share of lit cells below which a picture is nearly blank.
+const FEW_CELLS: f64 = 0.05;
+/// Grids with fewer cells than this are lit by any light within a few steps.
+const SMALL_GRID: usize = 200;
+/// Share of totally anisotropic cells from which they are worth a word.
+const MANY_THIN: f64 = 0.2;
+
+/// A light, what it went through, and what came of it.
+pub(super) struct Lit<'a> {
+    pub(super) input: &'a MediumInput,
+    pub(super) rule: ProfileRule,
+    pub(super) transmission: &'a TransmissionField,
+    pub(super) thin: Option<&'a ThinCells>,
+    pub(super) lights: &'a [Light],
+    pub(super) stopping: &'a Stopping,
+    pub(super) light: &'a LightDistribution,
+    /// How many steps it took, if it was not solved for.
+    pub(super) steps: Option<usize>,
+}
+
+impl Lit<'_> {
+    /// Says which lights are in cells that transmit nothing, and why, and what to try where hardly any cell is lit.
+    pub(super) fn tell(&self) {
+        let dark = self.dark_lights();
+        for words in &dark {
+            eprintln!("{}: {words}", self.input.name());
+        }
+        if dark.len() < self.lights.len()
+            && let Some(words) = self.nearly_blank()
+        {
+            eprintln!("{}: {words}", self.input.name());
+        }
+    }
+
+    /// The lights whose cells transmit nothing.
+    fn dark_lights(&self) -> Vec<String> {
+        let dark = self.lights.iter().filter(|light| self.transmission.rate(light.cell) == 0.0);
+        let why = |light: &Light| {
+            let tensor = self.input.tensor(light.cell)?;
+            let reason = match self.rule.normalization {
+                _ if tensor.is_zero() => "its tensor is zero".to_owned(),
+                Normalization::LocalAbove { fraction, below: Below::Absorb } => {
+                    format!(
+                        "it is below the threshold of --normalization local-above:{fraction}; try a smaller one, \
+                         --normalization local, or another cell"
+                    )
+                }
+                _ => "it absorbs all light".to_owned(),
+            };
+            Some(format!("the light at ({}, {}) stays dark: {reason}", light.cell.x, light.cell.y))
+        };
+        dark.filter_map(why).collect()
+    }
+
+    /// Why hardly any cell is lit, and what to try.
+    fn nearly_blank(&self) -> Option<String> {
+        let energy = self.light.energy();
+        let cells = energy.values().len();
+        let largest = energy.values().iter().fold(0.0_f64, |m, e| m.max(*e));
+        let faintest = largest * tigereye_core::math::pow(10.0, -DECADES);
+        let lit = energy.values().iter().filter(|e| **e > faintest).count();
+        let asked_for = matches!(self.stopping.rule, StoppingRule::Steps(_));
+        let ended = self.steps.filter(|steps| (1..=FEW_STEPS).contains(steps));
+        if cells < SMALL_GRID || asked_for || !(ended.is_some() || (lit as f64) < FEW_CELLS * cells as f64) {
+            return None;
+        }
+        let steps = ended.map_or_else(String::new, |steps| format!(" within {}", counted(steps, "step")));
+        let share = 100.0 * lit as f64 / cells as f64;
+        let mut words = format!("light reached {lit} of {cells} cells ({share:.1} %){steps}");
+        for reason in self.reasons() {
+            words += "; ";
+            words += &reason;
+        }
+        Some(words)
+    }
+
+    fn reasons(&self) -> Vec<String> {
+        let mut reasons = Vec::new();
+        if self.rule.normalization != Normalization::Local {
+            let mut rates = self.transmission.rates().to_vec();
+            rates.sort_by(f64::total_cmp);
+            let median = rates[rates.len() / 2];
+            if median < 0.5 {
+                reasons.push(format!(
+                    "with --normalization {} half of the cells pass on less than {:.1} % of what arrives: try \
+                     --normalization local",
+                    self.rule.normalization,
+                    (100.0 * median).max(0.1)
+                ));
+            }
+        }
+        if let Some(thin) = self.thin.filter(|thin| thin.share() >= MANY_THIN) {
+            reasons.push(format!(
+                "{} totally anisotropic and absorb what comes from across: try --total-anisotropy smooth or none",
+                share_with_verb(thin)
+            ));
+        }
+        let step = self.transmission.directions().step_rad();
+        let emitted: f64 = (self.lights.iter())
+            .map(|light| {
+                step * light.initial_profile(self.transmission.directions()).samples().iter().sum::<f64>()
+            })
+            .sum();
+        let threshold = self.stopping.rule.threshold();
+        if matches!(
+            self.stopping.rule,
+            StoppingRule::FluxChange { .. } | StoppingRule::DistributionChange { .. }
+        ) && emitted < 4.0 * threshold
+        {
+            reasons.push(format!(
+                "the lights emit {emitted:.3} W, little above the threshold {threshold} at which steps end: try \
+                 --threshold {:.1e} or --stop stationary",
+                1e-3 * emitted
+            ));
+        }
+        if reasons.is_empty() {
+            reasons.push("try another cell, or --stop stationary".to_owned());
+        }
+        reasons
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::light::ProfileArgs;
 use super::reading::ReadingArgs;
-use super::values::{choice, parse_cell};
+use super::values::{choice, input_help, parse_cell};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use tigereye_core::Choice;
@@ -16,7 +16,7 @@ pub(crate) enum FieldCommand {
     New(FieldNewArgs),
     /// A sheet about a field: ellipses, lines, anisotropy, determinant, one light, a gradient.
     Show(FieldShowArgs),
-    /// What is odd about a field.
+    /// Likely mistakes in a field.
     Lint(FieldLintArgs),
 }
 
@@ -41,7 +41,7 @@ pub(crate) struct FieldNewArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct FieldShowArgs {
-    /// A field file, a data file or a generator.
+    #[arg(help = input_help())]
     pub(crate) input: String,
     /// The sheet, .png or .svg.
     #[arg(short, long = "output", value_name = "FILE")]
@@ -63,8 +63,11 @@ pub(crate) struct FieldShowArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct FieldLintArgs {
-    /// A field file, a data file or a generator.
+    #[arg(help = input_help())]
     pub(crate) input: String,
+    /// Also list what is worth knowing and no mistake: shares of zero, indefinite, asymmetric tensors and the like.
+    #[arg(long)]
+    pub(crate) all: bool,
     /// As JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,

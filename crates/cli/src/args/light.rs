@@ -2,8 +2,8 @@
 
 use super::reading::ReadingArgs;
 use super::values::{
-    choice, parse_bytes, parse_count, parse_directions, parse_normalization, parse_percentage, parse_seconds,
-    parse_seed, parse_shard, parse_side, parse_sketches, parse_threads, parse_threshold,
+    choice, medium_help, parse_bytes, parse_count, parse_directions, parse_normalization, parse_percentage,
+    parse_seconds, parse_seed, parse_shard, parse_side, parse_sketches, parse_threads, parse_threshold,
     parse_total_anisotropy,
 };
 use clap::{Args, ValueEnum};
@@ -88,8 +88,7 @@ impl SchemeArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct PropagateArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or
-    /// NAME:key=value,key=value; or a scene (NAME.scene.ron).
+    #[arg(help = medium_help())]
     pub(crate) input: String,
     /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1). A scene
     /// has lights of its own where none is given.
@@ -130,8 +129,7 @@ pub(crate) enum Picture {
 
 #[derive(Debug, Args)]
 pub(crate) struct LtgArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or
-    /// NAME:key=value,key=value; or a scene (NAME.scene.ron).
+    #[arg(help = medium_help())]
     pub(crate) input: String,
     /// Outputs by their extensions: .vti, .npy; .png, .svg show the only slice, or the mean over the slices. With
     /// --shard one .part.

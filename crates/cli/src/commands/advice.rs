@@ -1,6 +1,6 @@
 //! What commands of light say about a field and a result, on standard error: what to beware of, and what to try.
 
-use crate::commands::counted;
+use crate::commands::{counted, in_digits};
 use crate::medium::MediumInput;
 use tigereye_core::{Below, LightDistribution, Normalization, ProfileRule, TransmissionField};
 use tigereye_transport::{Light, Stopping, StoppingRule};
@@ -70,8 +70,9 @@ impl Lit<'_> {
                 _ if tensor.is_zero() => "its tensor is zero".to_owned(),
                 Normalization::LocalAbove { fraction, below: Below::Absorb } => {
                     format!(
-                        "it is below the threshold of --normalization local-above:{fraction}; try a smaller one, \
-                         --normalization local, or another cell"
+                        "it transmits {} of the strongest cell, below the threshold of --normalization \
+                         local-above:{fraction}; try a smaller one, --normalization local, or another cell",
+                        in_digits((1e3 * self.strength(light)).round() / 1e3)
                     )
                 }
                 _ => "it absorbs all light".to_owned(),
@@ -79,6 +80,13 @@ impl Lit<'_> {
             Some(format!("the light at ({}, {}) stays dark: {reason}", light.cell.x, light.cell.y))
         };
         dark.filter_map(why).collect()
+    }
+
+    /// What the cell of a light transmits, relative to the strongest cell.
+    fn strength(&self, light: &Light) -> f64 {
+        let rule = ProfileRule { normalization: Normalization::Global, ..self.rule };
+        let made = self.input.transmission(self.transmission.directions(), rule);
+        made.map_or(f64::NAN, |transmission| transmission.rate(light.cell))
     }
 
     /// Why hardly any cell is lit, and what to try.
@@ -105,6 +113,26 @@ impl Lit<'_> {
 
     fn reasons(&self) -> Vec<String> {
         let mut reasons = Vec::new();
+        let step = self.transmission.directions().step_rad();
+        let emitted: f64 = (self.lights.iter())
+            .map(|light| {
+                step * light.initial_profile(self.transmission.directions()).samples().iter().sum::<f64>()
+            })
+            .sum();
+        let threshold = self.stopping.rule.threshold();
+        if matches!(
+            self.stopping.rule,
+            StoppingRule::FluxChange { .. } | StoppingRule::DistributionChange { .. }
+        ) && emitted < 4.0 * threshold
+        {
+            reasons.push(format!(
+                "the lights emit {} W, and steps end where the flux changes by less than {}: try --threshold {} or --stop \
+                 stationary",
+                in_digits((1e4 * emitted).round() / 1e4),
+                in_digits(threshold),
+                in_digits(1e-3 * emitted)
+            ));
+        }
         if self.rule.normalization != Normalization::Local {
             let mut rates = self.transmission.rates().to_vec();
             rates.sort_by(f64::total_cmp);
@@ -122,24 +150,6 @@ impl Lit<'_> {
             reasons.push(format!(
                 "{} totally anisotropic and absorb what comes from across: try --total-anisotropy smooth or none",
                 share_with_verb(thin)
-            ));
-        }
-        let step = self.transmission.directions().step_rad();
-        let emitted: f64 = (self.lights.iter())
-            .map(|light| {
-                step * light.initial_profile(self.transmission.directions()).samples().iter().sum::<f64>()
-            })
-            .sum();
-        let threshold = self.stopping.rule.threshold();
-        if matches!(
-            self.stopping.rule,
-            StoppingRule::FluxChange { .. } | StoppingRule::DistributionChange { .. }
-        ) && emitted < 4.0 * threshold
-        {
-            reasons.push(format!(
-                "the lights emit {emitted:.3} W, little above the threshold {threshold} at which steps end: try \
-                 --threshold {:.1e} or --stop stationary",
-                1e-3 * emitted
             ));
         }
         if reasons.is_empty() {

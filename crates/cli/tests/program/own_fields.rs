@@ -67,7 +67,7 @@ fn field_files_stand_where_generators_do() {
     place.succeeds(&["convert", "inverse.field.ron", "part.npy", "--crop", "0:4,0:3", "--resample", "8x6"]);
     place.refuses(
         &["convert", "inverse.field.ron", "x.npy", "--order", "fsl"],
-        &["--order has nothing to do"],
+        &["--order has no effect here"],
     );
     place.refuses(&["ltg", "inverse.field.ron", "-o", "inverse.field.ron"], &["inverse.field.ron"]);
     // One that names a data file is that file, in every respect.

@@ -25,7 +25,7 @@ pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive, Ratio
 pub(crate) use placed::nested;
 pub use placed::{Place, Placed};
 pub use scene_file::{MaterialSource, Point, SceneFile, ScenePart, ShapeSource};
-pub(crate) use words::{options, words_of_fault};
+pub(crate) use words::{key_and_value, options, words_of_fault};
 
 /// The format this version reads.
 pub const FORMAT: u32 = 1;

@@ -503,20 +503,20 @@ fn generators_and_their_parameters() {
 
 #[test]
 fn expressions() {
-    let at = |text: &str| place_of(text, "\"formula\"");
-    for (from, to, words) in [
-        ("phi: \"theta\"", "phi: \"thet\"", &["`phi`", "line 1, column 1", "`theta`"][..]),
-        ("s1: \"2\"", "s1: \"2 +\"", &["`s1`", "line 1, column 4", "expected"]),
-        ("s2: \"1\"", "s2: \"-1\"", &["`s2`", "cell (0, 0)", "at least 0"]),
-        ("s2: \"1\"", "s2: \"1/x^2\"", &["`s2`", "cell (2, 0)", "finite"]),
-        ("s2: \"1\"", "s2: \"\"", &["`s2`", "line 1, column 1"]),
-        ("width: 5", "width: 0", &["0 x 5"]),
-        ("width: 5", "width: 18446744073709551615", &["18446744073709551615 x 5"]),
+    for (from, to, at, words) in [
+        ("phi: \"theta\"", "phi: \"thet\"", "thet\"", &["`phi`", "`theta`"][..]),
+        ("s1: \"2\"", "s1: \"2 +\"", "\", s2", &["`s1`", "expected"]),
+        ("s2: \"1\"", "s2: \"-1\"", "\"-1\"", &["`s2`", "cell (0, 0)", "at least 0"]),
+        ("s2: \"1\"", "s2: \"1/x^2\"", "\"1/x^2\"", &["`s2`", "cell (2, 0)", "finite"]),
+        ("s2: \"1\"", "s2: \"\"", "\"),\n    },\n    runs", &["`s2`"]),
+        ("width: 5", "width: 0", "\"formula\"", &["0 x 5"]),
+        ("width: 5", "width: 18446744073709551615", "\"formula\"", &["18446744073709551615 x 5"]),
     ] {
         let text = GOOD.replace(from, to);
         let found = faults(&text, true);
         let [fault] = found.as_slice() else { panic!("{to}: expected one fault, found {found:#?}") };
-        assert_eq!((fault.line, fault.column), at(&text), "{fault}");
+        assert_eq!((fault.line, fault.column), place_of(&text, at), "{fault}");
+        assert!(!fault.problem.contains("line 1"), "two places: {fault}");
         assert!(
             words.iter().chain(&["field \"formula\""]).all(|w| fault.problem.contains(w)),
             "{to}: {fault}"

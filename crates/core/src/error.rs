@@ -99,7 +99,7 @@ pub enum CoreError {
     },
     /// A word that names no rule of total anisotropy.
     #[error(
-        "`{text}` is not a rule of total anisotropy: expected a ratio R of the semi-axes, R:WIDTH, `smooth` (20:2) or `none`"
+        "`{text}` is not a rule of total anisotropy: expected a ratio R of the semi-axes, R:WIDTH, `smooth` (20:2), cap:R, `cap` (cap:20) or `none`"
     )]
     TotalAnisotropyWord {
         /// What was given.

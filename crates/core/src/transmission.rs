@@ -45,7 +45,8 @@ impl Shape {
         let weight = total_anisotropy.pulse_weight(s1, s2);
         let mut samples = vec![0.0; directions.count()];
         if weight < 1.0 {
-            add_ellipse(&mut samples, &svd, directions, 1.0 - weight);
+            let q = svd.axis_ratio().max(total_anisotropy.least_axis_ratio());
+            add_ellipse(&mut samples, svd.major().to_array(), q, directions, 1.0 - weight);
         }
         if weight > 0.0 {
             let (n, peak) = (samples.len(), directions.nearest(math::degrees(svd.phi_rad())));
@@ -60,11 +61,9 @@ impl Shape {
     }
 }
 
-/// Adds `weight` times the ellipse, in units of its major semi-axis.
-fn add_ellipse(samples: &mut [f64], svd: &Svd, directions: Directions, weight: f64) {
+/// Adds `weight` times the ellipse along (ux, uy) with the ratio q of its axes, in units of the major one.
+fn add_ellipse(samples: &mut [f64], [ux, uy]: [f64; 2], q: f64, directions: Directions, weight: f64) {
     let n = samples.len();
-    let q = svd.axis_ratio();
-    let [ux, uy] = svd.major().to_array();
     for i in 0..n / 2 {
         let [wx, wy] = directions.unit(i);
         // Cosine and sine of the angle to the major semi-axis.
@@ -364,6 +363,8 @@ mod tests {
         let pulse = TotalAnisotropy::new(1.0, 1.0).expect("a rule");
         assert_eq!(samples(9.0, smooth), samples(9.0, none));
         assert_eq!(samples(41.0, smooth), samples(41.0, pulse));
+        let capped = samples(41.0, TotalAnisotropy::CAPPED).into_iter().zip(samples(20.0, none));
+        assert!(capped.into_iter().all(|(a, b)| (a - b).abs() < 1e-13));
         let weight = smooth.pulse_weight(15.0, 1.0);
         let both = samples(15.0, none).into_iter().zip(samples(15.0, pulse));
         for (found, (ellipse, pulse)) in samples(15.0, smooth).into_iter().zip(both) {

@@ -74,16 +74,41 @@ impl ThinCells {
         }
     }
 
+    /// The same as the subject of a sentence, with its verb.
+    #[must_use]
+    pub fn share_with_verb(&self) -> String {
+        let verb = if self.count == 1 { "is" } else { "are" };
+        format!("{} {verb}", self.share_in_words())
+    }
+
+    /// What follows for light and gradients, as the rest of a sentence.
+    #[must_use]
+    pub fn effect_in_words(&self) -> &'static str {
+        let is_everywhere = self.count == self.cells.grid().cells();
+        match self.rule.blend() {
+            _ if self.rule.is_cap() => "",
+            Some(_) => " and transmit mostly along one axis; pictures outline where",
+            None if is_everywhere => {
+                ": light keeps to the directions of the samples, and edges between these are edges of the method"
+            }
+            None => {
+                " and transmit along one axis only: their border, outlined in pictures, is an edge of the method \
+                 (--total-anisotropy)"
+            }
+        }
+    }
+
     /// What makes them thin, in words.
     #[must_use]
     pub fn rule_in_words(&self) -> String {
-        let [lower, upper] = self.rule.interval();
-        if self.rule == TotalAnisotropy::NONE {
-            "one semi-axis is 0".to_owned()
-        } else if self.rule.is_step() {
-            format!("semi-axes beyond {}:1", self.rule.ratio())
-        } else {
-            format!("semi-axes beyond {}:1, blended from {lower}:1 to {upper}:1", self.rule.ratio())
+        let ratio = self.rule.ratio();
+        match self.rule.blend() {
+            _ if self.rule == TotalAnisotropy::NONE => "one semi-axis is 0".to_owned(),
+            _ if self.rule.is_cap() => format!("semi-axes beyond {ratio}:1, taken as {ratio}:1"),
+            Some([lower, upper]) => {
+                format!("semi-axes beyond {ratio}:1, blended from {lower}:1 to {upper}:1")
+            }
+            None => format!("semi-axes beyond {ratio}:1"),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Laws of the propagation: what holds for every field and every engine.
 
-use crate::common::{directions, scheme, transmission};
+use crate::common::{THIN_RULES, directions, scheme, thin_axes, thin_field, transmission};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 use tigereye_core::{
@@ -296,6 +296,10 @@ fn totally_anisotropic_cells_absorb_light_that_comes_across() {
 /// The profile of a tensor by the text of the rule, in its own words: the ellipse of eq. 3.6 by angles, the pulse at
 /// the rounded angle, and between both the smooth step in the logarithm of the ratio of the semi-axes.
 fn profile_by_the_text(angle_deg: f64, s1: f64, s2: f64, rule: &str, samples: usize) -> Vec<f64> {
+    if let Some(ratio) = rule.strip_prefix("cap:") {
+        let thickest = s1 / ratio.parse::<f64>().expect("a ratio");
+        return profile_by_the_text(angle_deg, s1, s2.max(thickest), "none", samples);
+    }
     let weight = match rule.split_once(':') {
         None if rule == "none" => 0.0,
         None => f64::from(u8::from(s1 / s2 > rule.parse::<f64>().expect("a ratio"))),
@@ -317,35 +321,16 @@ fn profile_by_the_text(angle_deg: f64, s1: f64, s2: f64, rule: &str, samples: us
         .collect()
 }
 
-/// Axes that turn by 3 degrees from cell to cell (never half-way between two samples), with ratios from 2 to 200.
-fn thin_axes(cell: Cell) -> (f64, f64, f64) {
-    let i = cell.y * 9 + cell.x;
-    let ratio = 2.0 * math::pow(100.0, i as f64 / 62.0);
-    ((3 * i + 1) as f64, 0.5 + 0.01 * i as f64, (0.5 + 0.01 * i as f64) / ratio)
-}
-
-const THIN_RULES: [&str; 5] = ["20", "5", "none", "20:2", "8:4"];
-
-fn thin_field(rule: &str, samples: usize, normalization: Normalization) -> TransmissionField {
-    let grid = Grid::new(9, 7).expect("a grid");
-    let tensors = Field::from_fn(grid, |c| {
-        let (angle_deg, s1, s2) = thin_axes(c);
-        Tensor2::from_eigen(math::radians(angle_deg), s1, s2)
-    });
-    let rule = ProfileRule { normalization, total_anisotropy: rule.parse().expect("a rule") };
-    TransmissionField::from_tensors(&tensors, directions(samples), rule).expect("finite tensors")
-}
-
 /// The profiles of every rule of total anisotropy, against those written down from the text.
 #[test]
 fn thin_tensors_transmit_as_the_rule_of_total_anisotropy_says() {
     for rule in THIN_RULES {
         for samples in [16, 32, 40] {
             let [local, global] = [Normalization::Local, Normalization::Global]
-                .map(|normalization| thin_field(rule, samples, normalization));
+                .map(|normalization| thin_field([9, 7], rule, samples, normalization));
             let expected: Vec<Vec<f64>> = (local.grid().iter())
                 .map(|cell| {
-                    let (angle_deg, s1, s2) = thin_axes(cell);
+                    let (angle_deg, s1, s2) = thin_axes([9, 7], cell);
                     profile_by_the_text(angle_deg, s1, s2, rule, samples)
                 })
                 .collect();
@@ -372,7 +357,7 @@ fn engines_agree_under_every_rule_of_total_anisotropy() {
     for rule in THIN_RULES {
         for scattering in [ScatteringRule::Joint, ScatteringRule::Linear] {
             let scheme = scheme(32).with_scattering(scattering);
-            let transmission = thin_field(rule, 32, Normalization::Global);
+            let transmission = thin_field([9, 7], rule, 32, Normalization::Global);
             for light in lights_of_every_kind(Cell::new(4, 3), scheme.directions()) {
                 let lights = [light];
                 let stopping = Stopping::steps(25);
@@ -397,7 +382,7 @@ fn no_rule_of_total_anisotropy_creates_or_loses_light() {
     let tensors = Field::from_fn(grid, |c| {
         Tensor2::from_eigen(0.1 * c.x as f64 + 0.05 * c.y as f64, 1.0, 1.0 / (10.0 + c.y as f64 * 0.7))
     });
-    for total_anisotropy in [TotalAnisotropy::NONE, TotalAnisotropy::SMOOTH] {
+    for total_anisotropy in [TotalAnisotropy::NONE, TotalAnisotropy::SMOOTH, TotalAnisotropy::CAPPED] {
         let rule = ProfileRule { normalization: Normalization::Local, total_anisotropy };
         let transmission =
             TransmissionField::from_tensors(&tensors, directions(32), rule).expect("finite tensors");
@@ -417,9 +402,9 @@ fn no_rule_of_total_anisotropy_creates_or_loses_light() {
     }
 }
 
-/// A step makes light jump where the ratio of the axes passes it; a blend does not.
+/// A step makes light jump where the ratio of the axes passes it; a blend and a cap do not.
 #[test]
-fn a_blend_changes_light_as_little_as_the_tensor_changes() {
+fn blends_and_caps_change_light_as_little_as_the_tensor_changes() {
     let light = |ratio: f64, total_anisotropy: TotalAnisotropy| {
         let tensors = Field::from_fn(Grid::new(15, 15).expect("a grid"), |_| {
             Tensor2::from_eigen(0.2, 1.0, 1.0 / ratio)
@@ -437,8 +422,9 @@ fn a_blend_changes_light_as_little_as_the_tensor_changes() {
         let [before, after] = [19.99, 20.01].map(|ratio| light(ratio, rule));
         difference_over_largest(samples_of(&before), samples_of(&after))
     };
-    let [step, blend] = [TotalAnisotropy::PUBLISHED, TotalAnisotropy::SMOOTH].map(jump);
-    assert!(step > 0.05 && blend < 0.001, "step {step}, blend {blend}");
+    let rules = [TotalAnisotropy::PUBLISHED, TotalAnisotropy::SMOOTH, TotalAnisotropy::CAPPED];
+    let [step, blend, cap] = rules.map(jump);
+    assert!(step > 0.05 && blend < 0.001 && cap < 0.001, "step {step}, blend {blend}, cap {cap}");
 }
 
 /// Moves the samples and fluxes of a distribution: `(samples, fluxes)`, cell-major in the moved grid.

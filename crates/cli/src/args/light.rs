@@ -32,7 +32,8 @@ pub(crate) struct ProfileArgs {
     #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
     pub(crate) normalization: Option<Normalization>,
     /// Beyond which ratio R of its semi-axes a tensor transmits along one axis only; 20 by default. R:WIDTH blends
-    /// gradually from R/WIDTH to R*WIDTH, `smooth` is 20:2; with `none` only tensors with a vanishing axis do.
+    /// gradually from R/WIDTH to R*WIDTH (`smooth`: 20:2); with cap:R such a tensor has the ellipse of the ratio R
+    /// (`cap`: cap:20); with `none` only tensors with a vanishing axis transmit along one axis only.
     #[arg(long, value_name = "R", value_parser = parse_total_anisotropy, allow_hyphen_values = true)]
     pub(crate) total_anisotropy: Option<TotalAnisotropy>,
 }

@@ -10,19 +10,10 @@ use tigereye_views::total_anisotropy::ThinCells;
 /// The share of totally anisotropic cells, if there are any, and what it means.
 pub(super) fn tell_thin(name: &str, thin: Option<&ThinCells>) {
     if let Some(thin) = thin {
-        eprintln!(
-            "{name}: {} totally anisotropic ({}) and transmit along one axis only; their border, outlined in pictures, \
-             is an edge of the method (--total-anisotropy)",
-            share_with_verb(thin),
-            thin.rule_in_words()
-        );
+        let share = thin.share_with_verb();
+        let (rule, effect) = (thin.rule_in_words(), thin.effect_in_words());
+        eprintln!("{name}: {share} totally anisotropic ({rule}){effect}");
     }
-}
-
-fn share_with_verb(thin: &ThinCells) -> String {
-    let share = thin.share_in_words();
-    let verb = if share == "one cell" { "is" } else { "are" };
-    format!("{share} {verb}")
 }
 
 /// Steps after which light that has ended was never under way.
@@ -148,8 +139,8 @@ impl Lit<'_> {
         }
         if let Some(thin) = self.thin.filter(|thin| thin.share() >= MANY_THIN) {
             reasons.push(format!(
-                "{} totally anisotropic and absorb what comes from across: try --total-anisotropy smooth or none",
-                share_with_verb(thin)
+                "{} totally anisotropic and absorb what comes from across: try --total-anisotropy cap",
+                thin.share_with_verb()
             ));
         }
         if reasons.is_empty() {

@@ -48,6 +48,8 @@ pub enum TotalAnisotropyRule {
         /// The profile is an ellipse up to `ratio / width`, and a pulse from `ratio * width` on.
         width: Ratio,
     },
+    /// None: beyond this ratio a tensor has the ellipse of the ratio.
+    Cap(Ratio),
     /// Only those with a vanishing axis.
     Never,
 }
@@ -119,6 +121,7 @@ impl TotalAnisotropyRule {
             Self::Published => return Ok(TotalAnisotropy::PUBLISHED),
             Self::Smooth => return Ok(TotalAnisotropy::SMOOTH),
             Self::Never => return Ok(TotalAnisotropy::NONE),
+            Self::Cap(ratio) => TotalAnisotropy::capped(ratio.get()),
             Self::Above(ratio) => TotalAnisotropy::new(ratio.get(), 1.0),
             Self::Blend { ratio, width } => TotalAnisotropy::new(ratio.get(), width.get()),
         };

@@ -85,7 +85,7 @@ pub enum CoreError {
     },
     /// A text that names no normalisation.
     #[error(
-        "`{text}` is no normalisation: expected global, local, local-above:F or local-above-global:F with F from 0 to 1"
+        "`{text}` is not a normalisation: expected global, local, local-above:F or local-above-global:F with F from 0 to 1"
     )]
     NormalizationWord {
         /// What was given.

@@ -107,8 +107,8 @@ impl TotalAnisotropy {
         u * u * (3.0 - 2.0 * u)
     }
 
-    /// Whether a tensor counts as totally anisotropic: at least half of its profile is a pulse, or its ellipse is capped.
-    /// So does the zero tensor, which transmits nothing.
+    /// Whether a tensor counts as totally anisotropic: at least half of its profile is a pulse, or its ellipse is
+    /// capped. So does the zero tensor, which transmits nothing.
     #[must_use]
     pub fn contains(&self, t: &Tensor2) -> bool {
         let [s1, s2] = Svd::of(t).s;

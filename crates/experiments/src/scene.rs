@@ -308,7 +308,7 @@ impl Reader<'_> {
     fn lights(&mut self, file: &SceneFile, grid: Grid, layout: Option<&Layout>) -> Vec<SpecError> {
         let in_wall = |(index, light): (usize, &Placed<LightSource>)| {
             let problem = light_fault(layout?, cell_of(light, grid))?;
-            Some(LightFault { index, value: LightValue::Cell, problem })
+            Some(LightFault { index, value: LightValue::Cell, problem, place: None })
         };
         let mut faults: Vec<LightFault> = file.lights.iter().enumerate().filter_map(in_wall).collect();
         let misplaced: BTreeSet<usize> = faults.iter().map(|f| f.index).collect();
@@ -332,8 +332,8 @@ impl Reader<'_> {
                 faults.push(fault);
             }
         }
-        for LightFault { index, value, problem } in faults {
-            self.faults.at(place_of(&file.lights[index], value), &problem);
+        for LightFault { index, value, problem, place } in faults {
+            self.faults.at(place.unwrap_or_else(|| place_of(&file.lights[index], value)), &problem);
         }
         file.lights.iter().map(|light| self.faults.fault(place_of(light, LightValue::Profile), "")).collect()
     }

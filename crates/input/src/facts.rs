@@ -84,8 +84,8 @@ pub struct FieldFacts {
     pub planar_anisotropy: Range,
     /// Fractional anisotropy, as of a volume of one layer.
     pub fractional_anisotropy: Anisotropies,
-    /// Tensors with none, one and two eigenvalues below zero by more than rounding. Those with complex eigenvalues, which
-    /// have no sign, are not among them.
+    /// Tensors with none, one and two eigenvalues below zero by more than rounding. Those with complex eigenvalues,
+    /// which have no sign, are not among them.
     pub negative_eigenvalues: [usize; 3],
     /// Shares of kinds of tensors, by name.
     pub shares: [(&'static str, f64); 7],

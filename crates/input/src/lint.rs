@@ -34,8 +34,8 @@ const FEW: f64 = 0.05;
 /// A field whose components xy and yx differ by less than this part of the largest of them was meant to be symmetric.
 const NEARLY: f64 = 0.05;
 
-/// Likely mistakes, then notes, the gravest first. A field without any has tensors that are symmetric, positive definite
-/// and of determinant 1, and that change smoothly. Signs of eigenvalues are asked of symmetric tensors only.
+/// Likely mistakes, then notes, the gravest first. A field without any has tensors that are symmetric, positive
+/// definite and of determinant 1, and that change smoothly. Signs of eigenvalues are asked of symmetric tensors only.
 #[must_use]
 pub fn lint(field: &Field<Tensor2>) -> Vec<Oddity> {
     let mut found = oddities(field);
@@ -270,7 +270,7 @@ mod tests {
         assert_eq!(mistakes(|c| Tensor2::from_axes(0.05 * c.x as f64, 2.0, 0.5)), Vec::<&str>::new());
         assert_eq!(mistakes(|c| Tensor2::from_eigen(0.05 * c.x as f64, -2.0, -0.5)), ["negative"]);
         assert_eq!(mistakes(|_| Tensor2::ZERO), ["zero"]);
-        let tilted = |c| smooth(c) + Tensor2::new(0.0, 1e-3, -1e-3, 0.0);
+        let tilted = |c| smooth(c) + Tensor2::new(0.0, 0.01, -0.01, 0.0);
         assert_eq!(mistakes(tilted), ["nearly-symmetric"]);
     }
 

@@ -14,8 +14,8 @@ const SAMPLES: usize = 64;
 /// dip alone means little: smooth fields of one kind of tensor reach 0.032 (`cantilever`, the stress of a plate 0.010),
 /// slices of a brain with the noise around it 0.039 and 0.055, a field of two strengths 0.245.
 const TWO_MODES: f64 = 0.035;
-/// Times the square root of the number of values: a dip that one sample in twenty of a single mode exceeds (Hartigan and
-/// Hartigan, table 1).
+/// Times the square root of the number of values: a dip that one sample in twenty of a single mode exceeds (Hartigan
+/// and Hartigan, table 1).
 const SIGNIFICANT: f64 = 0.52;
 /// Least share of the cells on either side of a threshold.
 const LEAST_CLASS: f64 = 0.05;
@@ -24,9 +24,9 @@ const MOST_VALUES: usize = 1 << 16;
 
 /// The fraction of the largest mean transmission that separates weak cells, such as the noise around an object, from
 /// strong ones: the threshold that maximises the variance between both classes (Otsu, A threshold selection method from
-/// gray-level histograms, IEEE Transactions on Systems, Man, and Cybernetics 9, 1979), over a histogram of the cells that
-/// transmit at all. `None` unless the histogram has two modes by Hartigan's dip, each with a twentieth of the cells: any
-/// histogram has a best threshold, but that of a stress concentration, say, has a tail and no background.
+/// gray-level histograms, IEEE Transactions on Systems, Man, and Cybernetics 9, 1979), over a histogram of the cells
+/// that transmit at all. `None` unless the histogram has two modes by Hartigan's dip, each with a twentieth of the
+/// cells: any histogram has a best threshold, but that of a stress concentration, say, has a tail and no background.
 #[must_use]
 pub fn suggested_local_above(field: &Field<Tensor2>) -> Option<f64> {
     let directions = Directions::new(SAMPLES).ok()?;
@@ -69,8 +69,8 @@ fn bar_of(rate: f64) -> usize {
     ((rate * BARS as f64) as usize).min(BARS - 1)
 }
 
-/// Whether the strengths of the cells that transmit at all have two modes. They are those without total anisotropy, whose
-/// step would make two modes of one.
+/// Whether the strengths of the cells that transmit at all have two modes. They are those without total anisotropy,
+/// whose step would make two modes of one.
 fn has_two_modes(field: &Field<Tensor2>, directions: Directions) -> Option<bool> {
     let rule = ProfileRule { normalization: Normalization::Global, total_anisotropy: TotalAnisotropy::NONE };
     let transmission = TransmissionField::from_tensors(field, directions, rule).ok()?;

@@ -116,14 +116,10 @@ impl ThinCells {
     #[must_use]
     pub fn overlay(&self) -> Overlay {
         Overlay {
-            label: format!(
-                "border of total anisotropy ({}): {}",
-                self.rule_in_words(),
-                self.share_in_words()
-            ),
+            label: format!("totally anisotropic ({}): {}", self.rule_in_words(), self.share_in_words()),
             points: outline(&self.cells),
-            colour: Rgba::hex(0xd6186e),
-            width_px: 1.0,
+            colour: Rgba::INK,
+            width_px: 0.9,
             ..Overlay::default()
         }
     }

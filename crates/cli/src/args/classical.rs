@@ -213,8 +213,8 @@ pub(crate) struct RidgesArgs {
     /// square.
     #[arg(long, value_name = "CELLS", default_value = "2", value_parser = parse_extent)]
     pub(crate) least_length: f64,
-    /// How many cells (smaller sides) the distance of two layers counts for; what is across a ridge depends on it. By
-    /// default 1 for the directions of a gradient, and the file's own distance otherwise.
+    /// Distance between two layers, in cells (smaller sides), when directions across ridges are determined: 1 by
+    /// default for the directions of a gradient, and the file's own distance otherwise.
     #[arg(long, value_name = "CELLS", value_parser = parse_step)]
     pub(crate) direction_length: Option<f64>,
     /// Steps a cell in which ridges are looked for; 2 for a layer and 1 for surfaces by default.

@@ -121,7 +121,7 @@ impl Lit<'_> {
                  stationary",
                 in_digits((1e4 * emitted).round() / 1e4),
                 in_digits(threshold),
-                in_digits(1e-3 * emitted)
+                format_args!("{:.0e}", 1e-3 * emitted)
             ));
         }
         if self.rule.normalization != Normalization::Local {

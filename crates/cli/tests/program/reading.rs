@@ -290,5 +290,5 @@ fn negative_eigenvalues_are_counted() {
     let facts = place.succeeds(&["info", "t.npy", "--json"]).json();
     assert_eq!(facts["negative_eigenvalues_histogram"], serde_json::json!([1, 2, 1]));
     let text = place.succeeds(&["info", "t.npy"]).stdout;
-    assert!(text.contains("tensors with 0, 1, 2 negative eigenvalues: 1 2 1"), "{text}");
+    assert!(text.contains("tensors with 0, 1, 2 negative eigenvalues: 1, 2, 1"), "{text}");
 }

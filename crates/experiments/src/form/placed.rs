@@ -219,7 +219,7 @@ mod tests {
         assert_eq!(at("(\n name: \"1 + y\")", 1, 5), (2, 13));
         assert_eq!(at("(\n name: \"1 +\n  y\")", 2, 3), (3, 3));
         assert_eq!(at("(name: r#\"a\\ + \"b\"\"#)", 1, 6), (1, 16));
-        assert_eq!(at("(name: \"\\u{3c6} + \\n z\")", 1, 5), (1, 20));
+        assert_eq!(at("(name: \"\\u{3c6} + \\n z\")", 1, 5), (1, 19));
         assert_eq!(at("(name: \"\\u{3c6} + \\n z\")", 2, 2), (1, 22));
         // What lies behind the end is the end.
         assert_eq!(at("(name: \"ab\")", 1, 9), (1, 11));

@@ -42,6 +42,9 @@ pub struct Gradient {
     /// Which tensors transmit along one axis only.
     #[serde(default)]
     total_anisotropy: TotalAnisotropyRule,
+    /// Whether pictures outline the totally anisotropic cells.
+    #[serde(default = "yes")]
+    outlined: bool,
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
@@ -69,6 +72,10 @@ pub struct Gradient {
     pub(crate) scope: Scope,
 }
 
+fn yes() -> bool {
+    true
+}
+
 /// A sweep, ready to start.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
@@ -80,6 +87,7 @@ pub(crate) struct Plan {
     /// Number of sketches of an estimate.
     pub(crate) estimate: Option<u32>,
     seed: u32,
+    outlined: bool,
 }
 
 impl Gradient {
@@ -131,7 +139,8 @@ impl Gradient {
             }
         }
         let slices = self.slices_deg.is_some().then_some(slices);
-        Some(Plan { setup, omega_step, slices, estimate: self.estimate, seed: self.seed })
+        let (estimate, seed, outlined) = (self.estimate, self.seed, self.outlined);
+        Some(Plan { setup, omega_step, slices, estimate, seed, outlined })
     }
 }
 
@@ -192,7 +201,7 @@ impl Plan {
             source => failed(source),
         })?;
         let surfaces = medium.scene().map(|scene| scene.layout.surfaces.clone());
-        let thin = self.setup.thin_cells(medium);
+        let thin = self.setup.thin_cells(medium).filter(|_| self.outlined);
         Ok(Outcome { outcome, relative_error, surfaces, thin })
     }
 

@@ -88,8 +88,8 @@ impl Importance {
         let shape = self.sensitivity.as_ref().map_or(&usual, |shape| &**shape);
         match profile_of(shape, setup.directions) {
             Ok(profile) => Some(Plan { setup, receiver, sensitivity: profile.clipped().samples().to_vec() }),
-            Err(problem) => {
-                run.fault(&format!(": {problem}"));
+            Err(fault) => {
+                run.fault_at(fault.place, &format!(": {fault}"));
                 None
             }
         }

@@ -40,6 +40,9 @@ pub struct Light {
     /// Which tensors transmit along one axis only.
     #[serde(default)]
     total_anisotropy: TotalAnisotropyRule,
+    /// Whether pictures outline the totally anisotropic cells.
+    #[serde(default = "yes")]
+    outlined: bool,
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
@@ -64,11 +67,16 @@ pub struct Light {
     pub(crate) scope: Scope,
 }
 
+fn yes() -> bool {
+    true
+}
+
 /// A propagation, ready to start.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     pub(crate) setup: Setup,
     pub(crate) lights: Vec<tigereye_transport::Light>,
+    outlined: bool,
     engine: EngineChoice,
     /// What is kept of its steps.
     pub(crate) kept: Kept,
@@ -118,8 +126,8 @@ impl Light {
                 scene.lights_in(setup.directions).map_err(|faults| run.faults.extend(faults))
             }
             _ => lights_of(&self.lights, medium.grid(), setup.directions).map_err(|faults| {
-                for LightFault { problem, .. } in faults {
-                    run.fault(&format!(": {problem}"));
+                for LightFault { problem, place, .. } in faults {
+                    run.fault_at(place, &format!(": {problem}"));
                 }
             }),
         };
@@ -139,7 +147,7 @@ impl Light {
             run.fault(&format!(" keeps step {late} but ends after {n} steps"));
         }
         let kept = Kept { frames: self.frames.iter().copied().collect(), ..Kept::default() };
-        Some(Plan { setup, lights, engine: self.engine, kept })
+        Some(Plan { setup, lights, outlined: self.outlined, engine: self.engine, kept })
     }
 }
 
@@ -251,7 +259,7 @@ impl Plan {
             work: outcome.work,
             transmission,
             surfaces: scene.map(|scene| scene.layout.surfaces.clone()),
-            thin: self.setup.thin_cells(medium),
+            thin: self.setup.thin_cells(medium).filter(|_| self.outlined),
             open: scene.map(PreparedScene::open),
         })
     }

@@ -363,7 +363,7 @@ mod tests {
         let setup = Setup {
             medium: MediumId::Field(FieldId(0)),
             directions: Directions::new(16).expect("a multiple of 8"),
-            normalization: Normalization::Local,
+            rule: Normalization::Local.into(),
             weights: SharedWeights::Thesis,
             scattering: ScatteringRule::Joint,
             stopping: Stopping::REFERENCE,

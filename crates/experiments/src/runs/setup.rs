@@ -1,7 +1,7 @@
 //! What runs of light share, and how they are resolved.
 
 use crate::fault::Faults;
-use crate::form::{Chosen, DirectionCount, NormalizationRule, Placed, Stop, TotalAnisotropyRule};
+use crate::form::{Chosen, DirectionCount, NormalizationRule, Place, Placed, Stop, TotalAnisotropyRule};
 use crate::ids::{FieldId, MediumId};
 use crate::media::Media;
 use crate::medium::Medium;
@@ -86,7 +86,13 @@ pub(crate) struct RunResolver<'a, 'f> {
 impl RunResolver<'_, '_> {
     /// Reports what is wrong with the run.
     pub(crate) fn fault(&mut self, problem: &str) {
-        self.faults.at(self.name.place(), &format!("run \"{}\"{problem}", self.name));
+        self.fault_at(None, problem);
+    }
+
+    /// The same, of one of its values.
+    pub(crate) fn fault_at(&mut self, place: Option<Place>, problem: &str) {
+        let place = place.unwrap_or(self.name.place());
+        self.faults.at(place, &format!("run \"{}\"{problem}", self.name));
     }
 
     /// The field or scene of a name.

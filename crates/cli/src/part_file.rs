@@ -362,13 +362,6 @@ fn decoded(part: part::Part) -> Result<PartFile, (usize, String)> {
     let slices = slices.ok_or_else(|| lacks("whole numbers at /parameters/slices"))?;
     let grid = Grid::new(size("/summary/width")?, size("/summary/height")?).map_err(|e| meaning(&e))?;
     let directions = Directions::new(size("/parameters/directions")?).map_err(|e| meaning(&e))?;
-    let thin = header.get(THIN).map(|runs| {
-        let rule = header["parameters"][THIN].as_str().and_then(|rule| rule.parse().ok());
-        let runs: Option<Vec<usize>> = serde_json::from_value(runs.clone()).ok();
-        ThinCells::from_runs(grid, &runs?, rule?)
-    });
-    let lengths = || lacks(&format!("the lengths of runs of {} cells at /{THIN}", grid.cells()));
-    let thin = thin.map(|thin| thin.ok_or_else(lengths)).transpose()?;
     let omega_step = size("/parameters/omega_step")?;
     let sketches = header.pointer("/parameters/estimate").filter(|n| !n.is_null());
     let content = if sketches.is_some() {
@@ -403,6 +396,13 @@ fn decoded(part: part::Part) -> Result<PartFile, (usize, String)> {
     let shard = text("/shard")?;
     let shard =
         crate::args::values::parse_shard(&shard).map_err(|e| lacks(&format!("a shard at /shard: {e}")))?;
+    let thin = header.get(THIN).map(|runs| {
+        let rule = header["parameters"][THIN].as_str().and_then(|rule| rule.parse().ok());
+        let runs: Option<Vec<usize>> = serde_json::from_value(runs.clone()).ok();
+        ThinCells::from_runs(grid, &runs?, rule?)
+    });
+    let lengths = || lacks(&format!("the lengths of runs of {} cells at /{THIN}", grid.cells()));
+    let thin = thin.map(|thin| thin.ok_or_else(lengths)).transpose()?;
     Ok(PartFile {
         identity: Identity {
             version: text("/version")?,

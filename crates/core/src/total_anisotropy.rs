@@ -133,7 +133,7 @@ impl fmt::Display for TotalAnisotropy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::NONE => f.write_str("none"),
-            Self { ratio, beyond: Beyond::Pulse { width } } if width == 1.0 => write!(f, "{ratio}"),
+            Self { ratio, beyond: Beyond::Pulse { width: 1.0 } } => write!(f, "{ratio}"),
             Self { ratio, beyond: Beyond::Pulse { width } } => write!(f, "{ratio}:{width}"),
             Self { ratio, beyond: Beyond::Cap } => write!(f, "cap:{ratio}"),
         }

@@ -140,7 +140,7 @@ mod tests {
     /// Numbers that look random, from 0 to 1.
     fn numbers(count: usize) -> Vec<f64> {
         let next = |s: &u64| Some((s * 1_103_515_245 + 12_345) % (1 << 31));
-        std::iter::successors(next(&1), next).take(count).map(|s| s as f64 / 2_f64.powi(31)).collect()
+        std::iter::successors(next(&1), next).take(count).map(|s| s as f64 / f64::from(1_u32 << 31)).collect()
     }
 
     fn dip_of(values: impl IntoIterator<Item = f64>) -> f64 {

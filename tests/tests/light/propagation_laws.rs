@@ -306,7 +306,7 @@ fn profile_by_the_text(angle_deg: f64, s1: f64, s2: f64, rule: &str, samples: us
         Some((ratio, width)) => {
             let [ratio, width] = [ratio, width].map(|n| n.parse::<f64>().expect("a number"));
             let u = (0.5 + 0.5 * math::ln(s1 / s2 / ratio) / math::ln(width)).clamp(0.0, 1.0);
-            3.0 * u.powi(2) - 2.0 * u.powi(3)
+            u * u * (3.0 - 2.0 * u)
         }
     };
     let phi = math::radians(angle_deg);

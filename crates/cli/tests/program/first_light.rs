@@ -15,7 +15,10 @@ fn array(tensor: impl Fn(usize, usize) -> [f64; 4]) -> Vec<u8> {
 
 /// A stress concentration: the strength falls off from the upper left.
 fn concentration(x: usize, y: usize) -> [f64; 4] {
-    let strength = 100.0 / (1.0 + x as f64 + y as f64).powi(2);
+    let strength = {
+        let distance = 1.0 + x as f64 + y as f64;
+        100.0 / (distance * distance)
+    };
     [strength, 0.0, 0.0, 0.5 * strength]
 }
 

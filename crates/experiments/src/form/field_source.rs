@@ -23,7 +23,6 @@ pub struct FieldFile {
 /// The source of a tensor field.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-#[expect(clippy::large_enum_variant, reason = "an experiment has a handful")]
 pub enum FieldSource {
     /// A generator with its parameters, as `tigereye field list` shows them.
     Generator {

@@ -49,7 +49,7 @@ pub(crate) fn words_of_fault(error: &ron::Error, text: &str) -> String {
         Some(name) if text.contains(name.as_str()) => format!(" in `{name}`"),
         _ => String::new(),
     };
-    let words = match error {
+    match error {
         E::IntegerOutOfBounds => {
             "the number is out of range: expected a whole number from 0 that fits the machine".to_owned()
         }
@@ -75,8 +75,7 @@ pub(crate) fn words_of_fault(error: &ron::Error, text: &str) -> String {
             format!("the key `{field}` stands here twice{}", within(outer))
         }
         other => shortened(&other.to_string()),
-    };
-    words
+    }
 }
 
 /// The key and the value at an offset of a text, as ` (width: "51")`; only the value where there is no key, and nothing

@@ -9,7 +9,7 @@ use tigereye_report::review::ReviewError;
 #[derive(Debug, Error)]
 pub(crate) enum Fault {
     /// Neither a revision nor a folder of results.
-    #[error("{name}: is no git revision, and there is no {name}/summary.json: expected either")]
+    #[error("{name}: is neither a git revision nor a folder with a summary.json: expected either")]
     Unknown { name: String },
     /// An experiment that neither side has.
     #[error("--only {slug}: no such experiment in {base} or {head}")]

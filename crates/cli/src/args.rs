@@ -39,7 +39,7 @@ pub(crate) enum Command {
     Ltg(LtgArgs),
     /// The light transport gradient volume of shards computed apart.
     Merge(MergeArgs),
-    /// What a tensor field holds and how it was read.
+    /// The contents of a tensor field, and how it was read.
     Info(InfoArgs),
     /// Any readable tensor field to another format.
     Convert(ConvertArgs),

@@ -52,7 +52,7 @@ impl Checkpoint {
     ) -> Result<(Self, Option<PartFile>), CliError> {
         let name = format!("--checkpoint {}", folder.display());
         if folder.exists() && !folder.is_dir() {
-            return Err(CliError::input(&name, "is no folder: expected a folder, or a name for one"));
+            return Err(CliError::input(&name, "is not a folder: expected a folder, or a name for one"));
         }
         files::make_folder(folder)?;
         let lock = lock(folder, &name)?;

@@ -26,7 +26,7 @@ pub(crate) enum CliError {
     #[error("interrupted; nothing half-written remains")]
     Interrupted,
     /// Ctrl-C, with a checkpoint to go on from.
-    #[error("interrupted; {checkpoint} is complete: the same command goes on from there")]
+    #[error("interrupted; progress saved in {checkpoint}: run the same command to continue")]
     Resumable {
         /// The checkpoint's file.
         checkpoint: String,

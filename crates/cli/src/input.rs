@@ -6,13 +6,12 @@ use crate::host::FileHost;
 use crate::{files, interrupt};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use tigereye_core::{Field, Normalization, Tensor2};
+use tigereye_core::{Field, Tensor2};
 use tigereye_experiments::scene::is_scene_file;
 use tigereye_experiments::sources::{defined_plane, is_field_file, load_field, make_plane};
+use tigereye_experiments::{SpecError, field_file};
 use tigereye_input::provenance::hash_of_field;
-use tigereye_input::{
-    Derived, InputError, PlaneField, Reading, TEXT_MATRICES, TensorFile, is_readable, open,
-};
+use tigereye_input::{Derived, InputError, PlaneField, Reading, TensorFile, is_readable, open};
 use tigereye_io::volume::{PlaneGeometry, Shear};
 
 /// What INPUT is, before a plane is chosen.
@@ -175,11 +174,12 @@ impl Input {
     /// The field of a `.field.ron`. One that names a data file keeps what that file says of itself.
     fn of_field_file(name: &str, reading: &Reading) -> Result<Self, CliError> {
         let path = Path::new(name);
-        let file = load_field(name, &files::read_text(path)?).map_err(|e| CliError::Input(e.to_string()))?;
+        let text = files::read_text(path)?;
+        let file = load_field(name, &text).map_err(|e| CliError::Input(other_kind(name, &text, &e)))?;
         let host = FileHost::new(Some(files::folder_of(path).to_path_buf()), name.to_owned());
         let made = make_plane(&file.field, &host);
         host.finish();
-        let (plane, kind) = made.map_err(|e| CliError::input(name, e))?;
+        let (plane, kind) = made.map_err(|e| CliError::Input(e.in_file(name, &text)))?;
         let mut input = Self::defined(name, plane, reading, kind.unwrap_or(FIELD_FILE))?;
         input.files = host.opened();
         input.files.push(name.to_owned());
@@ -197,13 +197,14 @@ impl Input {
         let plane = defined_plane(plane, reading).map_err(|e| CliError::input(name, e))?;
         Ok(Self::placed(name.to_owned(), plane, Vec::new(), kind, blake3))
     }
+}
 
-    /// The normalisation asked for, or the kind's own: local for generators and text matrices, global otherwise.
-    pub(crate) fn normalization(&self, asked: Option<Normalization>) -> Normalization {
-        asked.unwrap_or(match self.kind {
-            GENERATOR | FIELD_FILE | TEXT_MATRICES => Normalization::Local,
-            _ => Normalization::Global,
-        })
+/// What is wrong with a field file; an experiment in its place is named as such.
+fn other_kind(name: &str, text: &str, fault: &SpecError) -> String {
+    let is_experiment = ["look_for", "claim"].iter().all(|key| text.contains(&format!("{key}:")));
+    match is_experiment && !name.ends_with(field_file::ENDING) {
+        true => format!("{name}: is an experiment file, not a field: use `tigereye run {name}`"),
+        false => fault.to_string(),
     }
 }
 

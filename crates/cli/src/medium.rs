@@ -1,17 +1,20 @@
 //! What light runs through in a command: a tensor field or a scene.
 
+use crate::args::light::ProfileArgs;
 use crate::args::reading::ReadingArgs;
 use crate::error::CliError;
 use crate::files;
 use crate::host::FileHost;
 use crate::input::Input;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use tigereye_core::{Directions, Field, Grid, Normalization, Surface, TransmissionField};
+use tigereye_core::{Cell, Directions, Field, Grid, ProfileRule, Surface, Tensor2, TransmissionField};
 use tigereye_experiments::Medium;
 use tigereye_experiments::scene::{PreparedScene, is_scene_file, light_fault, prepare};
 use tigereye_input::Reading;
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_transport::Light;
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// The scene of a file, and the names of all files it was read from.
 pub(crate) fn read_scene(name: &str) -> Result<(PreparedScene, Vec<String>), CliError> {
@@ -99,32 +102,48 @@ impl MediumInput {
         }
     }
 
-    /// The normalisation asked for, or the kind's own.
-    pub(crate) fn normalization(&self, asked: Option<Normalization>) -> Result<Normalization, CliError> {
-        match (self, asked) {
-            (Self::Tensors(input), asked) => Ok(input.normalization(asked)),
-            (Self::Scene(..), None) => Ok(Normalization::Local),
-            (Self::Scene(..), Some(_)) => Err(CliError::input(
-                "--normalization",
-                "a scene's crystals have one of their own: expected none",
-            )),
+    /// How tensors become profiles, as asked for or as usual.
+    pub(crate) fn rule(&self, asked: &ProfileArgs) -> Result<ProfileRule, CliError> {
+        if let Self::Scene(..) = self {
+            let refused = [
+                (asked.normalization.is_some(), "--normalization"),
+                (asked.total_anisotropy.is_some(), "--total-anisotropy"),
+            ];
+            if let Some((_, option)) = refused.iter().find(|(asked, _)| *asked) {
+                let problem = "a scene's crystals have one of their own: expected none";
+                return Err(CliError::input(option, problem));
+            }
+        }
+        Ok(asked.rule())
+    }
+
+    /// Adds the rule to the parameters of a run.
+    pub(crate) fn insert_rule(&self, parameters: &mut Value, rule: ProfileRule) {
+        match self {
+            Self::Tensors(_) => {
+                parameters["normalization"] = json!(rule.normalization.to_string());
+                parameters["total_anisotropy"] = json!(rule.total_anisotropy.to_string());
+            }
+            Self::Scene(..) => parameters["normalization"] = json!("scene"),
         }
     }
 
-    /// Name of a normalisation for parameters.
-    pub(crate) fn normalization_name(&self, normalization: Normalization) -> String {
-        match self {
-            Self::Tensors(_) => normalization.to_string(),
-            Self::Scene(..) => "scene".to_owned(),
-        }
+    /// The totally anisotropic cells of a tensor field.
+    pub(crate) fn thin_cells(&self, rule: ProfileRule) -> Option<ThinCells> {
+        self.medium().tensors().and_then(|field| ThinCells::of(field, rule.total_anisotropy))
+    }
+
+    /// The tensor of a cell, if there are tensors.
+    pub(crate) fn tensor(&self, cell: Cell) -> Option<&Tensor2> {
+        self.medium().tensors().map(|field| field.at(cell))
     }
 
     pub(crate) fn transmission(
         &self,
         directions: Directions,
-        normalization: Normalization,
+        rule: ProfileRule,
     ) -> Result<TransmissionField, CliError> {
-        let made = self.medium().transmission(directions, normalization);
+        let made = self.medium().transmission(directions, rule);
         made.map_err(|e| CliError::input(self.name(), e))
     }
 

@@ -5,15 +5,19 @@ use crate::{files, geometry};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 use std::path::Path;
-use tigereye_core::{Directions, Grid, LtgVolume, SweepWork};
+use tigereye_core::{Directions, Grid, LtgVolume, SweepWork, TotalAnisotropy};
 use tigereye_input::provenance::VERSION;
 use tigereye_io::part;
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_ltg::{Estimate, Finished, LtgError, NUMERICS, PartialVolume, Shard, SketchShape, SketchSums};
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// Parameters that do not show in the result. The input and its mask are known by their hash; what they are called may
 /// change.
 const FREE: [&str; 4] = ["threads", "memory", "input", "mask"];
+
+/// The parameter that says which cells are totally anisotropic; in the header, the cells.
+const THIN: &str = "total_anisotropy";
 
 /// What determines the numbers of a part.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +30,8 @@ pub(crate) struct Identity {
     pub(crate) input_blake3: String,
     /// Where the input's cells lie. It shows in the files, though not in the numbers.
     pub(crate) geometry: PlaneGeometry,
+    /// The totally anisotropic cells, which pictures outline. They follow from the input and the parameters.
+    pub(crate) thin: Option<ThinCells>,
 }
 
 /// What a computation cost beside its counters.
@@ -127,7 +133,12 @@ impl Content {
 
 impl Identity {
     /// The identity of this program's work.
-    pub(crate) fn new(parameters: &Value, input_blake3: &str, geometry: PlaneGeometry) -> Self {
+    pub(crate) fn new(
+        parameters: &Value,
+        input_blake3: &str,
+        geometry: PlaneGeometry,
+        thin: Option<ThinCells>,
+    ) -> Self {
         // Numbers as a reader gets them, so that equal ones compare equal.
         let parameters = serde_json::from_str(&parameters.to_string()).unwrap_or_default();
         Self {
@@ -137,6 +148,7 @@ impl Identity {
             input_blake3: input_blake3.to_owned(),
             // What lies nowhere has no other geometry in files.
             geometry: if geometry.is_placed() { geometry } else { PlaneGeometry::UNPLACED },
+            thin,
         }
     }
 
@@ -173,7 +185,10 @@ impl Identity {
         all.sort_by_key(|n| (follows(n), n.clone()));
         all.dedup();
         // What is null was not asked for, as what is absent.
-        let get = |p: &Value, name: &str| p.get(name).filter(|v| !v.is_null()).cloned();
+        let given = |p: &Value, name: &str| p.get(name).filter(|v| !v.is_null()).cloned();
+        // Parts from before the option have its usual value.
+        let usual = |name: &str| (name == THIN).then(|| json!(TotalAnisotropy::PUBLISHED.to_string()));
+        let get = |p: &Value, name: &str| given(p, name).or_else(|| usual(name));
         let differs =
             |n: &String| !FREE.contains(&n.as_str()) && get(&self.parameters, n) != get(&other.parameters, n);
         let name = all.into_iter().find(differs)?;
@@ -261,7 +276,7 @@ fn common_summary<I: Iterator<Item = f64>>(
     identity: &Identity,
     costs: &Costs,
 ) -> Value {
-    json!({
+    let mut summary = json!({
         "width": grid.width(),
         "height": grid.height(),
         "directions": directions.count(),
@@ -276,7 +291,11 @@ fn common_summary<I: Iterator<Item = f64>>(
         "backend": costs.backend,
         "max": values().fold(0.0, f64::max),
         "mean": values().sum::<f64>() / values().count().max(1) as f64,
-    })
+    });
+    if let Some(thin) = &identity.thin {
+        summary["total_anisotropy_share"] = json!(thin.share());
+    }
+    summary
 }
 
 /// The bytes of a part.
@@ -287,7 +306,7 @@ pub(crate) fn encoded(
     kept: &dyn Kept,
     costs: &Costs,
 ) -> Vec<u8> {
-    let header = json!({
+    let mut header = json!({
         "version": identity.version,
         "numerics": identity.numerics,
         "command": command,
@@ -297,6 +316,9 @@ pub(crate) fn encoded(
         "shard": shard.to_string(),
         "summary": kept.summary(identity, costs),
     });
+    if let Some(thin) = &identity.thin {
+        header[THIN] = json!(thin.runs());
+    }
     let (values, done) = kept.numbers();
     part::write(&header.to_string(), &values, done)
 }
@@ -374,6 +396,13 @@ fn decoded(part: part::Part) -> Result<PartFile, (usize, String)> {
     let shard = text("/shard")?;
     let shard =
         crate::args::values::parse_shard(&shard).map_err(|e| lacks(&format!("a shard at /shard: {e}")))?;
+    let thin = header.get(THIN).map(|runs| {
+        let rule = header["parameters"][THIN].as_str().and_then(|rule| rule.parse().ok());
+        let runs: Option<Vec<usize>> = serde_json::from_value(runs.clone()).ok();
+        ThinCells::from_runs(grid, &runs?, rule?)
+    });
+    let lengths = || lacks(&format!("the lengths of runs of {} cells at /{THIN}", grid.cells()));
+    let thin = thin.map(|thin| thin.ok_or_else(lengths)).transpose()?;
     Ok(PartFile {
         identity: Identity {
             version: text("/version")?,
@@ -383,6 +412,7 @@ fn decoded(part: part::Part) -> Result<PartFile, (usize, String)> {
             input_blake3: text("/input_blake3")?,
             geometry: geometry::from_json(header.get("geometry"))
                 .ok_or_else(|| lacks("numbers of a place at /geometry"))?,
+            thin,
         },
         shard,
         costs: Costs {

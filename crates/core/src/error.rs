@@ -85,7 +85,7 @@ pub enum CoreError {
     },
     /// A text that names no normalisation.
     #[error(
-        "`{text}` is no normalisation: expected global, local, local-above:F or local-above-global:F with F from 0 to 1"
+        "`{text}` is not a normalisation: expected global, local, local-above:F or local-above-global:F with F from 0 to 1"
     )]
     NormalizationWord {
         /// What was given.
@@ -96,6 +96,24 @@ pub enum CoreError {
     Fraction {
         /// Fraction given.
         fraction: f64,
+    },
+    /// A word that names no rule of total anisotropy.
+    #[error(
+        "`{text}` is not a rule of total anisotropy: expected a ratio R of the semi-axes, R:WIDTH, `smooth` (20:2), cap:R, `cap` (cap:20) or `none`"
+    )]
+    TotalAnisotropyWord {
+        /// What was given.
+        text: String,
+    },
+    /// A rule of total anisotropy whose ratios are out of range.
+    #[error(
+        "total anisotropy at a ratio of {ratio} with a width of {width} is out of range: expected a width from 1, R/WIDTH from 1 and R*WIDTH up to 1e12"
+    )]
+    TotalAnisotropy {
+        /// Ratio of the semi-axes given.
+        ratio: f64,
+        /// Width given.
+        width: f64,
     },
     /// A transmission profile that would create light.
     #[error(

@@ -32,6 +32,7 @@ mod statistics;
 mod symmetric3;
 mod symmetry;
 mod tensor;
+mod total_anisotropy;
 mod transmission;
 
 pub use anisotropy::Anisotropy;
@@ -58,7 +59,5 @@ pub use statistics::pearson;
 pub use symmetric3::{fractional_anisotropy3, mode3, symmetric_eigenvalues3};
 pub use symmetry::Symmetry;
 pub use tensor::Tensor2;
-pub use transmission::{
-    CellTransmission, RateScale, TOTAL_ANISOTROPY_RATIO, TransmissionField, is_totally_anisotropic,
-    transmission_ellipse,
-};
+pub use total_anisotropy::{TOTAL_ANISOTROPY_RATIO, TotalAnisotropy, is_totally_anisotropic};
+pub use transmission::{CellTransmission, ProfileRule, RateScale, TransmissionField, transmission_ellipse};

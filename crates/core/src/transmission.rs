@@ -3,12 +3,8 @@
 use crate::reflection::Reflections;
 use crate::{
     Below, Cell, CoreError, Directions, Field, Grid, Normalization, PolarProfile, Reflection, Svd, Tensor2,
-    math,
+    TotalAnisotropy, math,
 };
-
-/// Above this ratio of the semi-axes (or with a vanishing one) a tensor counts as totally anisotropic and its profile
-/// is a bidirectional pulse (thesis, section 4.3; the value is the published programme's).
-pub const TOTAL_ANISOTROPY_RATIO: f64 = 20.0;
 
 /// Shape of one tensor's transmission: `samples` relative to the major semi-axis, and that semi-axis.
 struct Shape {
@@ -22,50 +18,60 @@ struct Shape {
 /// s1/s2 > 20) height s1 at the sample nearest to phi and the one opposite, 0 elsewhere.
 #[must_use]
 pub fn transmission_ellipse(t: &Tensor2, directions: Directions) -> PolarProfile {
-    let shape = Shape::of(t, directions);
+    let shape = Shape::of(t, directions, TotalAnisotropy::PUBLISHED);
     PolarProfile::from_fn(directions, |i| shape.samples[i] * shape.s1)
 }
 
-/// Whether the transmission of `t` is a pulse (or nothing) instead of an ellipse.
-#[must_use]
-pub fn is_totally_anisotropic(t: &Tensor2) -> bool {
-    let [s1, s2] = Svd::of(t).s;
-    totally_anisotropic(s1, s2)
+/// What turns the tensors of a field into transmission profiles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProfileRule {
+    /// How profiles are scaled against each other.
+    pub normalization: Normalization,
+    /// Which tensors transmit along one axis only.
+    pub total_anisotropy: TotalAnisotropy,
 }
 
-fn totally_anisotropic(s1: f64, s2: f64) -> bool {
-    // A quotient of subnormal numbers may overflow; infinity compares as it should.
-    s1 == 0.0 || s2 == 0.0 || s1 / s2 > TOTAL_ANISOTROPY_RATIO
+/// With the published programme's ratio of total anisotropy.
+impl From<Normalization> for ProfileRule {
+    fn from(normalization: Normalization) -> Self {
+        Self { normalization, total_anisotropy: TotalAnisotropy::PUBLISHED }
+    }
 }
 
 impl Shape {
-    fn of(t: &Tensor2, directions: Directions) -> Self {
+    fn of(t: &Tensor2, directions: Directions, total_anisotropy: TotalAnisotropy) -> Self {
         let svd = Svd::of(t);
         let [s1, s2] = svd.s;
-        let n = directions.count();
-        let mut samples = vec![0.0; n];
-        if totally_anisotropic(s1, s2) {
-            let peak = directions.nearest(math::degrees(svd.phi_rad()));
-            samples[peak] = 1.0;
-            samples[(peak + n / 2) % n] = 1.0;
-            return Self { samples, s1 };
+        let weight = total_anisotropy.pulse_weight(s1, s2);
+        let mut samples = vec![0.0; directions.count()];
+        if weight < 1.0 {
+            let q = svd.axis_ratio().max(total_anisotropy.least_axis_ratio());
+            add_ellipse(&mut samples, svd.major().to_array(), q, directions, 1.0 - weight);
         }
-        let q = svd.axis_ratio();
-        let [ux, uy] = svd.major().to_array();
-        for i in 0..n / 2 {
-            let [wx, wy] = directions.unit(i);
-            // Cosine and sine of the angle to the major semi-axis.
-            let along = wx * ux + wy * uy;
-            let across = wy * ux - wx * uy;
-            let r = q / (across * across + q * q * along * along).sqrt();
-            samples[i] = r;
-            samples[i + n / 2] = r;
+        if weight > 0.0 {
+            let (n, peak) = (samples.len(), directions.nearest(math::degrees(svd.phi_rad())));
+            samples[peak] += weight;
+            samples[(peak + n / 2) % n] += weight;
         }
         Self { samples, s1 }
     }
 
     fn mean(&self) -> f64 {
         self.samples.iter().sum::<f64>() / self.samples.len() as f64
+    }
+}
+
+/// Adds `weight` times the ellipse along (ux, uy) with the ratio q of its axes, in units of the major one.
+fn add_ellipse(samples: &mut [f64], [ux, uy]: [f64; 2], q: f64, directions: Directions, weight: f64) {
+    let n = samples.len();
+    for i in 0..n / 2 {
+        let [wx, wy] = directions.unit(i);
+        // Cosine and sine of the angle to the major semi-axis.
+        let along = wx * ux + wy * uy;
+        let across = wy * ux - wx * uy;
+        let r = weight * (q / (across * across + q * q * along * along).sqrt());
+        samples[i] += r;
+        samples[i + n / 2] += r;
     }
 }
 
@@ -92,10 +98,10 @@ pub enum CellTransmission<'a> {
     Tensor(&'a Tensor2, &'a RateScale),
 }
 
-/// The rates that a normalisation gives the tensors of a field.
+/// The profiles of the tensors of a field, and the rates that a normalisation gives them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RateScale {
-    normalization: Normalization,
+    rule: ProfileRule,
     /// Binary exponent of the largest semi-axis: means are taken relative to it, so that no product overflows or
     /// vanishes.
     exponent: i32,
@@ -111,23 +117,28 @@ impl RateScale {
     pub fn of(
         tensors: &Field<Tensor2>,
         directions: Directions,
-        normalization: Normalization,
+        rule: impl Into<ProfileRule>,
     ) -> Result<Self, CoreError> {
+        let rule = rule.into();
         if let Some(cell) = tensors.first_non_finite() {
             return Err(CoreError::NonFiniteTensor { x: cell.x, y: cell.y });
         }
-        if let Normalization::LocalAbove { fraction, .. } = normalization
+        if let Normalization::LocalAbove { fraction, .. } = rule.normalization
             && !(0.0..=1.0).contains(&fraction)
         {
             return Err(CoreError::Fraction { fraction });
         }
         let largest = tensors.values().iter().fold(0.0, |m: f64, t| m.max(Svd::of(t).s[0]));
-        let mut scale = Self { normalization, exponent: math::binary_exponent(largest), greatest_mean: 0.0 };
-        if normalization != Normalization::Local {
-            let means = tensors.values().iter().map(|t| scale.mean(&Shape::of(t, directions)));
+        let mut scale = Self { rule, exponent: math::binary_exponent(largest), greatest_mean: 0.0 };
+        if rule.normalization != Normalization::Local {
+            let means = tensors.values().iter().map(|t| scale.mean(&scale.shape(t, directions)));
             scale.greatest_mean = means.fold(0.0, f64::max);
         }
         Ok(scale)
+    }
+
+    fn shape(&self, t: &Tensor2, directions: Directions) -> Shape {
+        Shape::of(t, directions, self.rule.total_anisotropy)
     }
 
     /// Mean of a profile, relative.
@@ -138,7 +149,7 @@ impl RateScale {
     fn rate(&self, shape: &Shape) -> f64 {
         let mean = self.mean(shape);
         let global = || if self.greatest_mean > 0.0 { mean / self.greatest_mean } else { 0.0 };
-        match self.normalization {
+        match self.rule.normalization {
             _ if shape.s1 == 0.0 => 0.0,
             Normalization::Global => global(),
             Normalization::Local => 1.0,
@@ -160,9 +171,9 @@ impl TransmissionField {
     pub fn from_tensors(
         tensors: &Field<Tensor2>,
         directions: Directions,
-        normalization: Normalization,
+        rule: impl Into<ProfileRule>,
     ) -> Result<Self, CoreError> {
-        let scale = RateScale::of(tensors, directions, normalization)?;
+        let scale = RateScale::of(tensors, directions, rule)?;
         Self::assembled(tensors.grid(), directions, |cell| CellTransmission::Tensor(tensors.at(cell), &scale))
     }
 
@@ -223,7 +234,7 @@ impl TransmissionField {
                     return Err(CoreError::Rate { x: cell.x, y: cell.y, rate });
                 }
                 CellTransmission::Tensor(tensor, scale) => {
-                    let shape = Shape::of(tensor, directions);
+                    let shape = scale.shape(tensor, directions);
                     field.push(&shape.samples, shape.mean(), scale.rate(&shape));
                 }
             }
@@ -315,6 +326,7 @@ impl TransmissionField {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::is_totally_anisotropic;
 
     fn directions(s: usize) -> Directions {
         Directions::new(s).expect("directions")
@@ -340,6 +352,24 @@ mod tests {
         assert!(is_totally_anisotropic(&Tensor2::symmetric(20.1, 0.0, 1.0)));
         assert!(!is_totally_anisotropic(&Tensor2::symmetric(20.0, 0.0, 1.0)));
         assert!(is_totally_anisotropic(&Tensor2::ZERO));
+    }
+
+    /// Between ellipse and pulse, sample by sample; outside of its interval a blend is one of the two.
+    #[test]
+    fn blended_profiles_lie_between_ellipse_and_pulse() {
+        let d = directions(32);
+        let samples = |ratio: f64, rule| Shape::of(&Tensor2::from_axes(0.3, ratio, 1.0), d, rule).samples;
+        let [smooth, none] = [TotalAnisotropy::SMOOTH, TotalAnisotropy::NONE];
+        let pulse = TotalAnisotropy::new(1.0, 1.0).expect("a rule");
+        assert_eq!(samples(9.0, smooth), samples(9.0, none));
+        assert_eq!(samples(41.0, smooth), samples(41.0, pulse));
+        let capped = samples(41.0, TotalAnisotropy::CAPPED).into_iter().zip(samples(20.0, none));
+        assert!(capped.into_iter().all(|(a, b)| (a - b).abs() < 1e-13));
+        let weight = smooth.pulse_weight(15.0, 1.0);
+        let both = samples(15.0, none).into_iter().zip(samples(15.0, pulse));
+        for (found, (ellipse, pulse)) in samples(15.0, smooth).into_iter().zip(both) {
+            assert!((found - (1.0 - weight) * ellipse - weight * pulse).abs() < 1e-15);
+        }
     }
 
     #[test]

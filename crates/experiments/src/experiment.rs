@@ -49,6 +49,20 @@ pub struct Experiment {
     pub(crate) checks: Vec<Check>,
 }
 
+impl Experiment {
+    /// Its heading.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// What it reproduces, or where its data comes from.
+    #[must_use]
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+}
+
 /// A picture with its caption.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]

@@ -18,6 +18,33 @@ pub struct SpecError {
     pub problem: String,
 }
 
+/// What is wrong with the source of a field.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{problem}")]
+pub struct SourceFault {
+    /// What is wrong and what was expected.
+    pub problem: String,
+    /// Where, if it is one of the values in the file.
+    pub place: Option<Place>,
+}
+
+impl SourceFault {
+    /// As a fault of the file whose text the source was read from.
+    #[must_use]
+    pub fn in_file(&self, file: &str, text: &str) -> String {
+        match self.place {
+            Some(place) => Faults::new(file, text).fault(place, &self.problem).to_string(),
+            None => format!("{file}: {}", self.problem),
+        }
+    }
+}
+
+impl From<String> for SourceFault {
+    fn from(problem: String) -> Self {
+        Self { problem, place: None }
+    }
+}
+
 /// The faults of one file, as they are found.
 #[derive(Debug)]
 pub(crate) struct Faults<'a> {

@@ -18,7 +18,7 @@ pub fn template(name: &str) -> String {
     format!(
         r#"// A tensor field. Look at it with
 //     tigereye field show {name}{ENDING} -o {name}.png
-// and ask what is odd about it with
+// and list likely mistakes in it with
 //     tigereye field lint {name}{ENDING}
 // Every command takes this file where it takes a generator: tigereye ltg {name}{ENDING} -o {name}.vti
 (

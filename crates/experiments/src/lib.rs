@@ -47,7 +47,7 @@ pub use digest::Digest;
 pub use error::ExperimentError;
 pub use evaluate::{Evaluation, evaluate};
 pub use experiment::Experiment;
-pub use fault::SpecError;
+pub use fault::{SourceFault, SpecError};
 pub use form::Scope;
 pub use host::Host;
 pub use load::load;

@@ -1,6 +1,7 @@
 //! Lights and their profiles.
 
-use crate::form::{EmissionKind, LightSource, ProfileShape};
+use crate::fault::SourceFault;
+use crate::form::{EmissionKind, LightSource, Place, ProfileShape};
 use std::collections::BTreeSet;
 use tigereye_core::{Cell, Directions, Grid, PolarProfile};
 use tigereye_fields::Expression;
@@ -39,6 +40,8 @@ pub struct LightFault {
     pub value: LightValue,
     /// A sentence.
     pub problem: String,
+    /// Where in the file, if it is a formula.
+    pub place: Option<Place>,
 }
 
 /// Lights with their profiles. Those without a cell stand in the centre.
@@ -58,9 +61,9 @@ pub fn lights_of<'a>(
         let shape = source.profile.as_ref().map_or(&usual, |profile| &**profile);
         let profile = match profile_of(shape, directions) {
             Ok(profile) => profile,
-            Err(problem) => {
-                let problem = format!("the light at ({x}, {y}): {problem}");
-                faults.push(LightFault { index, value: LightValue::Profile, problem });
+            Err(fault) => {
+                let problem = format!("the light at ({x}, {y}): {fault}");
+                faults.push(LightFault { index, value: LightValue::Profile, problem, place: fault.place });
                 continue;
             }
         };
@@ -77,7 +80,7 @@ pub fn lights_of<'a>(
             let of_profile =
                 matches!(fault, TransportError::DarkLight { .. } | TransportError::TooBright { .. });
             let value = if of_profile { LightValue::Profile } else { LightValue::Cell };
-            faults.push(LightFault { index, value, problem: fault.to_string() });
+            faults.push(LightFault { index, value, problem: fault.to_string(), place: None });
         }
         lights.push(light);
     }
@@ -93,7 +96,7 @@ pub(crate) fn cell_of(source: &LightSource, grid: Grid) -> Cell {
 ///
 /// # Errors
 /// A sentence for an expression that cannot be read, or an angle that is no sample.
-pub fn profile_of(shape: &ProfileShape, directions: Directions) -> Result<PolarProfile, String> {
+pub fn profile_of(shape: &ProfileShape, directions: Directions) -> Result<PolarProfile, SourceFault> {
     match shape {
         ProfileShape::Isotropic(i) => Ok(PolarProfile::constant(directions, i.get())),
         ProfileShape::Emitter { theta_deg, power, intensity } => {
@@ -108,7 +111,13 @@ pub fn profile_of(shape: &ProfileShape, directions: Directions) -> Result<PolarP
                 |t| if t == sample { directions.count() as f64 } else { 0.0 },
             ))
         }
-        ProfileShape::Expression(text) => profile_of_expression(text, directions),
+        ProfileShape::Expression(text) => {
+            let expression = Expression::parse(text, &["theta"]).map_err(|e| SourceFault {
+                problem: format!("`{text}`: {}", e.kind),
+                place: Some(text.place().inside(e.line, e.column)),
+            })?;
+            Ok(sampled(text, &expression, directions)?)
+        }
     }
 }
 
@@ -118,6 +127,10 @@ pub fn profile_of(shape: &ProfileShape, directions: Directions) -> Result<PolarP
 /// A sentence naming the place in the expression, or the sample that is not finite.
 pub fn profile_of_expression(text: &str, directions: Directions) -> Result<PolarProfile, String> {
     let expression = Expression::parse(text, &["theta"]).map_err(|e| format!("`{text}`: {e}"))?;
+    sampled(text, &expression, directions)
+}
+
+fn sampled(text: &str, expression: &Expression, directions: Directions) -> Result<PolarProfile, String> {
     let samples = (0..directions.count()).map(|t| expression.eval(&[directions.angle_rad(t)])).collect();
     PolarProfile::from_samples(directions, samples)
         .map(PolarProfile::clipped)

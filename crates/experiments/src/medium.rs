@@ -1,7 +1,7 @@
 //! What light runs through: tensors or a scene.
 
 use crate::scene::PreparedScene;
-use tigereye_core::{Directions, Field, Grid, Normalization, Tensor2, TransmissionField};
+use tigereye_core::{Directions, Field, Grid, ProfileRule, Tensor2, TransmissionField};
 use tigereye_input::provenance::hash_of_field;
 use tigereye_scenes::{Fault, SceneError};
 
@@ -42,17 +42,17 @@ impl<'a> Medium<'a> {
         }
     }
 
-    /// What its cells do to light. A scene's crystals have a normalisation of their own.
+    /// What its cells do to light. A scene's crystals have a rule of their own.
     ///
     /// # Errors
     /// As [`TransmissionField::from_tensors`] and [`tigereye_scenes::Scene::transmission`].
     pub fn transmission(
         self,
         directions: Directions,
-        normalization: Normalization,
+        rule: ProfileRule,
     ) -> Result<TransmissionField, SceneError> {
         match self {
-            Self::Tensors(field) => TransmissionField::from_tensors(field, directions, normalization)
+            Self::Tensors(field) => TransmissionField::from_tensors(field, directions, rule)
                 .map_err(|e| SceneError { part: None, fault: Fault::Core(e) }),
             Self::Scene(scene) => scene.transmission(directions),
         }

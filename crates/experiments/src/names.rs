@@ -360,7 +360,8 @@ impl<'a, 'f> Names<'a, 'f> {
         match Expression::parse(text, variables) {
             Ok(expression) => Some(expression),
             Err(fault) => {
-                self.fault(text.place(), &format!("`{text}`: {fault}"));
+                let place = text.place().inside(fault.line, fault.column);
+                self.fault(place, &format!("`{text}`: {}", fault.kind));
                 None
             }
         }

@@ -1,9 +1,8 @@
 //! Text to what it says, with the place of the first fault.
 
 use crate::fault::SpecError;
-use crate::form::{FORMAT, Placed, nested, options, words_of_fault};
+use crate::form::{FORMAT, Placed, key_and_value, nested, options, words_of_fault};
 use serde::de::DeserializeOwned;
-use tigereye_report::shortened;
 
 /// Reads a file; `format_of` is its version, which must be the one that this program reads.
 ///
@@ -25,12 +24,25 @@ fn parsed<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, SpecError> {
             && let Some((place, words)) = nested(message)
         {
             let (line, column) = place.in_text(text);
-            return SpecError { file: file.to_owned(), line, column, problem: shortened(words) };
+            let problem = with_value(words.to_owned(), text, place.offset_in(text));
+            return SpecError { file: file.to_owned(), line, column, problem };
         }
         let place = e.span.start;
-        let problem = words_of_fault(&e.code, text);
+        let line = text.split_inclusive('\n').nth(place.line.saturating_sub(1)).unwrap_or_default();
+        let column = line.char_indices().nth(place.col.saturating_sub(1)).map_or(line.len(), |(at, _)| at);
+        let offset = (line.as_ptr() as usize).wrapping_sub(text.as_ptr() as usize) + column;
+        let problem = with_value(words_of_fault(&e.code, text), text, offset);
         SpecError { file: file.to_owned(), line: place.line.max(1), column: place.col.max(1), problem }
     })
+}
+
+/// Adds the key and the value to the fault of a value of the wrong type.
+fn with_value(words: String, text: &str, offset: usize) -> String {
+    let of_type = ["expected a ", "expected text", "expected `(`", "expected names"];
+    match of_type.iter().any(|start| words.starts_with(start)) {
+        true => words + &key_and_value(text, offset),
+        false => words,
+    }
 }
 
 fn check_format(file: &str, text: &str, format: &Placed<u32>) -> Result<(), SpecError> {

@@ -181,8 +181,9 @@ fn fields(sources: &Named<FieldSource>, host: &dyn Host, faults: &mut Faults<'_>
             let cell = CellShape::of(plane.geometry.spacing());
             Some(NamedField { name: name.to_string(), field: plane.field, cell })
         }
-        Err(problem) => {
-            faults.at(name.place(), &format!("field \"{name}\": {problem}"));
+        Err(fault) => {
+            let place = fault.place.unwrap_or(name.place());
+            faults.at(place, &format!("field \"{name}\": {fault}"));
             None
         }
     });

@@ -1,6 +1,6 @@
 //! Scene files to scenes: pictures and fields read, everything checked. All problems are reported at once.
 
-use crate::fault::{Faults, SpecError};
+use crate::fault::{Faults, SourceFault, SpecError};
 use crate::form::{
     FieldSource, Finite, LightSource, MaterialSource, Place, Placed, Point, ProfileShape, SceneFile,
     ScenePart, ShapeSource,
@@ -183,9 +183,10 @@ impl Reader<'_> {
         match (shape, material) {
             (Ok(shape), Ok(material)) => return Some(Part { shape, material }),
             (shape, material) => {
-                for (place, fault) in self.parts[index].into_iter().zip([shape.err(), material.err()]) {
-                    if let Some(problem) = fault {
-                        self.faults.at(place, &problem);
+                let faults = [shape.err().map(SourceFault::from), material.err()];
+                for (place, fault) in self.parts[index].into_iter().zip(faults) {
+                    if let Some(fault) = fault {
+                        self.faults.at(fault.place.unwrap_or(place), &fault.problem);
                     }
                 }
             }
@@ -269,7 +270,7 @@ impl Reader<'_> {
         Ok(Mask::from_fn(width, height, |c| (picture.values[c.y * width + c.x] < 0.5) != inverted))
     }
 
-    fn material(&mut self, source: &MaterialSource) -> Result<Material, String> {
+    fn material(&mut self, source: &MaterialSource) -> Result<Material, SourceFault> {
         Ok(match source {
             MaterialSource::Empty => Material::Clear { transmittance: 1.0 },
             MaterialSource::Absorber => Material::Absorber,
@@ -289,7 +290,8 @@ impl Reader<'_> {
                 if self.crystal_cells > MAX_CRYSTAL_CELLS {
                     return Err(format!(
                         "the fields of the crystals have more than {MAX_CRYSTAL_CELLS} cells together: expected smaller ones, put in place with `at`"
-                    ));
+                    )
+                    .into());
                 }
                 self.hashes += &hash_of_field(&field);
                 Material::Crystal {
@@ -306,7 +308,7 @@ impl Reader<'_> {
     fn lights(&mut self, file: &SceneFile, grid: Grid, layout: Option<&Layout>) -> Vec<SpecError> {
         let in_wall = |(index, light): (usize, &Placed<LightSource>)| {
             let problem = light_fault(layout?, cell_of(light, grid))?;
-            Some(LightFault { index, value: LightValue::Cell, problem })
+            Some(LightFault { index, value: LightValue::Cell, problem, place: None })
         };
         let mut faults: Vec<LightFault> = file.lights.iter().enumerate().filter_map(in_wall).collect();
         let misplaced: BTreeSet<usize> = faults.iter().map(|f| f.index).collect();
@@ -330,8 +332,8 @@ impl Reader<'_> {
                 faults.push(fault);
             }
         }
-        for LightFault { index, value, problem } in faults {
-            self.faults.at(place_of(&file.lights[index], value), &problem);
+        for LightFault { index, value, problem, place } in faults {
+            self.faults.at(place.unwrap_or_else(|| place_of(&file.lights[index], value)), &problem);
         }
         file.lights.iter().map(|light| self.faults.fault(place_of(light, LightValue::Profile), "")).collect()
     }

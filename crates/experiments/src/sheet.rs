@@ -2,8 +2,8 @@
 
 use thiserror::Error;
 use tigereye_core::{
-    Anisotropy, Cell, CellShape, CoreError, Directions, Eigenvalues, Field, Grid, Normalization,
-    PolarProfile, Symmetry, Tensor2, TransmissionField,
+    Anisotropy, Cell, CellShape, CoreError, Directions, Eigenvalues, Field, Grid, PolarProfile, ProfileRule,
+    Symmetry, Tensor2, TransmissionField,
 };
 use tigereye_fields::{FieldError, images::resampled};
 use tigereye_lines::{Family, Interpolated, LineOptions, degenerate_points, ellipse_tensors, evenly_spaced};
@@ -18,6 +18,7 @@ use tigereye_transport::{
     EightLobe, Engine, Level, Light, LinearScattering, Problem, Scattering, ScatteringRule, Scheme,
     SharedWeights, Stopping, StoppingRule, TransportError,
 };
+use tigereye_views::total_anisotropy::ThinCells;
 use tigereye_views::{gradient as gradient_view, light, line_overlay, point_overlays};
 
 /// What a sheet shows.
@@ -25,8 +26,8 @@ use tigereye_views::{gradient as gradient_view, light, line_overlay, point_overl
 pub struct SheetOptions {
     /// Heading.
     pub title: String,
-    /// How transmission profiles are scaled.
-    pub normalization: Normalization,
+    /// How tensors become transmission profiles.
+    pub rule: ProfileRule,
     /// What a cell does to light from several sides.
     pub scattering: ScatteringRule,
     /// The cell that shines; where nobody says, the one nearest to the middle whose tensor is not zero.
@@ -188,7 +189,7 @@ fn lit(
     let source =
         Cell::new(place(at.x, before.width(), after.width()), place(at.y, before.height(), after.height()));
     let field = &coarse;
-    let transmission = TransmissionField::from_tensors(field, directions, options.normalization)?;
+    let transmission = TransmissionField::from_tensors(field, directions, options.rule)?;
     let scheme = Scheme::new(directions, SharedWeights::Thesis).with_scattering(options.scattering);
     let rule = match options.scattering {
         ScatteringRule::Joint => StoppingRule::FluxChange { threshold: 1e-3 },
@@ -201,11 +202,17 @@ fn lit(
     let request = light::Request {
         decades: Some(light::DECADES),
         sources: vec![source],
+        overlays: thin_overlays(field, options),
         cell: shape_after(options.cell, before, after),
         ..light::Request::default()
     };
     let title = format!("light of cell ({}, {}){size}", at.x, at.y);
     Ok((title, light::picture(&outcome.distribution.energy(), request)))
+}
+
+/// The outline of the totally anisotropic cells of a field.
+fn thin_overlays(field: &Field<Tensor2>, options: &SheetOptions) -> Vec<Overlay> {
+    ThinCells::of(field, options.rule.total_anisotropy).iter().map(ThinCells::overlay).collect()
 }
 
 /// The shape of cells of which there are others over the same area; what is averaged of squares stays square.
@@ -240,7 +247,7 @@ fn gradient(
     let (coarse, size) = averaged(field, LONGEST)?;
     let cell = shape_after(options.cell, field.grid(), coarse.grid());
     let field = &coarse;
-    let transmission = TransmissionField::from_tensors(field, directions, options.normalization)?;
+    let transmission = TransmissionField::from_tensors(field, directions, options.rule)?;
     let scheme = Scheme::new(directions, SharedWeights::Thesis);
     let settings = LtgSettings {
         slices: Some(vec![sample]),
@@ -258,7 +265,11 @@ fn gradient(
         }
     };
     let slice = outcome.volume.slice(sample).unwrap_or_else(|| field.map(|_| 0.0));
-    let request = gradient_view::Request { cell, ..gradient_view::Request::default() };
+    let request = gradient_view::Request {
+        cell,
+        overlays: thin_overlays(field, options),
+        ..gradient_view::Request::default()
+    };
     let title = format!("light transport gradient, {}°{size}", options.slice_deg);
     Ok((title, gradient_view::picture(&slice, request)))
 }
@@ -275,12 +286,13 @@ impl SweepObserver for Shared<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tigereye_core::Normalization;
     use tigereye_test_support::field;
 
     fn options() -> SheetOptions {
         SheetOptions {
             title: "a field".to_owned(),
-            normalization: Normalization::Local,
+            rule: Normalization::Local.into(),
             scattering: ScatteringRule::Joint,
             light: None,
             slice_deg: 90.0,

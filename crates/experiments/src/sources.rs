@@ -1,30 +1,30 @@
 //! Fields of every source: generators, formulas, data files, other fields.
 
-use crate::fault::SpecError;
-use crate::form::{DeriveRule, FieldFile, FieldSource, Named, Parameter, Sigma};
+use crate::fault::{SourceFault, SpecError};
+use crate::form::{DeriveRule, FieldFile, FieldSource, Named, Parameter, Placed, Sigma};
 use crate::host::Host;
 use crate::parse::parse;
 use tigereye_core::{Cell, Field, Grid, Tensor2};
-use tigereye_fields::{Arguments, ExpressionField, Form, with_noise};
+use tigereye_fields::{Arguments, ExpressionField, FieldError, Form, with_noise};
 use tigereye_input::{Derivation, Derived, PlaneField, Reading};
 use tigereye_io::volume::{ComponentArrays, Crop, Frame, Plane, PlaneChoice, Shear, parse_slice};
 
 /// The field of a source.
 ///
 /// # Errors
-/// A sentence saying what is wrong with it.
-pub fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, String> {
+/// What is wrong with it.
+pub fn make_field(source: &FieldSource, host: &dyn Host) -> Result<Field<Tensor2>, SourceFault> {
     make_plane(source, host).map(|(plane, _)| plane.field)
 }
 
 /// The field of a source with where it lies and what was read, and the format of its data file, where it has one.
 ///
 /// # Errors
-/// A sentence saying what is wrong with it.
+/// What is wrong with it.
 pub fn make_plane(
     source: &FieldSource,
     host: &dyn Host,
-) -> Result<(PlaneField, Option<&'static str>), String> {
+) -> Result<(PlaneField, Option<&'static str>), SourceFault> {
     let made = |field| {
         let story = vec!["made by a generator or formulas, row 0 on top, x right, y up".to_owned()];
         (PlaneField::new(field, story), None)
@@ -32,17 +32,19 @@ pub fn make_plane(
     match source {
         FieldSource::Generator { name, parameters } => {
             let arguments = arguments_of(parameters)?;
-            tigereye_fields::generate(name, &arguments).map(made).map_err(|e| e.to_string())
+            Ok(tigereye_fields::generate(name, &arguments).map(made).map_err(|e| e.to_string())?)
         }
         FieldSource::Axes { width, height, phi, s1, s2 } => {
-            let form = Form::Axes { phi: phi.clone(), s1: s1.clone(), s2: s2.clone() };
+            let form = Form::Axes { phi: phi.to_string(), s1: s1.to_string(), s2: s2.to_string() };
             let field = ExpressionField { width: *width, height: *height, form }.build();
-            field.map(made).map_err(|e| e.to_string())
+            field.map(made).map_err(|e| of_formula(&e, &[("phi", phi), ("s1", s1), ("s2", s2)]))
         }
         FieldSource::Components { width, height, xx, xy, yx, yy } => {
-            let form = Form::Components { xx: xx.clone(), xy: xy.clone(), yx: yx.clone(), yy: yy.clone() };
+            let formulas = [("xx", xx), ("xy", xy), ("yx", yx), ("yy", yy)];
+            let [xx, xy, yx, yy] = formulas.map(|(_, formula)| formula.to_string());
+            let form = Form::Components { xx, xy, yx, yy };
             let field = ExpressionField { width: *width, height: *height, form }.build();
-            field.map(made).map_err(|e| e.to_string())
+            field.map(made).map_err(|e| of_formula(&e, &formulas))
         }
         FieldSource::Noisy { of, share, seed } => {
             let (mut plane, kind) = make_plane(of, host)?;
@@ -75,6 +77,21 @@ pub fn make_plane(
     }
 }
 
+/// The fault of a field by formulas, at the formula.
+fn of_formula(error: &FieldError, formulas: &[(&str, &Placed<String>)]) -> SourceFault {
+    let place = |name: &str| formulas.iter().find(|(n, _)| *n == name).map(|(_, formula)| formula.place());
+    match error {
+        FieldError::Expression { expression, error } => SourceFault {
+            problem: format!("expression `{expression}`: {}", error.kind),
+            place: place(expression).map(|place| place.inside(error.line, error.column)),
+        },
+        FieldError::NonFiniteValue { expression, .. } | FieldError::NegativeAxis { expression, .. } => {
+            SourceFault { problem: error.to_string(), place: place(expression) }
+        }
+        other => SourceFault::from(other.to_string()),
+    }
+}
+
 /// Whether a file's name says that it holds a [`crate::form::FieldFile`].
 #[must_use]
 pub fn is_field_file(name: &str) -> bool {
@@ -90,7 +107,7 @@ pub fn load_field(file: &str, text: &str) -> Result<FieldFile, SpecError> {
 }
 
 /// The field that a file of its own defines.
-fn plane_in_file(path: &str, host: &dyn Host) -> Result<(PlaneField, Option<&'static str>), String> {
+fn plane_in_file(path: &str, host: &dyn Host) -> Result<(PlaneField, Option<&'static str>), SourceFault> {
     let text = String::from_utf8(host.read(path)?).map_err(|_| format!("{path}: expected UTF-8 text"))?;
     let mut file = load_field(path, &text).map_err(|e| e.to_string())?;
     let mut source = &mut file.field;
@@ -100,15 +117,15 @@ fn plane_in_file(path: &str, host: &dyn Host) -> Result<(PlaneField, Option<&'st
     if let FieldSource::File { path: other, mask, .. } = source {
         // One might lead back to the first.
         if is_field_file(other) {
-            return Err(format!(
-                "{path}: its field is in {other}: expected a generator, formulas or a data file"
-            ));
+            let problem =
+                format!("{path}: its field is in {other}: expected a generator, formulas or a data file");
+            return Err(problem.into());
         }
         for name in std::iter::once(other).chain(mask) {
             *name = beside(path, name, host);
         }
     }
-    make_plane(&file.field, host).map_err(|e| format!("{path}: {e}"))
+    make_plane(&file.field, host).map_err(|e| SourceFault::from(e.in_file(path, &text)))
 }
 
 /// What a file at `path` calls `name`: the file beside it, where there is one.

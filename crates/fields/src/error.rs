@@ -45,7 +45,7 @@ pub enum FieldError {
         parameter: String,
     },
     /// A part of a field specification that is not `key=value`.
-    #[error("`{part}` in `{text}` is no parameter: expected NAME or NAME:key=value,key=value")]
+    #[error("`{part}` in `{text}` is not a parameter: expected NAME or NAME:key=value,key=value")]
     MalformedSpec {
         /// Offending part, possibly empty.
         part: String,

@@ -30,6 +30,7 @@ pub use expression::{Expression, ExpressionError, ExpressionErrorKind};
 pub use expression_field::{ExpressionField, Form, variables};
 pub use generator::{Generator, Settings};
 pub use known::{Known, Mirror};
+pub use nearest::{did_you_mean, nearest};
 pub use noise::with_noise;
 pub use parameter::{MAX_SIDE, Parameter, ParameterKind};
 pub use registry::{find, generate, generators};

@@ -1,7 +1,8 @@
 //! The known name a mistyped one probably meant.
 
 /// The candidate with the fewest edits from `name`, if few enough to be a likely slip; the first of equals.
-pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+#[must_use]
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // Long garbage resembles nothing, and need not be compared.
     if name.len() > 40 {
         return None;
@@ -9,14 +10,15 @@ pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
     let limit = (name.chars().count() / 3).max(1);
     candidates
         .into_iter()
-        .map(|c| (edits(&name.to_ascii_lowercase(), c), c))
+        .map(|c| (edits(&name.to_ascii_lowercase(), &c.to_ascii_lowercase()), c))
         .filter(|(d, _)| *d <= limit)
         .min_by_key(|(d, _)| *d)
         .map(|(_, c)| c)
 }
 
 /// ", did you mean ..." if a similar name exists.
-pub(crate) fn did_you_mean(suggestion: Option<&str>) -> String {
+#[must_use]
+pub fn did_you_mean(suggestion: Option<&str>) -> String {
     suggestion.map(|s| format!(", did you mean `{s}`?")).unwrap_or_default()
 }
 

@@ -112,7 +112,7 @@ pub enum InputError {
         count: usize,
     },
     /// An option that would change nothing.
-    #[error("{option} has nothing to do: {why}")]
+    #[error("{option} has no effect here: {why}")]
     Needless {
         /// The option.
         option: &'static str,

@@ -84,7 +84,8 @@ pub struct FieldFacts {
     pub planar_anisotropy: Range,
     /// Fractional anisotropy, as of a volume of one layer.
     pub fractional_anisotropy: Anisotropies,
-    /// Tensors with none, one and two eigenvalues (real parts) below zero by more than rounding.
+    /// Tensors with none, one and two eigenvalues below zero by more than rounding. Those with complex eigenvalues,
+    /// which have no sign, are not among them.
     pub negative_eigenvalues: [usize; 3],
     /// Shares of kinds of tensors, by name.
     pub shares: [(&'static str, f64); 7],
@@ -104,9 +105,11 @@ impl FieldFacts {
         let plain = field.without_rounding();
         let complex = plain.values().iter().filter(|t| is_complex(t)).count() as f64 / cells;
         let mut negative_eigenvalues = [0; 3];
-        for t in field.values() {
+        let real = field.values().iter().zip(plain.values()).filter(|(_, plain)| !is_complex(plain));
+        for (t, _) in real {
             negative_eigenvalues[Eigenvalues::of(t).negative()] += 1;
         }
+        let negative = (negative_eigenvalues[1] + negative_eigenvalues[2]) as f64 / cells;
         Self {
             components: [Tensor2::xx, Tensor2::xy, Tensor2::yx, Tensor2::yy].map(|f| range(&f)),
             singular_values: [0, 1].map(|i| range(&|t| Svd::of(t).s[i])),
@@ -121,7 +124,7 @@ impl FieldFacts {
                 ("asymmetric", share(&|t| !symmetry.has_symmetric(t))),
                 ("complex", complex),
                 ("indefinite", share(&|t| Eigenvalues::of(t).is_indefinite())),
-                ("negative", share(&|t| Eigenvalues::of(t).negative() > 0)),
+                ("negative", negative),
                 ("total_anisotropy", share(&|t| !t.is_zero() && is_totally_anisotropic(t))),
             ],
         }
@@ -232,7 +235,7 @@ mod tests {
         ];
         let field = Field::from_fn(Grid::new(4, 1).expect("a grid"), |c| tensors[c.x]);
         let facts = FieldFacts::of(&field);
-        assert_eq!(facts.negative_eigenvalues, [3, 1, 0]);
+        assert_eq!(facts.negative_eigenvalues, [2, 1, 0]);
         let share = |name| facts.shares.iter().find(|(n, _)| *n == name).map(|(_, share)| *share);
         let found = ["zero", "asymmetric", "complex", "indefinite", "negative"].map(share);
         assert_eq!(found, [Some(0.25); 5]);

@@ -68,8 +68,8 @@ pub(crate) struct Request<'a> {
 /// What was read, and the format in words.
 pub(crate) type Found = (&'static str, Lattice);
 
-/// Text matrices: their tensors are normalised cell by cell where nobody says otherwise.
-pub const TEXT_MATRICES: &str = "text matrices";
+/// Text matrices.
+pub(crate) const TEXT_MATRICES: &str = "text matrices";
 
 /// NumPy's formats, whose arrays say nothing of the axes of components.
 pub(crate) const NUMPY: [&str; 2] = ["NumPy array", "NumPy archive"];

@@ -8,6 +8,7 @@
 //!
 //! The program's commands and the fields of experiment files go the same way. Whoever calls reads the bytes.
 
+mod dip;
 mod error;
 mod facts;
 mod file;
@@ -22,7 +23,7 @@ mod threshold;
 pub use error::InputError;
 pub use facts::{Anisotropies, FieldFacts, Range, VolumeFacts};
 pub use file::{Content, TensorFile, finite_volume, open};
-pub use formats::{TEXT_MATRICES, format_of, is_readable};
+pub use formats::{format_of, is_readable};
 pub use plane::{PlaneField, not_finite_words};
 pub use reading::{Derivation, Derived, Reading};
 pub use threshold::suggested_local_above;

@@ -199,7 +199,7 @@ impl PlaneField {
         let rows = (grid.height() as f64 * dy / dx).round().max(1.0);
         let (columns, rows) =
             if dx > dy { (columns, grid.height() as f64) } else { (grid.width() as f64, rows) };
-        let warning = format!("WARNING: cells are {dx} x {dy}, and light takes them as squares");
+        let warning = format!("WARNING: cells are {dx} x {dy}, and light treats them as squares");
         let possible =
             columns.max(rows) <= MAX_RESAMPLED as f64 && columns * rows <= MAX_RESAMPLED_CELLS as f64;
         let advice = format!("; --resample {columns}x{rows} makes them so");

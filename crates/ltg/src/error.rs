@@ -15,7 +15,7 @@ pub enum LtgError {
         directions: usize,
     },
     /// A slice that does not exist.
-    #[error("slice {slice} does not exist: expected 0 to {}", directions - 1)]
+    #[error("slice {slice} does not exist: expected a sample index from 0 to {}; 90 degrees are slice {}", directions - 1, directions / 4)]
     Slice {
         /// Slice asked for.
         slice: usize,

@@ -19,6 +19,7 @@ mod map_frame;
 mod multiples;
 pub mod number;
 mod orientation;
+mod outline;
 mod overlay;
 mod plain_map;
 mod png_export;
@@ -43,6 +44,7 @@ pub use glyphs::{
 pub use heat_map::{Difference, HeatOptions, HeatScale, difference_map, heat_map};
 pub use multiples::small_multiples;
 pub use orientation::{OrientationOptions, orientation_map};
+pub use outline::outline;
 pub use overlay::Overlay;
 pub use plain_map::{PlainOptions, plain_map};
 pub use polar_overlay::{IntensityScale, PolarOptions, TransmissionScale, polar_overlay};

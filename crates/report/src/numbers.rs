@@ -105,7 +105,7 @@ pub(crate) fn count(n: u64) -> String {
 /// A message with its middle left out where somebody's input makes it longer than people read.
 #[must_use]
 pub fn shortened(message: &str) -> String {
-    const HEAD: usize = 500;
+    const HEAD: usize = 1500;
     const TAIL: usize = 300;
     let count = message.chars().count();
     if count <= HEAD + TAIL {

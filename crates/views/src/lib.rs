@@ -11,6 +11,7 @@ mod overlays;
 mod reel;
 pub mod ridges;
 pub mod topology;
+pub mod total_anisotropy;
 
 pub use overlays::{line_overlay, point_overlays};
 pub use reel::Reel;

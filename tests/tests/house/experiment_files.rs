@@ -134,6 +134,7 @@ impl Page<'_> {
             "Positive" => "number above 0".to_owned(),
             "NonNegative" => "number from 0".to_owned(),
             "Fraction" => "number from 0 to 1".to_owned(),
+            "Ratio" => "number from 1 to 1e12".to_owned(),
             "Sigma" => "number from 0 to 100".to_owned(),
             "DirectionCount" => "multiple of 8".to_owned(),
             "Parameter" => "number, `true`, `false` or text".to_owned(),

@@ -1,6 +1,8 @@
 //! Directions, schemes and transmissions with fewer words, and gradients by brute force.
 
-use tigereye_core::{Cell, Directions, Field, Grid, LtgVolume, Normalization, Tensor2, TransmissionField};
+use tigereye_core::{
+    Cell, Directions, Field, Grid, LtgVolume, Normalization, ProfileRule, Tensor2, TransmissionField, math,
+};
 use tigereye_transport::{Engine, Light, Problem, SampleSpace, Scheme, SharedWeights, Stopping};
 
 /// `samples` directions.
@@ -20,6 +22,32 @@ pub(crate) fn transmission(
     normalization: Normalization,
 ) -> TransmissionField {
     TransmissionField::from_tensors(tensors, directions(samples), normalization).expect("finite tensors")
+}
+
+/// Semi-axes of the cells of [`thin_field`]: direction in degrees, lengths. They turn by 3 degrees from cell to cell,
+/// never half-way between two samples, with ratios from 2 to 200.
+pub(crate) fn thin_axes([width, height]: [usize; 2], cell: Cell) -> (f64, f64, f64) {
+    let i = (cell.y * width + cell.x) as f64;
+    let ratio = 2.0 * math::pow(100.0, i / (width * height - 1) as f64);
+    (3.0 * i + 1.0, 0.5 + 0.01 * i, (0.5 + 0.01 * i) / ratio)
+}
+
+/// Rules of total anisotropy, as options spell them.
+pub(crate) const THIN_RULES: [&str; 6] = ["20", "5", "none", "20:2", "8:4", "cap:20"];
+
+/// The transmission of round, thin and very thin tensors under a rule of total anisotropy.
+pub(crate) fn thin_field(
+    size: [usize; 2],
+    rule: &str,
+    samples: usize,
+    normalization: Normalization,
+) -> TransmissionField {
+    let tensors = Field::from_fn(Grid::new(size[0], size[1]).expect("a grid"), |c| {
+        let (angle_deg, s1, s2) = thin_axes(size, c);
+        Tensor2::from_eigen(math::radians(angle_deg), s1, s2)
+    });
+    let rule = ProfileRule { normalization, total_anisotropy: rule.parse().expect("a rule") };
+    TransmissionField::from_tensors(&tensors, directions(samples), rule).expect("finite tensors")
 }
 
 /// `b(x, y, t)` of every pulse as the definition has it, and the steps each one took.

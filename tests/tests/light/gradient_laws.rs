@@ -1,6 +1,8 @@
 //! Laws of the light transport gradient: its definition, its symmetries, and what it must not depend on.
 
-use crate::common::{AllPulses, bits, largest_relative_difference, scheme, transmission, with_threads};
+use crate::common::{
+    AllPulses, THIN_RULES, bits, largest_relative_difference, scheme, thin_field, transmission, with_threads,
+};
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -142,6 +144,19 @@ fn sweep_is_the_definition() {
                 assert_eq!(outcome.work.iterations_max, longest, "{what}");
             }
         }
+    }
+}
+
+/// The same, whatever becomes of thin tensors.
+#[test]
+fn sweep_is_the_definition_under_every_rule_of_total_anisotropy() {
+    for rule in THIN_RULES {
+        let transmission = thin_field([7, 6], rule, 16, Normalization::Local);
+        let scene = Scene { scheme: scheme(16), transmission };
+        let expected = AllPulses::solve(&scene.scheme, &scene.transmission, Stopping::REFERENCE).gradient(2);
+        let outcome = scene.sweep(&scene.settings(2));
+        let difference = largest_relative_difference(outcome.volume.values(), &expected);
+        assert!(difference <= BRUTE_FORCE, "{rule}: off by {difference:e}");
     }
 }
 

@@ -2,7 +2,7 @@
 //! and as far off as it says, and neither depends on how it was computed.
 
 use crate::common::{
-    AllPulses, bits, directions, largest_relative_difference, scheme, transmission, with_threads,
+    AllPulses, bits, directions, largest_relative_difference, scheme, thin_field, transmission, with_threads,
 };
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -146,6 +146,7 @@ fn scenes_to_cut() -> Vec<(&'static str, Scene, Option<Vec<usize>>)> {
     vec![
         ("random", Scene::of("random:width=9,height=8", 16), None),
         ("total anisotropy", Scene::of("rings:width=8,height=9,total=true", 24), None),
+        ("a blend", Scene::through(thin_field([8, 7], "20:2", 16, Normalization::Global)), None),
         ("walls", walled(), None),
         ("some slices", Scene::of("bow:width=7,height=9", 32), Some(vec![1, 8, 9, 30])),
     ]

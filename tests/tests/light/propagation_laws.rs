@@ -1,18 +1,18 @@
 //! Laws of the propagation: what holds for every field and every engine.
 
-use crate::common::{directions, scheme, transmission};
+use crate::common::{THIN_RULES, directions, scheme, thin_axes, thin_field, transmission};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 use tigereye_core::{
-    Cell, CoreError, Directions, Field, Grid, LightDistribution, Normalization, PolarProfile, StopReason,
-    Tensor2, TransmissionField, math,
+    Cell, CoreError, Directions, Field, Grid, LightDistribution, Normalization, PolarProfile, ProfileRule,
+    StopReason, Tensor2, TotalAnisotropy, TransmissionField, math,
 };
 use tigereye_fields::{Expression, generators};
 use tigereye_test_support::field;
 use tigereye_tests::{Symmetry, difference_over_largest};
 use tigereye_transport::{
-    ENGINES, EightLobe, Emission, Engine, Light, Outcome, Problem, SampleSpace, Scheme, Stopping,
-    StoppingRule, emitter,
+    ENGINES, EightLobe, Emission, Engine, Light, Outcome, Problem, SampleSpace, ScatteringRule, Scheme,
+    Stopping, StoppingRule, emitter,
 };
 
 /// Relative drift of the energy allowed over 80 steps (1): rounding alone reaches 1.4e-13 with S = 360.
@@ -30,6 +30,10 @@ const HOMOGENEITY: f64 = 1e-13;
 const NOT_ADDITIVE: f64 = 1e-3;
 /// Deviation of the attenuation from the numbers of the independent run (1), which were noted with three digits.
 const ATTENUATION: f64 = 5e-4;
+
+/// Difference of samples of profiles of mean 1 (1): a thin ellipse is 200 times its mean along its axis, and angles and
+/// vectors round differently.
+const THIN_PROFILE: f64 = 1e-11;
 
 /// Energy of a grid in which every number has become subnormal (W): 1e5 of them.
 const SUBNORMAL_GRID: f64 = 1e5 * f64::MIN_POSITIVE;
@@ -287,6 +291,140 @@ fn totally_anisotropic_cells_absorb_light_that_comes_across() {
         }
         assert_eq!(energy_after(4), 0.0, "{}", engine.name());
     }
+}
+
+/// The profile of a tensor by the text of the rule, in its own words: the ellipse of eq. 3.6 by angles, the pulse at
+/// the rounded angle, and between both the smooth step in the logarithm of the ratio of the semi-axes.
+fn profile_by_the_text(angle_deg: f64, s1: f64, s2: f64, rule: &str, samples: usize) -> Vec<f64> {
+    if let Some(ratio) = rule.strip_prefix("cap:") {
+        let thickest = s1 / ratio.parse::<f64>().expect("a ratio");
+        return profile_by_the_text(angle_deg, s1, s2.max(thickest), "none", samples);
+    }
+    let weight = match rule.split_once(':') {
+        None if rule == "none" => 0.0,
+        None => f64::from(u8::from(s1 / s2 > rule.parse::<f64>().expect("a ratio"))),
+        Some((ratio, width)) => {
+            let [ratio, width] = [ratio, width].map(|n| n.parse::<f64>().expect("a number"));
+            let u = (0.5 + 0.5 * math::ln(s1 / s2 / ratio) / math::ln(width)).clamp(0.0, 1.0);
+            u * u * (3.0 - 2.0 * u)
+        }
+    };
+    let phi = math::radians(angle_deg);
+    let peak = (angle_deg * samples as f64 / 360.0).round() as usize;
+    (0..samples)
+        .map(|t| {
+            let off = math::TAU * t as f64 / samples as f64 - phi;
+            let ellipse = s1 * s2 / math::hypot(s1 * math::sin(off), s2 * math::cos(off));
+            let pulse = if t == peak % samples || t == (peak + samples / 2) % samples { s1 } else { 0.0 };
+            (1.0 - weight) * ellipse + weight * pulse
+        })
+        .collect()
+}
+
+/// The profiles of every rule of total anisotropy, against those written down from the text.
+#[test]
+fn thin_tensors_transmit_as_the_rule_of_total_anisotropy_says() {
+    for rule in THIN_RULES {
+        for samples in [16, 32, 40] {
+            let [local, global] = [Normalization::Local, Normalization::Global]
+                .map(|normalization| thin_field([9, 7], rule, samples, normalization));
+            let expected: Vec<Vec<f64>> = (local.grid().iter())
+                .map(|cell| {
+                    let (angle_deg, s1, s2) = thin_axes([9, 7], cell);
+                    profile_by_the_text(angle_deg, s1, s2, rule, samples)
+                })
+                .collect();
+            let mean = |profile: &[f64]| profile.iter().sum::<f64>() / samples as f64;
+            let largest = expected.iter().map(|p| mean(p)).fold(0.0, f64::max);
+            for (cell, profile) in local.grid().iter().zip(&expected) {
+                let off = |found: &PolarProfile, scale: f64| {
+                    let pairs = found.samples().iter().zip(profile);
+                    pairs.map(|(f, e)| (f - e / scale).abs()).fold(0.0, f64::max)
+                };
+                let found = [off(&local.profile(cell), mean(profile)), off(&global.profile(cell), largest)];
+                assert!(
+                    found.iter().all(|off| *off < THIN_PROFILE),
+                    "{rule}, S = {samples}: {cell:?}: {found:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Whatever becomes of thin tensors, the engines agree with the oracle, with either scattering.
+#[test]
+fn engines_agree_under_every_rule_of_total_anisotropy() {
+    for rule in THIN_RULES {
+        for scattering in [ScatteringRule::Joint, ScatteringRule::Linear] {
+            let scheme = scheme(32).with_scattering(scattering);
+            let transmission = thin_field([9, 7], rule, 32, Normalization::Global);
+            for light in lights_of_every_kind(Cell::new(4, 3), scheme.directions()) {
+                let lights = [light];
+                let stopping = Stopping::steps(25);
+                let problem =
+                    Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
+                let expected = propagate(&SampleSpace, &problem);
+                for &engine in ENGINES {
+                    let found = propagate(engine, &problem);
+                    let off = difference_over_largest(samples_of(&found), samples_of(&expected));
+                    assert!(off <= AGREEMENT, "{}, {rule}, {scattering:?}: {off:e}", engine.name());
+                }
+            }
+        }
+    }
+}
+
+/// A blend of ellipse and pulse passes on all that arrives, as long as something of it fits through: in the middle of a
+/// wide field, all of it.
+#[test]
+fn no_rule_of_total_anisotropy_creates_or_loses_light() {
+    let grid = Grid::new(41, 41).expect("a grid");
+    let tensors = Field::from_fn(grid, |c| {
+        Tensor2::from_eigen(0.1 * c.x as f64 + 0.05 * c.y as f64, 1.0, 1.0 / (10.0 + c.y as f64 * 0.7))
+    });
+    for total_anisotropy in [TotalAnisotropy::NONE, TotalAnisotropy::SMOOTH, TotalAnisotropy::CAPPED] {
+        let rule = ProfileRule { normalization: Normalization::Local, total_anisotropy };
+        let transmission =
+            TransmissionField::from_tensors(&tensors, directions(32), rule).expect("finite tensors");
+        for scattering in [ScatteringRule::Joint, ScatteringRule::Linear] {
+            let scheme = scheme(32).with_scattering(scattering);
+            let lights =
+                [Light::impulse(Cell::new(20, 20), PolarProfile::constant(scheme.directions(), 1.0))];
+            // The rim is 20 cells away.
+            let stopping = Stopping::steps(19);
+            let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
+            for &engine in ENGINES {
+                let energy = propagate(engine, &problem).distribution.total_energy();
+                let off = (energy / math::TAU - 1.0).abs();
+                assert!(off < ENERGY_DRIFT, "{}, {total_anisotropy}, {scattering:?}: {off:e}", engine.name());
+            }
+        }
+    }
+}
+
+/// A step makes light jump where the ratio of the axes passes it; a blend and a cap do not.
+#[test]
+fn blends_and_caps_change_light_as_little_as_the_tensor_changes() {
+    let light = |ratio: f64, total_anisotropy: TotalAnisotropy| {
+        let tensors = Field::from_fn(Grid::new(15, 15).expect("a grid"), |_| {
+            Tensor2::from_eigen(0.2, 1.0, 1.0 / ratio)
+        });
+        let rule = ProfileRule { normalization: Normalization::Local, total_anisotropy };
+        let transmission =
+            TransmissionField::from_tensors(&tensors, directions(32), rule).expect("finite tensors");
+        let scheme = scheme(32);
+        let lights = [Light::continuous(Cell::new(7, 7), PolarProfile::constant(scheme.directions(), 1.0))];
+        let stopping = Stopping::steps(30);
+        let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
+        propagate(&EightLobe, &problem)
+    };
+    let jump = |rule| {
+        let [before, after] = [19.99, 20.01].map(|ratio| light(ratio, rule));
+        difference_over_largest(samples_of(&before), samples_of(&after))
+    };
+    let rules = [TotalAnisotropy::PUBLISHED, TotalAnisotropy::SMOOTH, TotalAnisotropy::CAPPED];
+    let [step, blend, cap] = rules.map(jump);
+    assert!(step > 0.05 && blend < 0.001 && cap < 0.001, "step {step}, blend {blend}, cap {cap}");
 }
 
 /// Moves the samples and fluxes of a distribution: `(samples, fluxes)`, cell-major in the moved grid.

@@ -1,7 +1,7 @@
 //! The command line of the classical methods.
 
 use super::reading::ReadingArgs;
-use super::values::{choice, families};
+use super::values::{choice, families, input_help};
 use crate::error::CliError;
 use crate::input::Input;
 use clap::{Args, ValueEnum};
@@ -22,7 +22,7 @@ pub(crate) enum MethodName {
 /// Tensors, and which of their axes.
 #[derive(Debug, Args)]
 pub(crate) struct AxesArgs {
-    /// A data file, a field file or a generator.
+    #[arg(help = input_help())]
     pub(crate) input: String,
     /// The axes to follow; by default eigen where the field is symmetric (but for rounding), half otherwise.
     #[arg(long, value_parser = choice::<Axes>())]
@@ -161,7 +161,7 @@ pub(crate) struct FtleArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct GlyphsArgs {
-    /// A data file, a field file or a generator.
+    #[arg(help = input_help())]
     pub(crate) input: String,
     /// Outputs by their extensions: .vtp, .png, .svg.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
@@ -213,8 +213,8 @@ pub(crate) struct RidgesArgs {
     /// square.
     #[arg(long, value_name = "CELLS", default_value = "2", value_parser = parse_extent)]
     pub(crate) least_length: f64,
-    /// How many cells (smaller sides) the distance of two layers counts for; what is across a ridge depends on it. By
-    /// default 1 for the directions of a gradient, and the file's own distance otherwise.
+    /// Distance between two layers, in cells (smaller sides), when directions across ridges are determined: 1 by
+    /// default for the directions of a gradient, and the file's own distance otherwise.
     #[arg(long, value_name = "CELLS", value_parser = parse_step)]
     pub(crate) direction_length: Option<f64>,
     /// Steps a cell in which ridges are looked for; 2 for a layer and 1 for surfaces by default.

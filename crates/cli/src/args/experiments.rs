@@ -10,9 +10,12 @@ pub(crate) struct ReproduceArgs {
     /// Folder for the report, figures and data.
     #[arg(long, value_name = "DIR", default_value = "results")]
     pub(crate) out: PathBuf,
-    /// Only this experiment; may be repeated.
+    /// Only the experiment of this name, or all whose names begin so (`fig-4-5`); may be repeated.
     #[arg(long, value_name = "SLUG")]
     pub(crate) only: Vec<String>,
+    /// List the experiments with their titles instead of running them.
+    #[arg(long)]
+    pub(crate) list: bool,
     /// The thesis's own resolutions: takes much longer.
     #[arg(long)]
     pub(crate) full: bool,

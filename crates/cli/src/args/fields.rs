@@ -1,10 +1,11 @@
 //! The command line of the test fields.
 
+use super::light::ProfileArgs;
 use super::reading::ReadingArgs;
-use super::values::{choice, parse_cell, parse_normalization};
+use super::values::{choice, input_help, parse_cell};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
-use tigereye_core::{Choice, Normalization};
+use tigereye_core::Choice;
 use tigereye_transport::ScatteringRule;
 
 #[derive(Debug, Subcommand)]
@@ -15,7 +16,7 @@ pub(crate) enum FieldCommand {
     New(FieldNewArgs),
     /// A sheet about a field: ellipses, lines, anisotropy, determinant, one light, a gradient.
     Show(FieldShowArgs),
-    /// What is odd about a field.
+    /// Likely mistakes in a field.
     Lint(FieldLintArgs),
 }
 
@@ -40,7 +41,7 @@ pub(crate) struct FieldNewArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct FieldShowArgs {
-    /// A field file, a data file or a generator.
+    #[arg(help = input_help())]
     pub(crate) input: String,
     /// The sheet, .png or .svg.
     #[arg(short, long = "output", value_name = "FILE")]
@@ -54,17 +55,19 @@ pub(crate) struct FieldShowArgs {
     /// What a cell does to light from several sides.
     #[arg(long, default_value = ScatteringRule::Joint.word(), value_parser = choice::<ScatteringRule>())]
     pub(crate) scattering: ScatteringRule,
-    /// Scaling of transmission profiles; as `ltg` by default.
-    #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
-    pub(crate) normalization: Option<Normalization>,
+    #[command(flatten)]
+    pub(crate) profiles: ProfileArgs,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct FieldLintArgs {
-    /// A field file, a data file or a generator.
+    #[arg(help = input_help())]
     pub(crate) input: String,
+    /// Also list what is worth knowing and no mistake: shares of zero, indefinite, asymmetric tensors and the like.
+    #[arg(long)]
+    pub(crate) all: bool,
     /// As JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,

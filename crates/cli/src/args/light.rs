@@ -2,12 +2,13 @@
 
 use super::reading::ReadingArgs;
 use super::values::{
-    choice, parse_bytes, parse_count, parse_directions, parse_normalization, parse_percentage, parse_seconds,
-    parse_seed, parse_shard, parse_side, parse_sketches, parse_threads, parse_threshold,
+    choice, medium_help, parse_bytes, parse_count, parse_directions, parse_normalization, parse_percentage,
+    parse_seconds, parse_seed, parse_shard, parse_side, parse_sketches, parse_threads, parse_threshold,
+    parse_total_anisotropy,
 };
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use tigereye_core::{Choice, Directions, Normalization};
+use tigereye_core::{Choice, Directions, Normalization, ProfileRule, TotalAnisotropy};
 use tigereye_ltg::{Precision, Shard};
 use tigereye_transport::{ScatteringRule, Scheme, SharedWeights, StopMeasure, Stopping};
 
@@ -22,6 +23,31 @@ pub(crate) struct Resources {
     pub(crate) memory: Option<u64>,
 }
 
+/// How tensors become transmission profiles.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct ProfileArgs {
+    /// Scaling of transmission profiles: local (each by itself, nothing absorbs; the default), global (all by the
+    /// largest mean of the field: weaker cells absorb), local-above:F (local from the fraction F of it upwards, weaker
+    /// cells absorb all) or local-above-global:F (weaker cells as global).
+    #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
+    pub(crate) normalization: Option<Normalization>,
+    /// Beyond which ratio R of its semi-axes a tensor transmits along one axis only; 20 by default. R:WIDTH blends
+    /// gradually from R/WIDTH to R*WIDTH (`smooth`: 20:2); with cap:R such a tensor has the ellipse of the ratio R
+    /// (`cap`: cap:20); with `none` only tensors with a vanishing axis transmit along one axis only.
+    #[arg(long, value_name = "R", value_parser = parse_total_anisotropy, allow_hyphen_values = true)]
+    pub(crate) total_anisotropy: Option<TotalAnisotropy>,
+}
+
+impl ProfileArgs {
+    /// The rule, asked for or usual.
+    pub(crate) fn rule(&self) -> ProfileRule {
+        ProfileRule {
+            normalization: self.normalization.unwrap_or(Normalization::Local),
+            total_anisotropy: self.total_anisotropy.unwrap_or_default(),
+        }
+    }
+}
+
 /// What determines a propagation.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct SchemeArgs {
@@ -34,15 +60,14 @@ pub(crate) struct SchemeArgs {
     /// Stop when the stopping rule's measure falls below F, 0.5 by default; 0 never stops early.
     #[arg(long, value_name = "F", value_parser = parse_threshold, allow_hyphen_values = true)]
     pub(crate) threshold: Option<f64>,
-    /// At most N+1 steps; 1000 by default.
+    /// Stop after N+1 steps at the latest; 1000 by default.
     #[arg(long, value_name = "N", value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) max_iterations: Option<usize>,
     /// What the threshold is compared with; `stationary` by default with linear scattering, `flux` otherwise.
     #[arg(long, value_parser = choice::<StopMeasure>())]
     pub(crate) stop: Option<StopMeasure>,
-    /// global, local, local-above:F or local-above-global:F; `local` for generators and .txt, `global` otherwise.
-    #[arg(long, value_name = "RULE", value_parser = parse_normalization)]
-    pub(crate) normalization: Option<Normalization>,
+    #[command(flatten)]
+    pub(crate) profiles: ProfileArgs,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
 }
@@ -71,8 +96,7 @@ impl SchemeArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct PropagateArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or
-    /// NAME:key=value,key=value; or a scene (NAME.scene.ron).
+    #[arg(help = medium_help())]
     pub(crate) input: String,
     /// A light: column, row and, after a further comma, its profile as an expression in `theta` (default 1). A scene
     /// has lights of its own where none is given.
@@ -113,8 +137,7 @@ pub(crate) enum Picture {
 
 #[derive(Debug, Args)]
 pub(crate) struct LtgArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or
-    /// NAME:key=value,key=value; or a scene (NAME.scene.ron).
+    #[arg(help = medium_help())]
     pub(crate) input: String,
     /// Outputs by their extensions: .vti, .npy; .png, .svg show the only slice, or the mean over the slices. With
     /// --shard one .part.

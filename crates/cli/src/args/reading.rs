@@ -1,6 +1,6 @@
 //! The command line of reading, converting and comparing.
 
-use super::values::{parse_count, parse_sigma, parse_size, parse_threshold};
+use super::values::{input_help, parse_count, parse_sigma, parse_size, parse_threshold};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use tigereye_input::{Derivation, Derived, Reading};
@@ -194,8 +194,7 @@ impl From<PlaneName> for Plane {
 
 #[derive(Debug, Args)]
 pub(crate) struct InfoArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz) or a generator, NAME or
-    /// NAME:key=value,key=value.
+    #[arg(help = input_help())]
     pub(crate) input: String,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
@@ -227,8 +226,7 @@ impl From<WriteOrder> for WrittenAs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ConvertArgs {
-    /// A file (.txt .npy .npz .vti .vtp .vtk .nrrd .nhdr .nii .nii.gz .png) or a generator, NAME or
-    /// NAME:key=value,key=value.
+    #[arg(help = input_help())]
     pub(crate) input: String,
     /// The output by its extension: .vti, .vtp, .vtk, .nrrd, .nii, .nii.gz, .npy or .txt. A volume without a plane is
     /// written whole, which .npy and .txt cannot hold.

@@ -1,8 +1,9 @@
 //! Values of options: from their words, or what was expected.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use tigereye_core::{Choice, CoreError, Directions, Normalization};
+use tigereye_core::{Choice, CoreError, Directions, Normalization, TotalAnisotropy};
 use tigereye_fields::images::MAX_SIGMA;
+use tigereye_input::formats::readable_extensions;
 use tigereye_lines::Family;
 use tigereye_ltg::{FEWEST_SKETCHES, MOST_SKETCHES, Shard};
 
@@ -106,6 +107,23 @@ pub(crate) fn parse_bytes(text: &str) -> Result<u64, String> {
 
 pub(crate) fn parse_normalization(text: &str) -> Result<Normalization, String> {
     text.parse().map_err(|e: CoreError| e.to_string())
+}
+
+pub(crate) fn parse_total_anisotropy(text: &str) -> Result<TotalAnisotropy, String> {
+    text.parse().map_err(|e: CoreError| e.to_string())
+}
+
+/// What INPUT may be, for help texts.
+pub(crate) fn input_help() -> String {
+    format!(
+        "A data file ({}), a field file (NAME.field.ron) or a generator, NAME or NAME:key=value,key=value",
+        readable_extensions().replace(" or ", ", ").replace(',', "")
+    )
+}
+
+/// What INPUT of commands of light may be, for help texts.
+pub(crate) fn medium_help() -> String {
+    input_help() + "; or a scene (NAME.scene.ron)"
 }
 
 /// The parser of a choice by name, with the descriptions for help texts.

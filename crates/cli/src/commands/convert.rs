@@ -1,7 +1,7 @@
 //! `tigereye convert`: any readable tensor field to another format.
 
 use crate::args::reading::ConvertArgs;
-use crate::commands::command_line;
+use crate::commands::{command_line, print_text};
 use crate::error::CliError;
 use crate::input::{Input, Source, insert_reading};
 use crate::{files, interrupt};
@@ -46,7 +46,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
         Source::File(file) => file.remarks(),
         Source::Generated(_) => Vec::new(),
     };
-    let bytes = match (source, writer) {
+    let (bytes, size) = match (source, writer) {
         (
             Source::File(TensorFile { content: Content::Tensors(volume), name, blake3, .. }),
             TensorWriter::Volume(writer),
@@ -73,7 +73,8 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 eprintln!("{name}: the file has no components along the third axis: written as zero");
             }
             // What the file states about its components stands; the option says how they are written.
-            encoded(writer, &volume.as_stated(), frame, args, &blake3)
+            let size = volume.lattice().size;
+            (encoded(writer, &volume.as_stated(), frame, args, &blake3), size)
         }
         (source, writer) => {
             let (scalar, world) = match &source {
@@ -94,7 +95,8 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                     input.name
                 );
             }
-            match writer {
+            let grid = input.field.grid();
+            let bytes = match writer {
                 TensorWriter::Plane(write) => write(&input.field),
                 TensorWriter::Volume(writer) => {
                     let geometry = &input.geometry;
@@ -118,12 +120,20 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                     // The plane's own axes, whatever the tensors were read along.
                     encoded(writer, &volume, Frame::World, args, &input.blake3)
                 }
-            }
+            };
+            (bytes, [grid.width(), grid.height(), 1])
         }
     };
     let bytes = bytes.map_err(|e| CliError::input(&name, e))?;
     interrupt::check()?;
     files::write(&args.output, &bytes)?;
+    let [width, height, depth] = size;
+    let depth = if depth > 1 { format!(" x {depth}") } else { String::new() };
+    print_text(&format!(
+        "{width} x {height}{depth} tensors of {} written to {}\n",
+        args.input,
+        args.output.display()
+    ))?;
     Ok(0)
 }
 

@@ -3,7 +3,7 @@
 use crate::args::fields::{FieldLintArgs, FieldListArgs, FieldNewArgs, FieldShowArgs};
 use crate::commands::PNG_SCALE;
 use crate::commands::propagate::check_outputs;
-use crate::commands::{print_json, print_text, quoted};
+use crate::commands::{counted, print_json, print_text, quoted};
 use crate::error::CliError;
 use crate::input::Input;
 use crate::{files, interrupt, system};
@@ -30,8 +30,7 @@ pub(crate) fn list(args: &FieldListArgs) -> Result<u8, CliError> {
 pub(crate) fn new(args: &FieldNewArgs) -> Result<u8, CliError> {
     let name = &args.name;
     if !field_file::is_name(name) {
-        let problem =
-            "is no name: expected up to 60 lower-case letters, digits, - and _, not beginning with -";
+        let problem = "is not a valid name: expected up to 60 lower-case letters, digits, - and _, not beginning with -";
         return Err(CliError::input(name, problem));
     }
     let generator = tigereye_fields::find(name);
@@ -79,7 +78,7 @@ pub(crate) fn show(args: &FieldShowArgs) -> Result<u8, CliError> {
     input.check_apart(std::slice::from_ref(&args.output))?;
     let options = SheetOptions {
         title: input.title.clone().unwrap_or_else(|| input.name.clone()),
-        normalization: input.normalization(args.normalization),
+        rule: args.profiles.rule(),
         scattering: args.scattering,
         light: args.light.map(|[x, y]| Cell::new(x, y)),
         slice_deg: args.slice_deg,
@@ -96,6 +95,8 @@ pub(crate) fn show(args: &FieldShowArgs) -> Result<u8, CliError> {
         picture.to_svg().map(String::into_bytes)
     };
     files::write(&args.output, &bytes.map_err(|e| CliError::input(&name, e))?)?;
+    let grid = input.field.grid();
+    print_text(&format!("sheet of {} x {} tensors written to {name}\n", grid.width(), grid.height()))?;
     Ok(0)
 }
 
@@ -114,7 +115,13 @@ pub(crate) fn lint(args: &FieldLintArgs) -> Result<u8, CliError> {
     if args.json {
         let oddity = |o: &Oddity| {
             let first = o.first.map(|c| [c.x, c.y]);
-            json!({ "kind": o.kind, "count": o.count, "first": first, "words": o.words })
+            json!({
+                "kind": o.kind,
+                "likely_mistake": o.is_likely_mistake,
+                "count": o.count,
+                "first": first,
+                "words": o.words,
+            })
         };
         let grid = input.field.grid();
         print_json(&json!({
@@ -125,12 +132,18 @@ pub(crate) fn lint(args: &FieldLintArgs) -> Result<u8, CliError> {
         }))?;
         return Ok(0);
     }
-    let mut text = match found.len() {
-        0 => format!("{}: nothing odd\n", input.name),
-        1 => format!("{}: one thing is odd\n", input.name),
-        n => format!("{}: {n} things are odd\n", input.name),
+    let (likely, notes): (Vec<_>, Vec<_>) = found.iter().partition(|o| o.is_likely_mistake);
+    let mut text = match likely.len() {
+        0 => format!("{}: no findings", input.name),
+        n => format!("{}: {}", input.name, counted(n, "finding")),
     };
-    for o in &found {
+    text += &match notes.len() {
+        0 => "\n".to_owned(),
+        n if args.all => format!(" and {}\n", counted(n, "note")),
+        n => format!(" ({} with --all)\n", counted(n, "note")),
+    };
+    let notes = notes.into_iter().filter(|_| args.all);
+    for o in likely.into_iter().chain(notes) {
         let place = o.first.map_or_else(String::new, |c| format!(" (first: cell ({}, {}))", c.x, c.y));
         let _ = writeln!(text, "  {:<16}  {}{place}", o.kind, o.words);
     }

@@ -1,7 +1,7 @@
 //! `tigereye glyphs`: a glyph for every tensor.
 
 use crate::args::classical::GlyphsArgs;
-use crate::commands::drawing;
+use crate::commands::{drawing, print_text};
 use crate::error::CliError;
 use crate::files;
 use serde_json::json;
@@ -47,5 +47,7 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
     drawing::write(&args.outputs, &|| Ok(glyphs(&input.field, &options)), &|| {
         vtp::write(&poly_data(&input.field, &options, &drawing::placement(&input), &story))
     })?;
+    let grid = input.field.grid();
+    print_text(&format!("{} x {} tensors as glyphs\n", grid.width(), grid.height()))?;
     Ok(0)
 }

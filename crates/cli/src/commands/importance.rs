@@ -2,7 +2,7 @@
 
 use crate::args::light::{Picture, PropagateArgs};
 use crate::commands::light_options::{cell_and_profile, parameters};
-use crate::commands::{PNG_SCALE, command_line, print_json, print_text};
+use crate::commands::{PNG_SCALE, advice, command_line, print_json, print_text};
 use crate::error::CliError;
 use crate::medium::MediumInput;
 use crate::{files, interrupt, system};
@@ -16,6 +16,7 @@ use tigereye_io::{Rows, npy, vti};
 use tigereye_render::{PolarOptions, Scene, TransmissionScale, polar_overlay};
 use tigereye_transport::{LinearScattering, Scattering, ScatteringRule, StoppingRule, TransportError};
 use tigereye_views::light;
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// Relative change of the importance per step at which it counts as stationary.
 const TOLERANCE: f64 = 1e-10;
@@ -47,8 +48,10 @@ pub(super) fn importance(
     let directions = args.scheme.directions;
     let (cell, sensitivity) = cell_and_profile("--towards", receiver, directions)?;
     let sensitivity = sensitivity.clipped();
-    let normalization = input.normalization(args.scheme.normalization)?;
-    let transmission = input.transmission(directions, normalization)?;
+    let rule = input.rule(&args.scheme.profiles)?;
+    let thin = input.thin_cells(rule);
+    advice::tell_thin(input.name(), thin.as_ref());
+    let transmission = input.transmission(directions, rule)?;
     let scheme = args.scheme.scheme();
     let scattering = Scattering::new(&scheme, &transmission);
     let field = LinearScattering::new(&scattering);
@@ -61,11 +64,11 @@ pub(super) fn importance(
         TransportError::Unsettled { .. } => CliError::input(input.name(), e),
         e => CliError::input("--towards", e),
     })?;
-    let parameters = parameters(args, &stopping, &input.normalization_name(normalization));
+    let parameters = parameters(args, &stopping, input, rule);
     let rows = Rows::of_results(input.geometry());
     let story = provenance(&command_line(), &with_rows(parameters, rows), input.blake3());
     for output in &args.outputs {
-        let drawn = || picture(args, input, &transmission, &importance, cell);
+        let drawn = || picture(args, input, &transmission, &importance, (cell, thin.as_ref()));
         let fault = |e: &dyn std::fmt::Display| CliError::input(&output.display().to_string(), e);
         let bytes = match files::extension(Path::new(output)).as_str() {
             "npy" => npy::write_light(&importance),
@@ -109,8 +112,9 @@ fn picture(
     input: &MediumInput,
     transmission: &TransmissionField,
     importance: &LightDistribution,
-    receiver: Cell,
+    (receiver, thin): (Cell, Option<&ThinCells>),
 ) -> Scene {
+    let overlays = thin.map(ThinCells::overlay).into_iter().collect();
     let (title, walls) =
         (format!("importance for ({}, {}): {}", receiver.x, receiver.y, input.title()), input.surfaces());
     let cell = CellShape::of(input.geometry().spacing());
@@ -123,6 +127,7 @@ fn picture(
                 quantity: "importance",
                 walls: walls.cloned(),
                 transmission: TransmissionScale::Rate,
+                overlays,
                 cell,
                 ..PolarOptions::default()
             };
@@ -137,6 +142,7 @@ fn picture(
                 source_name: Some("receiver"),
                 dark_name: Some("unimportant"),
                 walls: walls.cloned(),
+                overlays,
                 cell,
                 ..light::Request::default()
             };

@@ -1,7 +1,7 @@
 //! `tigereye info`: what a tensor field holds and how it was read.
 
 use crate::args::reading::InfoArgs;
-use crate::commands::{lattice, print_json, print_text};
+use crate::commands::{in_digits, in_lengths, lattice, print_json, print_text};
 use crate::error::CliError;
 use crate::input::{Input, Source};
 use crate::{files, geometry, interrupt};
@@ -152,7 +152,7 @@ fn facts(input: &Input) -> Value {
 
 fn as_text(facts: &Value) -> String {
     let mut text = String::new();
-    let number = |v: &Value| v.as_f64().map_or_else(String::new, |x| format!("{x:.6e}"));
+    let number = |v: &Value| v.as_f64().map_or_else(String::new, in_digits);
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
@@ -161,7 +161,7 @@ fn as_text(facts: &Value) -> String {
         facts["kind"].as_str().unwrap_or_default(),
         facts["width"],
         facts["height"],
-        facts["spacing"]
+        in_lengths(&facts["spacing"])
     );
     for line in facts["assumptions"].as_array().into_iter().flatten() {
         let _ = writeln!(text, "  {}", line.as_str().unwrap_or_default());
@@ -191,7 +191,8 @@ fn as_text(facts: &Value) -> String {
     if let Some(fraction) = facts["suggested_local_above"].as_f64() {
         let _ = writeln!(
             text,
-            "  threshold between weak and strong cells: {fraction:.3} of the largest transmission: --normalization local-above:{fraction:.3}"
+            "  two groups of cells, weak and strong: --normalization local-above:{fraction:.3} (Otsu) lets only the strong \
+             ones transmit"
         );
     }
     for remark in facts["remarks"].as_array().into_iter().flatten() {

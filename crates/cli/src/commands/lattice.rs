@@ -1,5 +1,6 @@
 //! What a volume holds, for `info`.
 
+use crate::commands::{in_digits, in_lengths};
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 use tigereye_input::{Range, TensorFile, VolumeFacts};
@@ -89,12 +90,12 @@ pub(super) fn as_text(facts: &Value) -> String {
         size(0),
         size(1),
         size(2),
-        facts["spacing"]
+        in_lengths(&facts["spacing"])
     );
     for line in facts["assumptions"].as_array().into_iter().flatten() {
         let _ = writeln!(text, "  {}", line.as_str().unwrap_or_default());
     }
-    let number = |v: &Value| v.as_f64().map_or_else(|| "-".to_owned(), |x| format!("{x:.6e}"));
+    let number = |v: &Value| v.as_f64().map_or_else(|| "-".to_owned(), in_digits);
     let rows = [
         ("components", &facts["range"]),
         ("l1", &facts["eigenvalues"][0]),
@@ -128,9 +129,13 @@ pub(super) fn shares_as_text(facts: &Value) -> String {
         let numbers: Vec<String> = (0..bars.len()).map(|n| n.to_string()).collect();
         let _ = writeln!(
             text,
-            "  tensors with {} negative eigenvalues: {}",
+            "  tensors with {} negative eigenvalues: {}{}",
             numbers.join(", "),
-            counts.join(" ")
+            counts.join(", "),
+            match facts["shares"]["complex"].as_f64() {
+                Some(share) if share > 0.0 => " (complex ones have no sign)",
+                _ => "",
+            }
         );
     }
     for (name, share) in facts["shares"].as_object().into_iter().flatten() {

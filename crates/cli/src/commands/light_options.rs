@@ -3,8 +3,9 @@
 use crate::args::light::PropagateArgs;
 use crate::error::CliError;
 use crate::input::insert_reading;
+use crate::medium::MediumInput;
 use serde_json::{Value, json};
-use tigereye_core::{Cell, Choice, Directions, PolarProfile};
+use tigereye_core::{Cell, Choice, Directions, PolarProfile, ProfileRule};
 use tigereye_experiments::lights::profile_of_expression;
 use tigereye_transport::Stopping;
 
@@ -19,7 +20,7 @@ pub(super) fn cell_and_profile(
     let mut coordinate = |name: &str| {
         let part = parts.next().unwrap_or_default().trim();
         part.parse::<usize>()
-            .map_err(|_| fault(format!("`{part}` is no {name}: expected X,Y or X,Y,PROFILE")))
+            .map_err(|_| fault(format!("`{part}` is not a valid {name}: expected X,Y or X,Y,PROFILE")))
     };
     let cell = Cell::new(coordinate("column")?, coordinate("row")?);
     let profile = match parts.next() {
@@ -30,7 +31,12 @@ pub(super) fn cell_and_profile(
 }
 
 /// The parameters of a propagation, for its provenance.
-pub(super) fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: &str) -> Value {
+pub(super) fn parameters(
+    args: &PropagateArgs,
+    stopping: &Stopping,
+    input: &MediumInput,
+    rule: ProfileRule,
+) -> Value {
     let mut parameters = json!({
         "input": args.input,
         "light": args.lights,
@@ -42,8 +48,8 @@ pub(super) fn parameters(args: &PropagateArgs, stopping: &Stopping, normalizatio
         "stop": args.scheme.stop().word(),
         "scattering": args.scheme.scattering.word(),
         "towards": args.towards,
-        "normalization": normalization,
     });
+    input.insert_rule(&mut parameters, rule);
     insert_reading(&mut parameters, &args.scheme.reading);
     parameters
 }

@@ -3,7 +3,7 @@
 use crate::args::light::LtgArgs;
 use crate::checkpoint::Checkpoint;
 use crate::commands::propagate::check_outputs;
-use crate::commands::{command_line, print_json, print_text, volume};
+use crate::commands::{advice, command_line, print_json, print_text, volume};
 use crate::error::CliError;
 use crate::input::insert_reading;
 use crate::medium::MediumInput;
@@ -13,7 +13,7 @@ use crate::{files, interrupt, system};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Instant;
-use tigereye_core::{Choice, Normalization};
+use tigereye_core::{Choice, ProfileRule};
 use tigereye_ltg::{
     LtgError, LtgSettings, Precision, Shard, SketchSettings, SketchSums, SketchedGradient, check_fit,
     check_linear_fit, linear_sweep_part, omega_step_of_volumes, sweep_part,
@@ -28,11 +28,13 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     input.check_apart(&args.outputs)?;
     input.check_apart(args.preview.as_slice())?;
     let settings = settings_of(args)?;
-    let normalization = input.normalization(args.scheme.normalization)?;
-    let parameters = parameters(args, &settings, &input.normalization_name(normalization));
-    let identity = Identity::new(&parameters, input.blake3(), *input.geometry());
+    let rule = input.rule(&args.scheme.profiles)?;
+    let thin = input.thin_cells(rule);
+    advice::tell_thin(input.name(), thin.as_ref());
+    let parameters = parameters(args, &settings, &input, rule);
+    let identity = Identity::new(&parameters, input.blake3(), *input.geometry(), thin);
     let (computed, costs) = system::on_threads(args.resources.threads, || {
-        compute(args, &settings, normalization, &input, &identity, start)
+        compute(args, &settings, rule, &input, &identity, start)
     })?;
     interrupt::check()?;
     let summary = computed.kept().summary(&identity, &costs);
@@ -129,7 +131,7 @@ fn check_places(args: &LtgArgs) -> Result<(), CliError> {
 fn compute(
     args: &LtgArgs,
     settings: &LtgSettings,
-    normalization: Normalization,
+    rule: ProfileRule,
     input: &MediumInput,
     identity: &Identity,
     start: Instant,
@@ -158,7 +160,7 @@ fn compute(
     let computed = match found {
         Some(content) if content.kept().missing(shard) == 0 => Ok(content),
         found => {
-            let transmission = input.transmission(directions, normalization)?;
+            let transmission = input.transmission(directions, rule)?;
             let scheme = args.scheme.scheme();
             let scattering = Scattering::new(&scheme, &transmission);
             match (args.scheme.scattering, found) {
@@ -294,7 +296,7 @@ fn settings_of(args: &LtgArgs) -> Result<LtgSettings, CliError> {
 }
 
 /// All parameters, resolved, under the names of the options.
-fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: &str) -> Value {
+fn parameters(args: &LtgArgs, settings: &LtgSettings, input: &MediumInput, rule: ProfileRule) -> Value {
     let mut parameters = json!({
         "input": args.input,
         "directions": args.scheme.directions.count(),
@@ -303,7 +305,6 @@ fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: &str) -> Va
         "stop": args.scheme.stop().word(),
         "scattering": args.scheme.scattering.word(),
         "omega_step": settings.omega_step,
-        "normalization": normalization,
         "slices": settings.slices,
         "precision": settings.precision.name(),
         "threads": args.resources.threads.unwrap_or_else(rayon::current_num_threads),
@@ -314,6 +315,7 @@ fn parameters(args: &LtgArgs, settings: &LtgSettings, normalization: &str) -> Va
         parameters["error"] = json!(args.error);
         parameters["seed"] = json!(args.seed.unwrap_or(0));
     }
+    input.insert_rule(&mut parameters, rule);
     insert_reading(&mut parameters, &args.scheme.reading);
     parameters
 }

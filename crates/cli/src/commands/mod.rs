@@ -1,5 +1,6 @@
 //! One module per command.
 
+pub(crate) mod advice;
 pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod compare;
@@ -51,6 +52,34 @@ pub(crate) fn counted(n: usize, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
 }
 
+/// A number with up to seven digits, as people write it: `0.25`, `1.5e-9`.
+pub(crate) fn in_digits(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1e-4..1e7).contains(&size) {
+        let text = format!("{x:.6e}");
+        return match text.split_once('e') {
+            Some((digits, exponent)) => format!("{}e{exponent}", trimmed(digits)),
+            None => text,
+        };
+    }
+    let before = format!("{size:.0}").len();
+    trimmed(&format!("{x:.*}", if size < 1.0 { 7 } else { 7_usize.saturating_sub(before) })).to_owned()
+}
+
+/// Without zeros behind the last digit that is none.
+fn trimmed(digits: &str) -> &str {
+    if digits.contains('.') { digits.trim_end_matches('0').trim_end_matches('.') } else { digits }
+}
+
+/// Lengths along the axes, `0.5 x 0.5`.
+pub(crate) fn in_lengths(lengths: &Value) -> String {
+    let lengths = lengths.as_array().into_iter().flatten();
+    lengths.map(|x| in_digits(x.as_f64().unwrap_or(f64::NAN))).collect::<Vec<_>>().join(" x ")
+}
+
 /// The command line as the user gave it, for provenance.
 pub(crate) fn command_line() -> String {
     // The path of the program is of no interest to others. File names need not be text.
@@ -70,7 +99,13 @@ pub(crate) fn quoted(word: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::quoted;
+    use super::{in_digits, quoted};
+
+    #[test]
+    fn numbers_are_written_as_people_do() {
+        let found = [0.0, 2.0, -0.25, 349.429_504, 1e-9, 1.5e12, 123_456.78, 1.0 / 3.0].map(in_digits);
+        assert_eq!(found, ["0", "2", "-0.25", "349.4295", "1e-9", "1.5e12", "123456.8", "0.3333333"]);
+    }
 
     #[test]
     fn words_survive_the_shell() {

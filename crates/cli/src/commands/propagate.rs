@@ -2,7 +2,7 @@
 
 use crate::args::light::{Picture, PropagateArgs};
 use crate::commands::light_options::{cell_and_profile, parameters};
-use crate::commands::{PNG_SCALE, command_line, counted, importance, print_json, print_text};
+use crate::commands::{PNG_SCALE, advice, command_line, counted, importance, print_json, print_text};
 use crate::error::CliError;
 use crate::medium::MediumInput;
 use crate::{files, interrupt, system};
@@ -16,11 +16,12 @@ use tigereye_core::{Cell, CellShape, Field, LightDistribution, StopReason, Surfa
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{Rows, npy, pvd, vti};
-use tigereye_render::{PolarOptions, Scene, TransmissionScale, polar_overlay};
+use tigereye_render::{Overlay, PolarOptions, Scene, TransmissionScale, polar_overlay};
 use tigereye_transport::{
     EightLobe, Emission, Engine, Light, Outcome, Problem, ScatteringRule, Stopping, StoppingRule,
     stationary_light,
 };
+use tigereye_views::total_anisotropy::ThinCells;
 use tigereye_views::{Reel, light};
 
 pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
@@ -40,13 +41,15 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
     if let Some(receiver) = &args.towards {
         return importance::importance(args, &input, receiver, start);
     }
-    let normalization = input.normalization(args.scheme.normalization)?;
+    let rule = input.rule(&args.scheme.profiles)?;
+    let thin = input.thin_cells(rule);
+    advice::tell_thin(input.name(), thin.as_ref());
     let lights = lights(args, &input)?;
-    let transmission = input.transmission(args.scheme.directions, normalization)?;
+    let transmission = input.transmission(args.scheme.directions, rule)?;
     let scheme = args.scheme.scheme();
     let stopping = args.steps.map_or_else(|| args.scheme.stopping(), Stopping::steps);
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
-    let parameters = parameters(args, &stopping, &input.normalization_name(normalization));
+    let parameters = parameters(args, &stopping, &input, rule);
     let rows = Rows::of_results(input.geometry());
     let story = provenance(&command_line(), &with_rows(parameters, rows), input.blake3());
     problem.check().map_err(|e| CliError::input("--light", e))?;
@@ -96,12 +99,24 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
         geometry: input.geometry(),
         title: input.title(),
         walls: input.surfaces(),
+        thin: thin.as_ref(),
         reel: reel.as_ref(),
     };
     for output in args.outputs.iter().filter(|o| !is_collection(o)) {
         files::write(output, &encoded(output, args, &drawn, &story)?)?;
     }
     collections.into_iter().try_for_each(Frames::finish)?;
+    let lit = advice::Lit {
+        input: &input,
+        rule,
+        transmission: &transmission,
+        thin: thin.as_ref(),
+        lights: &lights,
+        stopping: &stopping,
+        light: &outcome.distribution,
+        steps: (!is_solved).then_some(outcome.work.steps),
+    };
+    lit.tell();
     let unit = if is_solved { "sweep" } else { "step" };
     report(args, &input, lights.len(), (&outcome, unit), start.elapsed().as_secs_f64())?;
     Ok(0)
@@ -243,7 +258,7 @@ fn lights(args: &PropagateArgs, input: &MediumInput) -> Result<Vec<Light>, CliEr
     }
     let mut own = input.own_lights(args.scheme.directions)?;
     if own.is_empty() {
-        let problem = "nothing shines: expected a light, --light X,Y or --light X,Y,PROFILE";
+        let problem = "no light given: use --light X,Y or --light X,Y,PROFILE";
         return Err(CliError::input(input.name(), problem));
     }
     if args.impulse {
@@ -286,6 +301,7 @@ struct Drawn<'a> {
     geometry: &'a PlaneGeometry,
     title: &'a str,
     walls: Option<&'a Field<Option<Surface>>>,
+    thin: Option<&'a ThinCells>,
     /// The steps, where an animation is asked for.
     reel: Option<&'a Reel>,
 }
@@ -295,12 +311,17 @@ impl Drawn<'_> {
         self.problem.lights.iter().map(|l| l.cell).collect()
     }
 
+    fn overlays(&self) -> Vec<Overlay> {
+        self.thin.map(ThinCells::overlay).into_iter().collect()
+    }
+
     fn energy(&self) -> light::Request {
         light::Request {
             title: self.title.to_owned(),
             decades: Some(light::DECADES),
             sources: self.sources(),
             walls: self.walls.cloned(),
+            overlays: self.overlays(),
             cell: CellShape::of(self.geometry.spacing()),
             ..light::Request::default()
         }
@@ -314,6 +335,7 @@ impl Drawn<'_> {
                     sources: self.sources(),
                     walls: self.walls.cloned(),
                     transmission: TransmissionScale::Rate,
+                    overlays: self.overlays(),
                     cell: CellShape::of(self.geometry.spacing()),
                     ..PolarOptions::default()
                 };

@@ -10,8 +10,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use tigereye_experiments::scene::is_scene_file;
 use tigereye_experiments::{
-    ExperimentError, Host, Plan, RunError, Scope, evaluate, library, load, plan, slug_of,
+    ExperimentError, Host, Plan, RunError, Scope, evaluate, field_file, library, load, plan, slug_of,
 };
+use tigereye_fields::{did_you_mean, nearest};
 use tigereye_input::provenance;
 use tigereye_report::{About, ExperimentOutcome};
 
@@ -29,6 +30,14 @@ pub(crate) struct Source {
 
 impl Source {
     pub(crate) fn from_file(path: &Path) -> Result<Self, CliError> {
+        let name = path.display().to_string();
+        if name.ends_with(field_file::ENDING) {
+            let problem = format!(
+                "is a field file: expected an experiment; `tigereye field show {name}` shows it, experiments name it in \
+                 `fields` as File(path: \"{name}\")"
+            );
+            return Err(CliError::input(&name, problem));
+        }
         let folder = path
             .parent()
             .filter(|p| !p.as_os_str().is_empty())
@@ -73,14 +82,10 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<u8, CliError> {
         Some(folder) => in_folder(folder)?,
     };
     check_slugs(&sources)?;
-    if let Some(unknown) = args.only.iter().find(|only| !sources.iter().any(|s| s.slug() == **only)) {
-        let known: Vec<String> = sources.iter().map(Source::slug).collect();
-        return Err(CliError::Input(format!(
-            "--only {unknown}: no such experiment: expected one of {}",
-            known.join(", ")
-        )));
+    choose(&mut sources, &args.only)?;
+    if args.list {
+        return list(&sources);
     }
-    sources.retain(|s| args.only.is_empty() || args.only.contains(&s.slug()));
     let again = |slug: &str| {
         let full = if args.full { " --full" } else { "" };
         let folder = args
@@ -90,6 +95,41 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<u8, CliError> {
         format!("tigereye reproduce --only {}{full}{folder}", quoted(slug))
     };
     run_sources(&sources, &args.out, args.full, &args.resources, &again)
+}
+
+/// Keeps the experiments of the names, or those whose names begin so.
+fn choose(sources: &mut Vec<Source>, only: &[String]) -> Result<(), CliError> {
+    let mut slugs: Vec<String> = sources.iter().map(Source::slug).collect();
+    slugs.sort_unstable();
+    let is_meant = |slug: &str, name: &String| {
+        slug == name || (slug.starts_with(name.as_str()) && !slugs.contains(name))
+    };
+    let unknown = only.iter().find(|name| name.is_empty() || !slugs.iter().any(|slug| is_meant(slug, name)));
+    if let Some(unknown) = unknown {
+        let suggestion = did_you_mean(nearest(unknown, slugs.iter().map(String::as_str)));
+        return Err(CliError::Input(format!(
+            "--only {unknown}: no such experiment{suggestion}; expected the beginning of one of {} (with titles: \
+             `tigereye reproduce --list`)",
+            slugs.join(", ")
+        )));
+    }
+    sources.retain(|s| only.is_empty() || only.iter().any(|name| is_meant(&s.slug(), name)));
+    Ok(())
+}
+
+/// Prints the experiments, a line each: name, title and source.
+fn list(sources: &[Source]) -> Result<u8, CliError> {
+    let width = sources.iter().map(|s| s.slug().len()).max().unwrap_or(0);
+    let mut lines = Vec::new();
+    for source in sources {
+        let experiment =
+            load(&source.name, &source.text).map_err(|e| CliError::Inputs(vec![e.to_string()]))?;
+        let slug = source.slug();
+        lines.push(format!("{slug:<width$}  {} ({})\n", experiment.title(), experiment.source()));
+    }
+    lines.sort_unstable();
+    print_text(&lines.concat())?;
+    Ok(0)
 }
 
 pub(crate) fn run(args: &RunArgs) -> Result<u8, CliError> {

@@ -11,9 +11,10 @@ use tigereye_core::{CellShape, Choice, Field, LtgVolume, Surface};
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{Rows, npy, vti};
-use tigereye_render::Scene;
+use tigereye_render::{Overlay, Scene};
 use tigereye_transport::{StopMeasure, Stopping};
 use tigereye_views::gradient;
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// Endings of files that hold volumes, or pictures of them.
 pub(super) const ENDINGS: [&str; 4] = ["vti", "npy", "png", "svg"];
@@ -67,7 +68,8 @@ pub(super) fn write(
     identity: &Identity,
 ) -> Result<(), CliError> {
     let cell = CellShape::of(identity.geometry.spacing());
-    let drawn = || picture(title, &gradient.volume, walls, cell);
+    let overlays = || identity.thin.iter().map(ThinCells::overlay).collect();
+    let drawn = || picture(title, &gradient.volume, walls, cell, overlays());
     outputs.iter().try_for_each(|output| files::write(output, &encoded(output, gradient, &drawn, identity)?))
 }
 
@@ -102,6 +104,7 @@ fn picture(
     volume: &LtgVolume,
     walls: Option<&Field<Option<Surface>>>,
     cell: CellShape,
+    overlays: Vec<Overlay>,
 ) -> Scene {
     let (slice, scalar) = match volume.slices() {
         [t] => (volume.slice(*t), gradient::Scalar::SliceAt(volume.directions().angle_deg(*t))),
@@ -111,7 +114,7 @@ fn picture(
     let (title, walls) = (title.to_owned(), walls.cloned());
     gradient::picture(
         &field,
-        gradient::Request { title, scalar, walls, cell, ..gradient::Request::default() },
+        gradient::Request { title, scalar, walls, cell, overlays, ..gradient::Request::default() },
     )
 }
 

@@ -65,7 +65,7 @@ fn the_direction_of_y_in_arrays_is_said() {
         }
         place.refuses(
             &["info", name, "--derive", "hessian", "--frame", "voxel"],
-            &["--frame has nothing to do", "single numbers, which are along no axes"],
+            &["--frame has no effect here", "single numbers, which are along no axes"],
         );
     }
     place.write("at.csv", table("x,y,f", |x, y| format!("{x},{y},{}", x * y)));

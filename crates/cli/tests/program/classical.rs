@@ -199,7 +199,7 @@ fn oblong_cells_keep_their_shape() {
     // Light takes cells as squares, and says so.
     let run = place.tigereye(&["field", "show", "wide.vti", "-o", "sheet.png"]);
     assert!(
-        run.code == 0 && run.stderr.contains("cells are 2 x 1, and light takes them as squares"),
+        run.code == 0 && run.stderr.contains("cells are 2 x 1, and light treats them as squares"),
         "{}",
         run.stderr
     );

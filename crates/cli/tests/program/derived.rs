@@ -133,7 +133,7 @@ fn strain_rates_and_orientations_belong_to_gradients_and_structures() {
     assert!(text.contains("along stripes"), "{text}");
     place.refuses(
         &["info", "flow.npy", "--derive", "strain-rate", "--window", "2"],
-        &["--window has nothing to do"],
+        &["--window has no effect here"],
     );
 }
 

@@ -180,6 +180,54 @@ fn unknown_experiments_are_refused_with_the_known_ones() {
     place.refuses(&["reproduce", "--only", "fig-9-9", "--out", "r"], &["--only fig-9-9", "fig-3-1-emitters"]);
     let both = ["reproduce", "--only", "fig-3-1-emitters", "--only", "x", "--out", "r"];
     place.refuses(&both, &["--only x"]);
+    // None is cut out of the middle, and a slip is recognised.
+    place
+        .refuses(&["reproduce", "--only", "fig-3-1-emiters"], &["did you mean `fig-3-1-emitters`", "--list"]);
+    let run = place.tigereye(&["reproduce", "--only", "nothing"]);
+    assert!(!run.stderr.contains("[..."), "{}", run.stderr);
+}
+
+/// The beginning of a name stands for all names with it, and a whole name for itself.
+#[test]
+fn experiments_are_listed_and_chosen_by_the_beginning_of_their_names() {
+    let place = Place::new();
+    let listed = |args: &[&str]| {
+        let text = place.succeeds(&[&["reproduce", "--list"], args].concat()).stdout;
+        text.lines().map(|l| l.split_whitespace().next().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert!(listed(&[]).len() > 50);
+    assert_eq!(listed(&["--only", "fig-4-5"]), ["fig-4-5-star"]);
+    assert_eq!(listed(&["--only", "fig-2"]).len(), 6);
+    assert_eq!(listed(&["--only", "stationary", "--only", "stopping"]), ["stationary", "stopping"]);
+    assert!(place.succeeds(&["reproduce", "--list"]).stdout.contains("Light in star (Thesis, Fig. 4.5)"));
+    assert!(!place.path("results").exists());
+    let small = |title: &str| {
+        format!(
+            r#"(format: 1, title: "{title}", source: "s", section: "x", claim: "c", look_for: "l", figures: [], checks: [])"#
+        )
+    };
+    place.write("mine/a.ron", small("one"));
+    place.write("mine/a-b.ron", small("two"));
+    assert_eq!(listed(&["--experiments", "mine", "--only", "a"]), ["a"]);
+    assert_eq!(listed(&["--experiments", "mine", "--only", "a-"]), ["a-b"]);
+}
+
+#[test]
+fn files_of_another_kind_are_named() {
+    let place = Place::new();
+    place.write(
+        "f.field.ron",
+        r#"(format: 1, title: "t", field: Axes(width: 3, height: 3, phi: "0", s1: "1", s2: "1"))"#,
+    );
+    for command in ["check", "run"] {
+        place.refuses(&[command, "f.field.ron"], &["f.field.ron: is a field file", "tigereye field show"]);
+    }
+    place.write("e.ron", r#"(format: 1, title: "t", source: "s", section: "x", claim: "c", look_for: "l", figures: [], checks: [])"#);
+    place.refuses(
+        &["field", "show", "e.ron", "-o", "e.png"],
+        &["e.ron: is an experiment file", "tigereye run"],
+    );
+    place.refuses(&["ltg", "e.ron", "-o", "e.vti"], &["e.ron: is an experiment file"]);
 }
 
 #[test]

@@ -371,7 +371,7 @@ fn an_interrupted_estimate_leaves_a_preview_and_goes_on_from_its_checkpoint() {
     let output = child.wait_with_output().unwrap();
     let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(130), "{stderr}");
-    assert!(stderr.contains("tigereye: interrupted; c/checkpoint.part is complete"), "{stderr}");
+    assert!(stderr.contains("tigereye: interrupted; progress saved in c/checkpoint.part"), "{stderr}");
     assert!(!place.path("a.vti").exists());
     let preview = place.image("p.vti");
     assert_eq!(arrays(&preview), ["LTG", "LTG_error"]);

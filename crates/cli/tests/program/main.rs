@@ -6,6 +6,7 @@ mod classical;
 mod derived;
 mod experiments;
 mod faults;
+mod first_light;
 mod geometry;
 #[cfg(unix)]
 mod interruption;

@@ -48,7 +48,7 @@ fn a_field_of_zeros_lets_no_light_pass() {
             "a.npy",
             "a.png",
         ];
-        let energy = place.succeeds(&args).json()["energy"].as_f64().unwrap();
+        let energy = place.says(&args, "its tensor is zero").json()["energy"].as_f64().unwrap();
         // The light's own cell keeps shining 1 W/rad.
         assert!((energy - std::f64::consts::TAU).abs() < 1e-12, "{rule}: {energy}");
     }

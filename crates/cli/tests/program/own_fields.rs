@@ -17,6 +17,8 @@ fn a_field_begins_with_one_command() {
     place.succeeds(&["field", "show", "swirl.field.ron", "-o", "swirl.png"]);
     assert_eq!(place.read("swirl.png")[1..4], *b"PNG");
     let lint = place.succeeds(&["field", "lint", "swirl.field.ron"]).stdout;
+    assert_eq!(lint, "swirl.field.ron: no findings (3 notes with --all)\n");
+    let lint = place.succeeds(&["field", "lint", "swirl.field.ron", "--all"]).stdout;
     assert!(lint.contains("isotropic") && !lint.contains("determinant"), "{lint}");
     place.succeeds(&["check", "swirl.ron"]);
     // Progress is no fault.
@@ -26,7 +28,7 @@ fn a_field_begins_with_one_command() {
     for name in ["Swirl", "a b", "", "-x", "../up", "inverse"] {
         place.refuses(
             &["field", "new", "--", name],
-            &[if name == "inverse" { "is a generator" } else { "is no name" }],
+            &[if name == "inverse" { "is a generator" } else { "is not a valid name" }],
         );
     }
     place.refuses(&["field", "new", "other", "--folder", "none"], &["none", "there is no folder"]);
@@ -67,7 +69,7 @@ fn field_files_stand_where_generators_do() {
     place.succeeds(&["convert", "inverse.field.ron", "part.npy", "--crop", "0:4,0:3", "--resample", "8x6"]);
     place.refuses(
         &["convert", "inverse.field.ron", "x.npy", "--order", "fsl"],
-        &["--order has nothing to do"],
+        &["--order has no effect here"],
     );
     place.refuses(&["ltg", "inverse.field.ron", "-o", "inverse.field.ron"], &["inverse.field.ron"]);
     // One that names a data file is that file, in every respect.
@@ -117,7 +119,19 @@ fn faults_of_field_files_have_their_place() {
         ("(format: 1, title: \"t\", field: Generator(name: \"none\"))", "a.field.ron: "),
         (
             "(format: 1, title: \"t\", field: Axes(width: 3, height: 3, phi: \"1 +\", s1: \"1\", s2: \"1\"))",
-            "expression `phi`",
+            "a.field.ron:1:67: expression `phi`",
+        ),
+        (
+            "(format: 1, title: \"t\",\n field: Axes(width: 3, height: 3, phi: \"0\",\n s1: \"1 + tan(z)\", s2: \"1\"))",
+            "a.field.ron:3:15: expression `s1`: unknown name `z`",
+        ),
+        (
+            "(format: 1, title: \"t\",\n field: Axes(width: \"51\", height: 3, phi: \"0\", s1: \"1\", s2: \"1\"))",
+            "expected a whole number (`width: \"51\"`)",
+        ),
+        (
+            "(format: 1, title: \"t\",\n field: Axes(widht: 51, height: 3, phi: \"0\", s1: \"1\", s2: \"1\"))",
+            "there is no key `widht` in `Axes`: did you mean `width`? expected one of",
         ),
         ("(format: 1, title: \"t\", field: File(path: \"absent.npy\"))", "absent.npy"),
     ] {
@@ -168,7 +182,7 @@ fn sheets_and_oddities_are_told_of_anything_readable() {
         (&lint["oddities"][0]["kind"], &lint["oddities"][0]["first"]),
         (&json!("determinant"), &json!([0, 0]))
     );
-    assert!(place.succeeds(&["field", "lint", "sink:size=9"]).stdout.contains("zero"));
+    assert!(place.succeeds(&["field", "lint", "sink:size=9", "--all"]).stdout.contains("zero"));
     place.succeeds(&["field", "show", "x:width=1,height=1", "-o", "one.png"]);
     place.refuses(&["field", "show", "small.field.ron", "-o", "s.gif"], &["s.gif", ".png or .svg"]);
     place.refuses(

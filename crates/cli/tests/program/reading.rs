@@ -67,7 +67,7 @@ fn vectors_give_their_gradient_and_numbers_their_hessian() {
     place.refuses(&["info", "hill.npy"], &["hill.npy", "expected (H, W, 2, 2)"]);
     place.refuses(&["info", "hill.npy", "--derive", "hessian", "--sigma", "101"], &["0 to 100"]);
     place.refuses(&["info", "hill.npy", "--sigma", "1"], &["--derive"]);
-    place.refuses(&["info", "inverse", "--derive", "hessian"], &["inverse", "--derive has nothing to do"]);
+    place.refuses(&["info", "inverse", "--derive", "hessian"], &["inverse", "--derive has no effect here"]);
 }
 
 #[test]
@@ -218,15 +218,15 @@ fn options_with_nothing_to_do_are_refused() {
     place.write("n.npy", array(&[4, 4], |i| (i * i) as f64));
     place.write("v.npy", array(&[4, 4, 2], |i| i as f64));
     let cases: [(&[&str], &str); 9] = [
-        (&["t.npy", "--array", "x"], "--array has nothing to do"),
-        (&["t.npy", "--mask-above", "5"], "--mask-above has nothing to do"),
-        (&["inverse", "--mask-above", "5"], "--mask-above has nothing to do"),
-        (&["inverse", "--not-finite", "zero"], "--not-finite has nothing to do"),
-        (&["n.npy", "--derive", "hessian", "--window", "2"], "--window has nothing to do"),
-        (&["n.npy", "--derive", "hessian", "--order", "fsl"], "--order has nothing to do"),
-        (&["n.npy", "--derive", "structure", "--frame", "voxel"], "--frame has nothing to do"),
-        (&["v.npy", "--derive", "gradient", "--window", "1"], "--window has nothing to do"),
-        (&["n.npy", "--derive", "structure", "--mask-above", "0.5"], "--mask-above has nothing to do"),
+        (&["t.npy", "--array", "x"], "--array has no effect here"),
+        (&["t.npy", "--mask-above", "5"], "--mask-above has no effect here"),
+        (&["inverse", "--mask-above", "5"], "--mask-above has no effect here"),
+        (&["inverse", "--not-finite", "zero"], "--not-finite has no effect here"),
+        (&["n.npy", "--derive", "hessian", "--window", "2"], "--window has no effect here"),
+        (&["n.npy", "--derive", "hessian", "--order", "fsl"], "--order has no effect here"),
+        (&["n.npy", "--derive", "structure", "--frame", "voxel"], "--frame has no effect here"),
+        (&["v.npy", "--derive", "gradient", "--window", "1"], "--window has no effect here"),
+        (&["n.npy", "--derive", "structure", "--mask-above", "0.5"], "--mask-above has no effect here"),
     ];
     for (options, words) in cases {
         place.refuses(&[&["info"], options].concat(), &[words]);
@@ -290,5 +290,5 @@ fn negative_eigenvalues_are_counted() {
     let facts = place.succeeds(&["info", "t.npy", "--json"]).json();
     assert_eq!(facts["negative_eigenvalues_histogram"], serde_json::json!([1, 2, 1]));
     let text = place.succeeds(&["info", "t.npy"]).stdout;
-    assert!(text.contains("tensors with 0, 1, 2 negative eigenvalues: 1 2 1"), "{text}");
+    assert!(text.contains("tensors with 0, 1, 2 negative eigenvalues: 1, 2, 1"), "{text}");
 }

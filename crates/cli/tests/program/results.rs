@@ -140,7 +140,7 @@ fn a_light_distribution_tells_how_it_was_made() {
 }
 
 #[test]
-fn images_normalise_globally_and_text_and_generators_locally() {
+fn every_input_is_normalised_locally_unless_asked() {
     let place = Place::new();
     place.write("f.txt", unit_text(4, 4));
     place.write("f.npy", {
@@ -150,10 +150,13 @@ fn images_normalise_globally_and_text_and_generators_locally() {
         [crate::support::npy_file(head, 0), data].concat()
     });
     for (input, rule, said) in
-        [("f.txt", "local", ""), ("isotropic:size=4", "local", ""), ("f.npy", "global", "took row 0 on top")]
+        [("f.txt", "local", ""), ("isotropic:size=4", "local", ""), ("f.npy", "local", "took row 0 on top")]
     {
         place.says(&["ltg", input, "--directions", "8", "-o", "a.vti"], said);
         assert_eq!(story(&place, "a.vti")["parameters"]["normalization"], rule, "{input}");
+        let global = ["ltg", input, "--directions", "8", "--normalization", "global", "-o", "b.vti"];
+        place.says(&global, said);
+        assert_eq!(story(&place, "b.vti")["parameters"]["normalization"], "global", "{input}");
     }
 }
 

@@ -134,6 +134,10 @@ fn bad_scenes_are_refused_with_their_place() {
         &["ltg", "room.scene.ron", "--normalization", "global", "-o", "l.npy"],
         &["--normalization", "crystals"],
     );
+    place.refuses(
+        &["ltg", "room.scene.ron", "--total-anisotropy", "none", "-o", "l.npy"],
+        &["--total-anisotropy", "crystals"],
+    );
     place.refuses(&["info", "room.scene.ron"], &["a scene has no tensors"]);
     place.refuses(&["lines", "room.scene.ron", "-o", "l.vtp"], &["a scene has no tensors"]);
     place.refuses(&["propagate", "room.scene.ron", "-o", "room.scene.ron"], &["unknown extension"]);

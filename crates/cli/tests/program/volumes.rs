@@ -342,7 +342,7 @@ fn reference_files_work_with_every_command() {
         place.succeeds(&["compare", &input, "o.vtk", "--tolerance", "0"]);
         let part = ["--crop", "5:17,5:17", "--directions", "8"];
         place.succeeds(&[&["ltg", &input, "-o", "g.vti"], &part[..]].concat());
-        place.succeeds(&[&["propagate", &input, "--light", "6,6", "-o", "l.vti"], &part[..]].concat());
+        place.says(&[&["propagate", &input, "--light", "6,6", "-o", "l.vti"], &part[..]].concat(), "");
     }
     for entry in manifest["volumes"].as_array().unwrap() {
         let input = folder.join(entry["volume"].as_str().unwrap()).display().to_string();

@@ -1,8 +1,8 @@
 //! Choices that runs, figures and checks share.
 
-use super::numbers::{Fraction, NonNegative};
+use super::numbers::{Fraction, NonNegative, Ratio};
 use serde::Deserialize;
-use tigereye_core::{Below, Normalization};
+use tigereye_core::{Below, Normalization, TotalAnisotropy};
 use tigereye_transport::{ScatteringRule, Stopping, StoppingRule};
 
 /// When something runs.
@@ -28,6 +28,30 @@ pub enum NormalizationRule {
     LocalAbove(Fraction),
     /// Locally from this fraction of the largest mean upwards; weaker cells globally.
     LocalAboveGlobal(Fraction),
+}
+
+/// Which tensors transmit along one axis only.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub enum TotalAnisotropyRule {
+    /// Those whose semi-axes have a ratio above 20 (the published programme).
+    #[default]
+    Published,
+    /// Those above this ratio.
+    Above(Ratio),
+    /// A gradual change from half to twice the published ratio.
+    Smooth,
+    /// A gradual change.
+    Blend {
+        /// The ratio of the semi-axes at which half of a profile is a pulse.
+        ratio: Ratio,
+        /// The profile is an ellipse up to `ratio / width`, and a pulse from `ratio * width` on.
+        width: Ratio,
+    },
+    /// None: beyond this ratio a tensor has the ellipse of the ratio.
+    Cap(Ratio),
+    /// Only those with a vanishing axis.
+    Never,
 }
 
 /// When a propagation ends.
@@ -87,6 +111,21 @@ impl NormalizationRule {
                 Normalization::LocalAbove { fraction: f.get(), below: Below::Global }
             }
         }
+    }
+}
+
+impl TotalAnisotropyRule {
+    /// What it means for transmission profiles, or why it cannot be.
+    pub(crate) fn rule(self) -> Result<TotalAnisotropy, String> {
+        let made = match self {
+            Self::Published => return Ok(TotalAnisotropy::PUBLISHED),
+            Self::Smooth => return Ok(TotalAnisotropy::SMOOTH),
+            Self::Never => return Ok(TotalAnisotropy::NONE),
+            Self::Cap(ratio) => TotalAnisotropy::capped(ratio.get()),
+            Self::Above(ratio) => TotalAnisotropy::new(ratio.get(), 1.0),
+            Self::Blend { ratio, width } => TotalAnisotropy::new(ratio.get(), width.get()),
+        };
+        made.map_err(|e| e.to_string())
     }
 }
 

@@ -96,7 +96,9 @@ mod tests {
         assert!(fault.contains("there is no `Largest` here: expected one of `Major`, `Minor`"), "{fault}");
         let fault = ron::from_str::<AxesChoice>("half").expect_err("a small letter").to_string();
         assert!(
-            fault.contains("there is no `half` here: expected one of `Usual`, `Half`, `Eigen`"),
+            fault.contains(
+                "there is no `half` here: did you mean `Half`? expected one of `Usual`, `Half`, `Eigen`"
+            ),
             "{fault}"
         );
         assert!(ron::from_str::<Chosen<Family>>("\"Major\"").is_err());

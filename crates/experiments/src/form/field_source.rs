@@ -23,7 +23,6 @@ pub struct FieldFile {
 /// The source of a tensor field.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
-#[expect(clippy::large_enum_variant, reason = "an experiment has a handful")]
 pub enum FieldSource {
     /// A generator with its parameters, as `tigereye field list` shows them.
     Generator {
@@ -40,11 +39,11 @@ pub enum FieldSource {
         /// Cells per column.
         height: usize,
         /// Direction of the major semi-axis, radians.
-        phi: String,
+        phi: Placed<String>,
         /// Major semi-axis.
-        s1: String,
+        s1: Placed<String>,
         /// Minor semi-axis.
-        s2: String,
+        s2: Placed<String>,
     },
     /// The four components given by expressions in the same variables.
     Components {
@@ -53,13 +52,13 @@ pub enum FieldSource {
         /// Cells per column.
         height: usize,
         /// Component xx.
-        xx: String,
+        xx: Placed<String>,
         /// Component xy.
-        xy: String,
+        xy: Placed<String>,
         /// Component yx.
-        yx: String,
+        yx: Placed<String>,
         /// Component yy.
-        yy: String,
+        yy: Placed<String>,
     },
     /// A data file in any format that the program reads, or a field file (`.field.ron`), looked up beside the
     /// experiment file, in its parent folders, and among the program's built-in data. The options are those of the

@@ -51,7 +51,7 @@ pub enum ProfileShape {
         theta_deg: Finite,
     },
     /// An expression in `theta` (radians), negative values clipped.
-    Expression(String),
+    Expression(Placed<String>),
 }
 
 impl Default for ProfileShape {

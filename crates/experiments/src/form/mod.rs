@@ -15,17 +15,17 @@ mod placed;
 mod scene_file;
 mod words;
 
-pub use choices::{NormalizationRule, OmegaStep, Scope, Stop};
+pub use choices::{NormalizationRule, OmegaStep, Scope, Stop, TotalAnisotropyRule};
 pub use chosen::{AxesChoice, Chosen};
 pub use engine::EngineChoice;
 pub use field_source::{DeriveRule, FieldFile, FieldSource, Parameter};
 pub use light_source::{EmissionKind, LightSource, ProfileShape};
 pub use named::Named;
-pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive, Sigma};
+pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive, Ratio, Sigma};
 pub(crate) use placed::nested;
 pub use placed::{Place, Placed};
 pub use scene_file::{MaterialSource, Point, SceneFile, ScenePart, ShapeSource};
-pub(crate) use words::{options, words_of_fault};
+pub(crate) use words::{key_and_value, options, words_of_fault};
 
 /// The format this version reads.
 pub const FORMAT: u32 = 1;

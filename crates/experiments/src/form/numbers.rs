@@ -43,6 +43,10 @@ checked_number!(
     NonNegative, |x| x.is_finite() && x >= 0.0, "a finite number from 0"
 );
 checked_number!(
+    /// A ratio from 1 to 1e12.
+    Ratio, |x| (1.0..=1e12).contains(&x), "a number from 1 to 1e12"
+);
+checked_number!(
     /// A number from 0 to 1.
     Fraction, |x| (0.0..=1.0).contains(&x), "a number from 0 to 1"
 );

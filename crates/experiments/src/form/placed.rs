@@ -15,17 +15,33 @@ pub struct Place {
     address: usize,
     /// Whether the key before the value is meant, where it has one.
     of_key: bool,
+    /// Line and column, from 1, within the text in quotes that stands there.
+    inside: Option<(usize, usize)>,
 }
 
 impl Place {
     const fn at(address: usize) -> Self {
-        Self { address, of_key: false }
+        Self { address, of_key: false, inside: None }
+    }
+
+    /// A line and a column, from 1, of the text in quotes that stands there.
+    pub(crate) const fn inside(self, line: usize, column: usize) -> Self {
+        Self { inside: Some((line, column)), ..self }
+    }
+
+    /// Where it lies in the text, bytes.
+    pub(crate) fn offset_in(self, text: &str) -> usize {
+        let offset = self.address.wrapping_sub(text.as_ptr() as usize);
+        match (self.inside, text.get(offset..)) {
+            (Some(inside), Some(literal)) => offset + offset_inside(literal, inside),
+            _ => offset,
+        }
     }
 
     /// Line and column in characters, from 1; the beginning for a place in another text.
     #[must_use]
     pub fn in_text(self, text: &str) -> (usize, usize) {
-        let offset = self.address.wrapping_sub(text.as_ptr() as usize);
+        let offset = self.offset_in(text);
         let mut before = text.get(..offset).unwrap_or_default();
         if self.of_key
             && let Some(key) = before.trim_end().strip_suffix(':')
@@ -36,6 +52,33 @@ impl Place {
         let column = before.rsplit('\n').next().map_or(0, |last| last.chars().count()) + 1;
         (line, column)
     }
+}
+
+/// The byte at which a line and a column of the content of a text in quotes stand; its end if there are fewer.
+fn offset_inside(literal: &str, (line, column): (usize, usize)) -> usize {
+    let is_raw = literal.starts_with('r');
+    let Some(quote) = literal.find('"') else { return 0 };
+    let start = quote + 1;
+    let content = &literal[start..];
+    let (mut at, mut chars) = ((1, 1), content.char_indices());
+    while let Some((offset, c)) = chars.next() {
+        if at >= (line, column) || (c == '"' && !is_raw) {
+            return start + offset;
+        }
+        let is_break = match c {
+            // One character of the content: `\n`, `\"`, `\u{3c6}`.
+            '\\' if !is_raw => {
+                let escaped = chars.next().map(|(_, c)| c);
+                if escaped == Some('u') {
+                    chars.by_ref().find(|(_, c)| *c == '}');
+                }
+                escaped == Some('n')
+            }
+            c => c == '\n',
+        };
+        at = if is_break { (at.0 + 1, 1) } else { (at.0, at.1 + 1) };
+    }
+    literal.len()
 }
 
 /// A value with its place.
@@ -165,6 +208,21 @@ mod tests {
         assert_eq!((**cell, cell.place().in_text(text)), ((3, 4), (4, 4)));
         let (name, first) = (&items[1].name, &items[1]);
         assert_eq!((name.key().in_text(text), first.key().in_text(text)), ((3, 4), (3, 3)));
+    }
+
+    #[test]
+    fn places_in_texts_are_those_of_the_file() {
+        let at = |text: &'static str, line, column| {
+            let item: Item = options().from_str(text).expect("an item");
+            item.name.place().inside(line, column).in_text(text)
+        };
+        assert_eq!(at("(\n name: \"1 + y\")", 1, 5), (2, 13));
+        assert_eq!(at("(\n name: \"1 +\n  y\")", 2, 3), (3, 3));
+        assert_eq!(at("(name: r#\"a\\ + \"b\"\"#)", 1, 6), (1, 16));
+        assert_eq!(at("(name: \"\\u{3c6} + \\n z\")", 1, 5), (1, 19));
+        assert_eq!(at("(name: \"\\u{3c6} + \\n z\")", 2, 2), (1, 22));
+        // What lies behind the end is the end.
+        assert_eq!(at("(name: \"ab\")", 1, 9), (1, 11));
     }
 
     #[test]

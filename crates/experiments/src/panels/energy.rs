@@ -8,6 +8,7 @@ use serde::Deserialize;
 use tigereye_core::Cell;
 use tigereye_render::{Overlay, Rgba};
 use tigereye_views::light::{self, Request};
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// The energy of every cell in colours.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -38,10 +39,10 @@ impl PanelKind for Energy {
         let decades = self.decades.map(Positive::get);
         Some(PlannedPanel::new(&self.title, move |drawing| {
             let run = &drawing.results[frame.light];
-            let overlays = match to {
-                Some(to) => overlays(&Paths::of(run, to)?),
-                None => Vec::new(),
-            };
+            let mut overlays: Vec<Overlay> = run.thin.iter().map(ThinCells::overlay).collect();
+            if let Some(to) = to {
+                overlays.extend(paths(&Paths::of(run, to)?));
+            }
             let request = Request {
                 title: drawing.title.clone(),
                 decades,
@@ -57,7 +58,7 @@ impl PanelKind for Energy {
 }
 
 /// The shortest path, and the brightest one over it.
-fn overlays(paths: &Paths) -> Vec<Overlay> {
+fn paths(paths: &Paths) -> Vec<Overlay> {
     let line = |path: &[Cell], label: &str, colour, width_px| Overlay {
         label: label.to_owned(),
         points: path.iter().map(|c| c.centre()).collect(),

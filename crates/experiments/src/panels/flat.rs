@@ -40,7 +40,7 @@ impl PanelKind for Flat {
                 FlatView::Maximum => (volume.max_over_directions(), Scalar::Largest),
                 FlatView::Deviation => (volume.deviation_over_directions(), Scalar::Deviation),
             };
-            Ok(drawing.gradient_map(&scalar, gradient.surfaces.as_ref(), which, Vec::new()))
+            Ok(drawing.gradient_map(&scalar, gradient, which, Vec::new()))
         }))
     }
 }

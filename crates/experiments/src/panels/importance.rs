@@ -6,6 +6,7 @@ use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_core::math;
 use tigereye_views::light::{self, Request};
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// Mean importance over direction of every cell in colours; the receiver is marked.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -34,6 +35,7 @@ impl PanelKind for Importance {
                 source_name: Some("receiver"),
                 dark_name: Some("unimportant"),
                 walls: outcome.surfaces.clone(),
+                overlays: outcome.thin.iter().map(ThinCells::overlay).collect(),
                 cell_px: drawing.cell_px(outcome.importance.grid()),
                 ..Request::default()
             };

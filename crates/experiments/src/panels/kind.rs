@@ -2,10 +2,12 @@
 
 use crate::names::Names;
 use crate::results::Results;
+use crate::runs::gradient as gradient_run;
 use crate::unavailable::Unavailable;
-use tigereye_core::{CellShape, Field, Grid, Surface};
+use tigereye_core::{CellShape, Field, Grid};
 use tigereye_render::{Overlay, Scene};
 use tigereye_views::gradient;
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// A picture of the results, every name looked up; or why it is not to be had.
 pub(crate) type Picture = Box<dyn Fn(&Drawing<'_>) -> Result<Scene, Unavailable> + Send + Sync>;
@@ -78,14 +80,16 @@ impl Drawing<'_> {
     pub(crate) fn gradient_map(
         &self,
         scalar: &Field<f64>,
-        walls: Option<&Field<Option<Surface>>>,
+        run: &gradient_run::Outcome,
         which: gradient::Scalar,
-        overlays: Vec<Overlay>,
+        mut overlays: Vec<Overlay>,
     ) -> Scene {
+        // Beneath the others.
+        overlays.splice(0..0, run.thin.iter().map(ThinCells::overlay));
         let request = gradient::Request {
             title: self.title.clone(),
             scalar: which,
-            walls: walls.cloned(),
+            walls: run.surfaces.clone(),
             overlays,
             cell_px: self.cell_px(scalar.grid()),
             ..gradient::Request::default()

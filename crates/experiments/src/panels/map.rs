@@ -44,8 +44,7 @@ impl PanelKind for Map {
                 Scalar::Mean(id) => (id, gradient::Scalar::Mean),
                 Scalar::Maximum(id) => (id, gradient::Scalar::Largest),
             };
-            let surfaces = results[id].surfaces.as_ref();
-            Ok(drawing.gradient_map(&scalar.scalar(results)?, surfaces, which, overlays))
+            Ok(drawing.gradient_map(&scalar.scalar(results)?, &results[id], which, overlays))
         }))
     }
 }

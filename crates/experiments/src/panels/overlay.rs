@@ -5,6 +5,7 @@ use crate::names::Names;
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_render::{IntensityScale, PolarOptions, TransmissionScale, polar_overlay};
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// Transmission (red) and light (blue) of every cell.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -64,6 +65,7 @@ impl PanelKind for Overlay {
                 transmission: TransmissionScale::Rate,
                 sources: run.sources.clone(),
                 walls: run.surfaces.clone(),
+                overlays: run.thin.iter().map(ThinCells::overlay).collect(),
                 cell_px: drawing.cell_px(run.last.grid()),
                 ..PolarOptions::default()
             };

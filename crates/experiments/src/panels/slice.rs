@@ -35,7 +35,7 @@ impl PanelKind for Slice {
             let scalar = drawing.results.slice(slice)?;
             let overlays = if marks_ridge { vec![ridge_line(&scalar)] } else { Vec::new() };
             let gradient = &drawing.results[slice.gradient];
-            Ok(drawing.gradient_map(&scalar, gradient.surfaces.as_ref(), Scalar::Slice, overlays))
+            Ok(drawing.gradient_map(&scalar, gradient, Scalar::Slice, overlays))
         }))
     }
 }

@@ -58,4 +58,5 @@ quantities! {
     scheme::{Scheme, EmitterFlux},
     tensor_extremes::{DeterminantError, LargestAxis},
     tensor_shares::{IsotropicShare, ZeroShare, ComplexShare, TotalAnisotropyShare},
+    total_anisotropy_border::{BesideTotalAnisotropy},
 }

@@ -1,6 +1,8 @@
 //! The light transport gradient of a field.
 
-use crate::form::{Chosen, DirectionCount, Finite, NormalizationRule, OmegaStep, Placed, Scope, Stop};
+use crate::form::{
+    Chosen, DirectionCount, Finite, NormalizationRule, OmegaStep, Placed, Scope, Stop, TotalAnisotropyRule,
+};
 use crate::host::Host;
 use crate::ids::MediumId;
 use crate::lights::sample_of;
@@ -23,6 +25,7 @@ use tigereye_ltg::{
 use tigereye_report::DataFile;
 use tigereye_transport::{LinearScattering, Scattering, ScatteringRule, SharedWeights, StoppingRule};
 use tigereye_views::gradient::where_result;
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// The light transport gradient of a field.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -36,6 +39,12 @@ pub struct Gradient {
     /// How profiles are scaled.
     #[serde(default)]
     normalization: NormalizationRule,
+    /// Which tensors transmit along one axis only.
+    #[serde(default)]
+    total_anisotropy: TotalAnisotropyRule,
+    /// Whether pictures outline the totally anisotropic cells.
+    #[serde(default = "yes")]
+    outlined: bool,
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
@@ -63,6 +72,10 @@ pub struct Gradient {
     pub(crate) scope: Scope,
 }
 
+fn yes() -> bool {
+    true
+}
+
 /// A sweep, ready to start.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
@@ -74,6 +87,7 @@ pub(crate) struct Plan {
     /// Number of sketches of an estimate.
     pub(crate) estimate: Option<u32>,
     seed: u32,
+    outlined: bool,
 }
 
 impl Gradient {
@@ -81,7 +95,7 @@ impl Gradient {
         let setup = run.setup(
             &self.field,
             self.directions,
-            self.normalization,
+            (self.normalization, self.total_anisotropy),
             self.weights,
             self.scattering,
             self.stop,
@@ -125,7 +139,8 @@ impl Gradient {
             }
         }
         let slices = self.slices_deg.is_some().then_some(slices);
-        Some(Plan { setup, omega_step, slices, estimate: self.estimate, seed: self.seed })
+        let (estimate, seed, outlined) = (self.estimate, self.seed, self.outlined);
+        Some(Plan { setup, omega_step, slices, estimate, seed, outlined })
     }
 }
 
@@ -137,6 +152,8 @@ pub(crate) struct Outcome {
     pub(crate) relative_error: Option<f64>,
     /// What the cells are, in a scene.
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
+    /// The totally anisotropic cells of a field.
+    pub(crate) thin: Option<ThinCells>,
 }
 
 impl Plan {
@@ -184,7 +201,8 @@ impl Plan {
             source => failed(source),
         })?;
         let surfaces = medium.scene().map(|scene| scene.layout.surfaces.clone());
-        Ok(Outcome { outcome, relative_error, surfaces })
+        let thin = self.setup.thin_cells(medium).filter(|_| self.outlined);
+        Ok(Outcome { outcome, relative_error, surfaces, thin })
     }
 
     /// The gradient of linear scattering, exact or estimated.

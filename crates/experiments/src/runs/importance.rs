@@ -1,6 +1,8 @@
 //! Where the light at a receiver comes from.
 
-use crate::form::{Chosen, DirectionCount, NormalizationRule, Placed, ProfileShape, Scope, Stop};
+use crate::form::{
+    Chosen, DirectionCount, NormalizationRule, Placed, ProfileShape, Scope, Stop, TotalAnisotropyRule,
+};
 use crate::host::Host;
 use crate::ids::MediumId;
 use crate::lights::profile_of;
@@ -16,6 +18,7 @@ use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{IoError, image_from_light, vti};
 use tigereye_report::DataFile;
 use tigereye_transport::{LinearScattering, Scattering, ScatteringRule, SharedWeights, Stopping, importance};
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// How much of what each cell emits in each direction arrives at a receiver, with linear scattering: one solution of
 /// the adjoint problem.
@@ -35,6 +38,9 @@ pub struct Importance {
     /// How profiles are scaled.
     #[serde(default)]
     normalization: NormalizationRule,
+    /// Which tensors transmit along one axis only.
+    #[serde(default)]
+    total_anisotropy: TotalAnisotropyRule,
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
@@ -57,7 +63,7 @@ impl Importance {
         let setup = run.setup(
             &self.field,
             self.directions,
-            self.normalization,
+            (self.normalization, self.total_anisotropy),
             self.weights,
             linear,
             Stop::Stationary,
@@ -82,8 +88,8 @@ impl Importance {
         let shape = self.sensitivity.as_ref().map_or(&usual, |shape| &**shape);
         match profile_of(shape, setup.directions) {
             Ok(profile) => Some(Plan { setup, receiver, sensitivity: profile.clipped().samples().to_vec() }),
-            Err(problem) => {
-                run.fault(&format!(": {problem}"));
+            Err(fault) => {
+                run.fault_at(fault.place, &format!(": {fault}"));
                 None
             }
         }
@@ -100,6 +106,8 @@ pub(crate) struct Outcome {
     pub(crate) work: Work,
     /// What the cells are, in a scene.
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
+    /// The totally anisotropic cells of a field.
+    pub(crate) thin: Option<ThinCells>,
 }
 
 impl Plan {
@@ -138,6 +146,7 @@ impl Plan {
             importance,
             work,
             surfaces: medium.scene().map(|scene| scene.layout.surfaces.clone()),
+            thin: self.setup.thin_cells(medium),
         })
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::form::{
     Chosen, DirectionCount, EngineChoice, LightSource, NormalizationRule, Placed, Scope, Stop,
+    TotalAnisotropyRule,
 };
 use crate::host::Host;
 use crate::ids::MediumId;
@@ -22,6 +23,7 @@ use tigereye_io::{IoError, image_from_light, vti};
 use tigereye_report::DataFile;
 use tigereye_transport::{Problem, ScatteringRule, SharedWeights, StepView, StoppingRule, TransportError};
 use tigereye_views::Reel;
+use tigereye_views::total_anisotropy::ThinCells;
 
 /// Propagation of light from one or more cells.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -35,6 +37,12 @@ pub struct Light {
     /// How profiles are scaled.
     #[serde(default)]
     normalization: NormalizationRule,
+    /// Which tensors transmit along one axis only.
+    #[serde(default)]
+    total_anisotropy: TotalAnisotropyRule,
+    /// Whether pictures outline the totally anisotropic cells.
+    #[serde(default = "yes")]
+    outlined: bool,
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
@@ -59,11 +67,16 @@ pub struct Light {
     pub(crate) scope: Scope,
 }
 
+fn yes() -> bool {
+    true
+}
+
 /// A propagation, ready to start.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     pub(crate) setup: Setup,
     pub(crate) lights: Vec<tigereye_transport::Light>,
+    outlined: bool,
     engine: EngineChoice,
     /// What is kept of its steps.
     pub(crate) kept: Kept,
@@ -102,7 +115,7 @@ impl Light {
         let setup = run.setup(
             &self.field,
             self.directions,
-            self.normalization,
+            (self.normalization, self.total_anisotropy),
             self.weights,
             self.scattering,
             self.stop,
@@ -113,8 +126,8 @@ impl Light {
                 scene.lights_in(setup.directions).map_err(|faults| run.faults.extend(faults))
             }
             _ => lights_of(&self.lights, medium.grid(), setup.directions).map_err(|faults| {
-                for LightFault { problem, .. } in faults {
-                    run.fault(&format!(": {problem}"));
+                for LightFault { problem, place, .. } in faults {
+                    run.fault_at(place, &format!(": {problem}"));
                 }
             }),
         };
@@ -134,7 +147,7 @@ impl Light {
             run.fault(&format!(" keeps step {late} but ends after {n} steps"));
         }
         let kept = Kept { frames: self.frames.iter().copied().collect(), ..Kept::default() };
-        Some(Plan { setup, lights, engine: self.engine, kept })
+        Some(Plan { setup, lights, outlined: self.outlined, engine: self.engine, kept })
     }
 }
 
@@ -158,6 +171,8 @@ pub(crate) struct Outcome {
     pub(crate) work: Work,
     /// What the cells are, in a scene.
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
+    /// The totally anisotropic cells of a field.
+    pub(crate) thin: Option<ThinCells>,
     /// Cells that pass light on, in a scene.
     pub(crate) open: Option<Field<bool>>,
 }
@@ -244,6 +259,7 @@ impl Plan {
             work: outcome.work,
             transmission,
             surfaces: scene.map(|scene| scene.layout.surfaces.clone()),
+            thin: self.setup.thin_cells(medium).filter(|_| self.outlined),
             open: scene.map(PreparedScene::open),
         })
     }

@@ -1,6 +1,8 @@
 //! How pulses come to rest: the stopping rule's state, plain steps and the solver, compared.
 
-use crate::form::{Chosen, DirectionCount, Finite, NormalizationRule, Placed, Scope, Stop};
+use crate::form::{
+    Chosen, DirectionCount, Finite, NormalizationRule, Placed, Scope, Stop, TotalAnisotropyRule,
+};
 use crate::host::Host;
 use crate::ids::MediumId;
 use crate::lights::sample_of;
@@ -105,6 +107,9 @@ pub struct Pulses {
     /// How profiles are scaled.
     #[serde(default)]
     normalization: NormalizationRule,
+    /// Which tensors transmit along one axis only.
+    #[serde(default)]
+    total_anisotropy: TotalAnisotropyRule,
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
@@ -134,7 +139,7 @@ impl Pulses {
         let setup = run.setup(
             &self.field,
             self.directions,
-            self.normalization,
+            (self.normalization, self.total_anisotropy),
             self.weights,
             Chosen::default(),
             self.stop,
@@ -358,7 +363,7 @@ mod tests {
         let setup = Setup {
             medium: MediumId::Field(FieldId(0)),
             directions: Directions::new(16).expect("a multiple of 8"),
-            normalization: Normalization::Local,
+            rule: Normalization::Local.into(),
             weights: SharedWeights::Thesis,
             scattering: ScatteringRule::Joint,
             stopping: Stopping::REFERENCE,

@@ -294,7 +294,9 @@ fn lit(lights: &str) -> Vec<SpecError> {
     let text = GOOD.replace("(cell: (4, 4), profile: Expression(\"1 + cos(theta)\"))", lights);
     let found = faults(&text, true);
     assert!(!found.is_empty(), "{lights}");
-    assert_eq!((found[0].line, found[0].column), place_of(&text, "\"glow\""), "{}", found[0]);
+    // A formula has a place of its own.
+    let place = if lights.contains('$') { "$" } else { "\"glow\"" };
+    assert_eq!((found[0].line, found[0].column), place_of(&text, place), "{}", found[0]);
     found
 }
 
@@ -304,7 +306,7 @@ fn lights_shine() {
         ("", &["no light"][..]),
         ("(), ()", &["two lights at (4, 4)"]),
         ("(profile: Expression(\"0\"))", &["(4, 4)", "0 in every direction"]),
-        ("(profile: Expression(\"sin(\"))", &["(4, 4)", "line 1, column 5"]),
+        ("(profile: Expression(\"sin(theta) $\"))", &["(4, 4)", "unknown character"]),
         ("(profile: Expression(\"1/0\"))", &["(4, 4)", "finite"]),
         ("(profile: Pulse(theta_deg: 10))", &["10 degrees", "multiple of 22.5"]),
     ] {
@@ -316,7 +318,7 @@ fn lights_shine() {
 
 #[test]
 fn one_bad_light_is_one_fault() {
-    let found = lit("(profile: Expression(\"sin(\"))");
+    let found = lit("(profile: Expression(\"sin($\"))");
     assert_eq!(found.len(), 1, "{found:#?}");
 }
 
@@ -503,20 +505,20 @@ fn generators_and_their_parameters() {
 
 #[test]
 fn expressions() {
-    let at = |text: &str| place_of(text, "\"formula\"");
-    for (from, to, words) in [
-        ("phi: \"theta\"", "phi: \"thet\"", &["`phi`", "line 1, column 1", "`theta`"][..]),
-        ("s1: \"2\"", "s1: \"2 +\"", &["`s1`", "line 1, column 4", "expected"]),
-        ("s2: \"1\"", "s2: \"-1\"", &["`s2`", "cell (0, 0)", "at least 0"]),
-        ("s2: \"1\"", "s2: \"1/x^2\"", &["`s2`", "cell (2, 0)", "finite"]),
-        ("s2: \"1\"", "s2: \"\"", &["`s2`", "line 1, column 1"]),
-        ("width: 5", "width: 0", &["0 x 5"]),
-        ("width: 5", "width: 18446744073709551615", &["18446744073709551615 x 5"]),
+    for (from, to, at, words) in [
+        ("phi: \"theta\"", "phi: \"thet\"", "thet\"", &["`phi`", "`theta`"][..]),
+        ("s1: \"2\"", "s1: \"2 +\"", "\", s2", &["`s1`", "expected"]),
+        ("s2: \"1\"", "s2: \"-1\"", "\"-1\"", &["`s2`", "cell (0, 0)", "at least 0"]),
+        ("s2: \"1\"", "s2: \"1/x^2\"", "\"1/x^2\"", &["`s2`", "cell (2, 0)", "finite"]),
+        ("s2: \"1\"", "s2: \"\"", "\"),\n    },\n    runs", &["`s2`"]),
+        ("width: 5", "width: 0", "\"formula\"", &["0 x 5"]),
+        ("width: 5", "width: 18446744073709551615", "\"formula\"", &["18446744073709551615 x 5"]),
     ] {
         let text = GOOD.replace(from, to);
         let found = faults(&text, true);
         let [fault] = found.as_slice() else { panic!("{to}: expected one fault, found {found:#?}") };
-        assert_eq!((fault.line, fault.column), at(&text), "{fault}");
+        assert_eq!((fault.line, fault.column), place_of(&text, at), "{fault}");
+        assert!(!fault.problem.contains("line 1"), "two places: {fault}");
         assert!(
             words.iter().chain(&["field \"formula\""]).all(|w| fault.problem.contains(w)),
             "{to}: {fault}"
@@ -529,10 +531,10 @@ fn expressions_of_figures_and_checks() {
     refused(
         "expression: \"x^2\"",
         "expression: \"y^2\"",
-        "\"y^2\"",
-        &["figure \"curve\"", "line 1, column 1"],
+        "y^2\"",
+        &["figure \"curve\"", "`y^2`: unknown name"],
     );
-    refused("phi_deg: \"theta\"", "phi_deg: \"thet\"", "\"thet\"", &["check \"axis\"", "line 1, column 1"]);
+    refused("phi_deg: \"theta\"", "phi_deg: \"thet\"", "thet\"", &["check \"axis\"", "`thet`: unknown name"]);
 }
 
 #[test]

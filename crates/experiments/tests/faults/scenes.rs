@@ -155,7 +155,7 @@ fn materials_that_cannot_be_are_refused_at_their_place() {
         "material: Crystal",
         &["12 x 13", "cell (12, 4)"],
     );
-    refused("phi: \"x\"", "phi: \"x +\"", "material: Crystal", &["expression `phi`", "column 4"]);
+    refused("phi: \"x\"", "phi: \"x +\"", "\", s1:", &["expression `phi`", "found the end"]);
 }
 
 #[test]
@@ -189,7 +189,7 @@ fn lights_in_walls_and_outside_are_refused_at_their_place() {
 fn lights_that_cannot_shine_are_refused_at_their_place() {
     let beam = "profile: Emitter(theta_deg: 0, power: 1)";
     let expression = |text: &str| format!("profile: Expression(\"{text}\")");
-    refused(beam, &expression("cos(theta"), "profile: Expression", &["the light at (3, 2)", "column 10"]);
+    refused(beam, &expression("cos(theta) + $"), "$", &["the light at (3, 2)", "unknown character"]);
     refused(beam, &expression("1/0"), "profile: Expression", &["the light at (3, 2)", "`1/0`"]);
     refused(beam, &expression("-1"), "profile: Expression", &["(3, 2)", "0 in every direction"]);
     refused("cell: (3, 2)", "cell: (2, 2)", "cell: (2, 2), emission", &["(2, 2)", "two lights"]);

@@ -121,11 +121,11 @@ fn errors_say_what_was_expected() {
         ("rings:total=yes", "parameter `total` of field `rings` is `yes`: expected true or false"),
         ("helix:plane=zx", "parameter `plane` of field `helix` is `zx`: expected one of xy, xz, yz"),
         ("x:size=5,size=6", "parameter `size` is given twice"),
-        ("x:size", "`size` in `x:size` is no parameter: expected NAME or NAME:key=value,key=value"),
-        ("x:", "`` in `x:` is no parameter: expected NAME or NAME:key=value,key=value"),
-        ("x:size=", "`size=` in `x:size=` is no parameter: expected NAME or NAME:key=value,key=value"),
-        ("", "`` in `` is no parameter: expected NAME or NAME:key=value,key=value"),
-        (":size=5", "`` in `:size=5` is no parameter: expected NAME or NAME:key=value,key=value"),
+        ("x:size", "`size` in `x:size` is not a parameter: expected NAME or NAME:key=value,key=value"),
+        ("x:", "`` in `x:` is not a parameter: expected NAME or NAME:key=value,key=value"),
+        ("x:size=", "`size=` in `x:size=` is not a parameter: expected NAME or NAME:key=value,key=value"),
+        ("", "`` in `` is not a parameter: expected NAME or NAME:key=value,key=value"),
+        (":size=5", "`` in `:size=5` is not a parameter: expected NAME or NAME:key=value,key=value"),
     ] {
         assert_eq!(message(spec), expected, "{spec}");
     }

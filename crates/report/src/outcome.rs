@@ -1,5 +1,9 @@
 //! What an experiment leaves: figures, checks, counters. The report and the summary are made of these.
 
+use serde::{Deserialize, Serialize};
+
+use crate::summary::{not_a_number, nullable};
+
 /// Everything one experiment produced.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExperimentOutcome {
@@ -63,7 +67,7 @@ pub struct Figure {
 }
 
 /// A table of results for readers; what is compared with expectations stands in the checks.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Table {
     /// Heading.
     pub title: String,
@@ -76,7 +80,7 @@ pub struct Table {
 }
 
 /// A column of a table.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Column {
     /// Heading, with the unit.
     pub heading: String,
@@ -94,7 +98,8 @@ pub struct DataFile {
 }
 
 /// A check after its run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "CheckForm", into = "CheckForm")]
 pub struct CheckOutcome {
     /// What is checked.
     pub name: String,
@@ -135,6 +140,61 @@ impl Expected {
             Self::AtMost(bound) => value <= bound,
             Self::AtLeast(bound) => value >= bound,
         }
+    }
+}
+
+/// A check as it stands in a summary.
+#[derive(Serialize, Deserialize)]
+struct CheckForm {
+    name: String,
+    #[serde(deserialize_with = "nullable")]
+    value: f64,
+    #[serde(default = "not_a_number", deserialize_with = "nullable")]
+    expected: f64,
+    #[serde(default)]
+    tolerance: f64,
+    passed: bool,
+    #[serde(default)]
+    kind: ExpectedKind,
+    #[serde(default)]
+    basis: String,
+    /// Why there is no value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+}
+
+#[derive(Clone, Copy, Default, Serialize, Deserialize)]
+enum ExpectedKind {
+    #[default]
+    #[serde(rename = "near")]
+    Near,
+    #[serde(rename = "at most")]
+    AtMost,
+    #[serde(rename = "at least")]
+    AtLeast,
+}
+
+impl From<CheckOutcome> for CheckForm {
+    fn from(check: CheckOutcome) -> Self {
+        let (kind, expected, tolerance) = match check.expected {
+            Expected::Near { value, tolerance } => (ExpectedKind::Near, value, tolerance),
+            Expected::AtMost(bound) => (ExpectedKind::AtMost, bound, 0.0),
+            Expected::AtLeast(bound) => (ExpectedKind::AtLeast, bound, 0.0),
+        };
+        let CheckOutcome { name, value, passed, basis, reason, .. } = check;
+        Self { name, value, expected, tolerance, passed, kind, basis, reason }
+    }
+}
+
+impl From<CheckForm> for CheckOutcome {
+    fn from(form: CheckForm) -> Self {
+        let CheckForm { name, value, expected, tolerance, passed, kind, basis, reason } = form;
+        let expected = match kind {
+            ExpectedKind::Near => Expected::Near { value: expected, tolerance },
+            ExpectedKind::AtMost => Expected::AtMost(expected),
+            ExpectedKind::AtLeast => Expected::AtLeast(expected),
+        };
+        Self { name, value, expected, basis, passed, reason }
     }
 }
 

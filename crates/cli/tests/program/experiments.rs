@@ -323,7 +323,7 @@ fn the_command_to_redo_an_experiment_can_be_pasted_into_a_shell() {
     place.write("my files/it's small.ron", experiment("Near(3, 0)"));
     assert_eq!(place.tigereye(&["run", "my files/it's small.ron", "--out", "r"]).code, 0);
     let command = place.json("r/summary.json")["experiments"][0]["command"].as_str().unwrap().to_owned();
-    assert_eq!(command, r"tigereye run 'my files/it'\''s small.ron'");
+    assert_eq!(command, r"tigereye run 'my files/it'\''s small.ron' --out r");
     assert_eq!(place.tigereye(&["reproduce", "--experiments", "my files", "--out", "r"]).code, 0);
     let command = place.json("r/summary.json")["experiments"][0]["command"].as_str().unwrap().to_owned();
     assert!(

@@ -4,17 +4,16 @@ use std::collections::BTreeMap;
 
 use maud::{Markup, html};
 
-use super::About;
 use super::verdict::Tally;
-use crate::ExperimentOutcome;
 use crate::links::place;
 use crate::numbers::{count, counted, duration};
+use crate::{About, ExperimentSummary, Summary};
 
 /// Experiments by section, sections ascending, experiments of a section in the order given.
-pub(super) type Sections<'a> = BTreeMap<&'a str, Vec<&'a ExperimentOutcome>>;
+pub(super) type Sections<'a> = BTreeMap<&'a str, Vec<&'a ExperimentSummary>>;
 
 /// `outcomes` by section.
-pub(super) fn by_section(outcomes: &[ExperimentOutcome]) -> Sections<'_> {
+pub(super) fn by_section(outcomes: &[ExperimentSummary]) -> Sections<'_> {
     let mut sections = Sections::new();
     for outcome in outcomes {
         sections.entry(&outcome.section).or_default().push(outcome);
@@ -28,7 +27,8 @@ pub(super) fn section_id(index: usize) -> String {
 }
 
 /// How the run went: one sentence, its numbers, and what failed.
-pub(super) fn result(outcomes: &[ExperimentOutcome], about: &About) -> Markup {
+pub(super) fn result(summary: &Summary) -> Markup {
+    let Summary { experiments: outcomes, about, seconds, .. } = summary;
     let tally = Tally::of(outcomes);
     html! {
         section.result.(tally.class()) aria-labelledby="page--result" {
@@ -39,7 +39,7 @@ pub(super) fn result(outcomes: &[ExperimentOutcome], about: &About) -> Markup {
                 (entry("Checks", html! { (count(tally.checks as u64)) }))
                 (entry("Passed", html! { (count(tally.passed() as u64)) }))
                 (entry("Failed", html! { (count(tally.failed as u64)) }))
-                (entry("Time", html! { (duration(about.seconds)) }))
+                (entry("Time", html! { (duration(*seconds)) }))
                 (entry("Version", html! { (about.version) }))
             }
             p.command { code { (about.command) } }
@@ -68,12 +68,16 @@ fn setting(about: &About) -> String {
         "Run at the default resolutions; --full runs the thesis’s own where they are larger"
     };
     let threads = counted(about.threads, "thread");
-    let left_out: String = about.left_out.iter().map(|words| format!(" Left out: {words}.")).collect();
+    let left_out: String = about
+        .left_out
+        .iter()
+        .map(|l| format!(" Left out: {} needs {}, which is not there.", l.slug, l.needs))
+        .collect();
     format!("{resolution}. {threads}; only the times depend on it.{left_out}")
 }
 
 /// Every failed check with a link to its experiment.
-fn failures(outcomes: &[ExperimentOutcome]) -> Markup {
+fn failures(outcomes: &[ExperimentSummary]) -> Markup {
     let mut failed =
         outcomes.iter().flat_map(|o| o.checks.iter().filter(|c| !c.passed).map(move |c| (o, c))).peekable();
     html! {
@@ -111,7 +115,7 @@ pub(super) fn contents(sections: &Sections<'_>, of_thesis: bool) -> Markup {
     }
 }
 
-fn line(outcome: &ExperimentOutcome) -> Markup {
+fn line(outcome: &ExperimentSummary) -> Markup {
     let tally = Tally::of([outcome]);
     html! {
         li {

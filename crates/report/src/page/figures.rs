@@ -4,7 +4,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, html};
 
-use crate::Figure;
+use super::Pictures;
+use crate::PictureSummary;
 use crate::links::{address, path};
 
 /// Up to this width in pixels three figures share a row.
@@ -14,21 +15,24 @@ const SMALL_PX: f64 = 400.0;
 const MEDIUM_PX: f64 = 800.0;
 
 /// All figures, one to three in a row.
-pub(super) fn figures(slug: &str, figures: &[Figure]) -> Markup {
+pub(super) fn figures(slug: &str, figures: &[PictureSummary], pictures: &Pictures<'_>) -> Markup {
     html! {
         @if !figures.is_empty() {
-            div.figures { @for f in figures { (figure(slug, f)) } }
+            div.figures { @for f in figures { (figure(slug, f, pictures)) } }
         }
     }
 }
 
-fn figure(slug: &str, figure: &Figure) -> Markup {
-    let address_of = |ending: &str| address(&path(slug, &format!("{}.{ending}", figure.name)));
+fn figure(slug: &str, figure: &PictureSummary, pictures: &Pictures<'_>) -> Markup {
+    let path_of = |ending: &str| path(slug, &format!("{}.{ending}", figure.name));
+    let address_of = |ending: &str| address(&path_of(ending));
+    let source = pictures(&path_of("png"))
+        .map_or_else(|| address_of("png"), |png| format!("data:image/png;base64,{}", STANDARD.encode(png)));
     let (width, height) = (figure.width_px.round() as u32, figure.height_px.round() as u32);
     html! {
         figure.(size_class(figure.width_px)) style={ "--width:" (width) "px" } {
             a.plate href=(address_of("svg")) {
-                img src={ "data:image/png;base64," (STANDARD.encode(&figure.png)) } alt=(figure.alt)
+                img src=(source) alt=(figure.alt)
                     width=(width) height=(height);
             }
             figcaption {

@@ -2,15 +2,16 @@
 
 use maud::{Markup, html};
 
+use super::Pictures;
 use super::figures::figures;
 use super::tables::tables;
 use super::verdict::{Tally, excess, mark};
 use crate::links::{address, path};
 use crate::numbers::{count, counted, duration, file_size, number};
-use crate::{CheckOutcome, DataFile, Expected, ExperimentOutcome};
+use crate::{CheckOutcome, DataSummary, Expected, ExperimentSummary};
 
 /// Everything about one experiment.
-pub(super) fn article(outcome: &ExperimentOutcome) -> Markup {
+pub(super) fn article(outcome: &ExperimentSummary, pictures: &Pictures<'_>) -> Markup {
     let tally = Tally::of([outcome]);
     let heading = format!("{}--title", outcome.slug);
     html! {
@@ -29,13 +30,13 @@ pub(super) fn article(outcome: &ExperimentOutcome) -> Markup {
             @if !outcome.look_for.is_empty() {
                 p.look-for { b { "What to look for. " } (outcome.look_for) }
             }
-            (figures(&outcome.slug, &outcome.figures))
+            (figures(&outcome.slug, &outcome.pictures, pictures))
             (tables(&outcome.tables))
             (checks(&outcome.title, &outcome.checks))
             footer {
                 p.again { "Run it again: " code { (outcome.command) } }
                 (data(&outcome.slug, &outcome.data))
-                (work(&outcome.work))
+                (work(&outcome.work.0))
             }
         }
     }
@@ -105,7 +106,7 @@ fn tolerance(expected: Expected) -> Markup {
     }
 }
 
-fn data(slug: &str, data: &[DataFile]) -> Markup {
+fn data(slug: &str, data: &[DataSummary]) -> Markup {
     html! {
         @if !data.is_empty() {
             p.data {
@@ -113,7 +114,7 @@ fn data(slug: &str, data: &[DataFile]) -> Markup {
                 @for (i, file) in data.iter().enumerate() {
                     @if i > 0 { ", " }
                     a href=(address(&path(slug, &file.name))) { (file.name) }
-                    " (" (file_size(file.bytes.len())) ")"
+                    " (" (file_size(file.bytes)) ")"
                 }
             }
         }

@@ -4,13 +4,13 @@ use maud::{Markup, html};
 
 use super::tables::{class_of, scrolled};
 use crate::links::place;
-use crate::{ExperimentOutcome, Table};
+use crate::{ExperimentSummary, Table};
 
 /// Fewer experiments need no overview.
 const LEAST: usize = 3;
 
 /// The tables of the same title and columns in three experiments or more, their rows below each other.
-pub(super) fn overview(outcomes: &[&ExperimentOutcome]) -> Markup {
+pub(super) fn overview(outcomes: &[&ExperimentSummary]) -> Markup {
     let shared: Vec<Vec<Part<'_>>> = shared(outcomes);
     html! {
         @if !shared.is_empty() {
@@ -23,9 +23,9 @@ pub(super) fn overview(outcomes: &[&ExperimentOutcome]) -> Markup {
 }
 
 /// An experiment with one of its tables.
-type Part<'a> = (&'a ExperimentOutcome, &'a Table);
+type Part<'a> = (&'a ExperimentSummary, &'a Table);
 
-fn shared<'a>(outcomes: &[&'a ExperimentOutcome]) -> Vec<Vec<Part<'a>>> {
+fn shared<'a>(outcomes: &[&'a ExperimentSummary]) -> Vec<Vec<Part<'a>>> {
     let mut found: Vec<Vec<Part<'a>>> = Vec::new();
     for outcome in outcomes {
         for table in outcome.tables.iter().filter(|t| !t.rows.is_empty()) {

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::{CheckOutcome, Expected, ExperimentOutcome};
+use crate::{CheckOutcome, Expected, ExperimentSummary};
 
 /// Number of checks and how many of them failed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -13,7 +13,7 @@ pub(super) struct Tally {
 
 impl Tally {
     /// Of all checks of `outcomes`.
-    pub(super) fn of<'a>(outcomes: impl IntoIterator<Item = &'a ExperimentOutcome>) -> Self {
+    pub(super) fn of<'a>(outcomes: impl IntoIterator<Item = &'a ExperimentSummary>) -> Self {
         let checks = outcomes.into_iter().flat_map(|o| &o.checks);
         checks.fold(Self::default(), |t, c| Self {
             checks: t.checks + 1,

@@ -65,7 +65,7 @@ impl ResultsFolder {
 
     /// Writes an experiment's files, and then the summary that tells of them: whatever happens after, the folder holds
     /// this experiment and all others as a whole.
-    pub(crate) fn add(&self, outcome: &ExperimentOutcome, file: &str) -> Result<(), CliError> {
+    pub(crate) fn add(&mut self, outcome: &ExperimentOutcome, file: &str) -> Result<(), CliError> {
         let mut staging = files::Staging::new(&self.path.join(&outcome.slug))?;
         for figure in &outcome.figures {
             staging.add(&format!("{}.png", figure.name), &figure.png)?;
@@ -75,6 +75,7 @@ impl ResultsFolder {
             staging.add(&data.name, &data.bytes)?;
         }
         staging.finish()?;
+        self.about.added += 1;
         // Read anew: another run may have added some meanwhile.
         let earlier = self.summary()?.unwrap_or_default();
         let left_out = left_out(&earlier, &self.about.left_out);

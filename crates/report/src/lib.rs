@@ -11,7 +11,7 @@ pub mod page;
 pub mod review;
 mod summary;
 
-pub use numbers::shortened;
+pub use numbers::{plain, shortened};
 pub use outcome::{CheckOutcome, Column, DataFile, Expected, ExperimentOutcome, Figure, Table};
 pub use page::html;
 pub use summary::{

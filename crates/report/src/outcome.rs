@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numbers::plain;
 use crate::summary::{not_a_number, nullable};
 
 /// Everything one experiment produced.
@@ -198,12 +199,27 @@ impl From<CheckForm> for CheckOutcome {
     }
 }
 
+impl CheckOutcome {
+    /// How far the value is outside of what is accepted; none if it lies inside or is not a number.
+    #[must_use]
+    pub fn excess(&self) -> Option<f64> {
+        let beyond = match self.expected {
+            Expected::Near { value, tolerance } => (self.value - value).abs() - tolerance,
+            Expected::AtMost(bound) => self.value - bound,
+            Expected::AtLeast(bound) => bound - self.value,
+        };
+        (beyond > 0.0).then_some(beyond)
+    }
+}
+
+/// In plain text, for terminals.
 impl std::fmt::Display for Expected {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match *self {
-            Self::Near { value, tolerance } => write!(f, "{value} +- {tolerance}"),
-            Self::AtMost(bound) => write!(f, "at most {bound}"),
-            Self::AtLeast(bound) => write!(f, "at least {bound}"),
+            Self::Near { value, tolerance: 0.0 } => write!(f, "exactly {}", plain(value)),
+            Self::Near { value, tolerance } => write!(f, "{} ± {}", plain(value), plain(tolerance)),
+            Self::AtMost(bound) => write!(f, "at most {}", plain(bound)),
+            Self::AtLeast(bound) => write!(f, "at least {}", plain(bound)),
         }
     }
 }
@@ -218,5 +234,14 @@ mod tests {
         assert!(near.is_met_by(1.05) && !near.is_met_by(1.2) && !near.is_met_by(f64::NAN));
         assert!(Expected::AtMost(1.0).is_met_by(1.0) && !Expected::AtMost(1.0).is_met_by(f64::NAN));
         assert!(Expected::AtLeast(1.0).is_met_by(2.0) && !Expected::AtLeast(1.0).is_met_by(0.5));
+    }
+
+    #[test]
+    fn expectations_are_readable() {
+        assert_eq!(Expected::AtMost(1e-13).to_string(), "at most 1e-13");
+        let value = 425.514_550_643_004_2;
+        let near = Expected::Near { value, tolerance: value * 1e-11 };
+        assert_eq!(near.to_string(), "425.515 ± 4.25515e-9");
+        assert_eq!(Expected::Near { value: 3.0, tolerance: 0.0 }.to_string(), "exactly 3");
     }
 }

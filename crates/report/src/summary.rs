@@ -40,6 +40,8 @@ pub struct About {
     pub full: bool,
     /// Number of threads; the results do not depend on it.
     pub threads: usize,
+    /// How many experiments the run has added or replaced.
+    pub added: usize,
     /// Experiments that were left out.
     pub left_out: Vec<LeftOut>,
 }

@@ -14,7 +14,7 @@ use tigereye_experiments::{
     ExperimentError, Host, Plan, RunError, Scope, evaluate, library, load, plan, slug_of,
 };
 use tigereye_input::provenance;
-use tigereye_report::{About, CheckOutcome, ExperimentOutcome, LeftOut};
+use tigereye_report::{About, CheckOutcome, ExperimentOutcome, LeftOut, plain};
 
 /// Largest number of experiment files in a folder.
 const MAX_FILES: usize = 10_000;
@@ -177,10 +177,11 @@ fn run_sources(
         command: super::command_line(),
         full,
         threads: resources.threads.unwrap_or_else(rayon::current_num_threads),
+        added: 0,
         left_out,
     };
     let names: Vec<_> = prepared.iter().map(|(s, plan)| (plan.slug.clone(), s.name.clone())).collect();
-    let folder = ResultsFolder::open(out, about, &names)?;
+    let mut folder = ResultsFolder::open(out, about, &names)?;
     files::make_folder(out)?;
     let memory = resources.memory.unwrap_or_else(system::half_of_memory);
     let verdicts = system::on_threads(resources.threads, || {
@@ -282,7 +283,8 @@ fn conclude(
         .flat_map(|o| {
             o.checks.iter().filter(|c| !c.passed).map(move |c| {
                 let why = c.reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
-                format!("  {}: {} = {:.6e}{why}, expected {}", o.slug, c.name, c.value, c.expected)
+                let off = c.excess().map(|e| format!(", off by {}", plain(e))).unwrap_or_default();
+                format!("  {}: {} = {}{why}, expected {}{off}", o.slug, c.name, plain(c.value), c.expected)
             })
         })
         .collect();

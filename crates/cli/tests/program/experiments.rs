@@ -371,7 +371,7 @@ fn experiments_without_their_data_are_left_out() {
     let summary: serde_json::Value = serde_json::from_slice(&place.read("r/summary.json")).unwrap();
     assert_eq!(summary["experiments"].as_array().unwrap().len(), 1);
     let page = String::from_utf8(place.read("r/index.html")).unwrap();
-    assert!(page.contains("Left out: lacking needs reference/none.vtp"));
+    assert!(page.contains("lacking (<code>reference/none.vtp</code>)"));
     place.refuses(&["run", "lacking.ron", "--out", "s"], &["no experiment is left to run"]);
     assert!(place.succeeds(&["check", "lacking.ron"]).stdout.contains("needs reference/none.vtp"));
 }

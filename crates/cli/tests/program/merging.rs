@@ -42,6 +42,7 @@ fn lasting(place: &Place) -> Value {
     let mut summary = place.json("r/summary.json");
     summary["seconds"] = Value::Null;
     summary["about"]["command"] = Value::Null;
+    summary["about"]["added"] = Value::Null;
     for e in summary["experiments"].as_array_mut().unwrap() {
         e["seconds"] = Value::Null;
     }

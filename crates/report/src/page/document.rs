@@ -7,7 +7,8 @@ use super::contents::{Sections, by_section, contents, result, section_id};
 use super::gallery::article;
 use super::glossary::glossary;
 use super::introduction::{about_tensor_lines, introduction};
-use super::overview::overview;
+use super::overview::{overview, shared, titles};
+use super::thesis::is_of_thesis;
 use super::verdict::Tally;
 use crate::numbers::counted;
 use crate::{ExperimentSummary, Summary};
@@ -18,7 +19,8 @@ const CLOSING: &str = "\
 
 /// A folder of results as one page that needs no other file: style and pictures are inside.
 ///
-/// Sections stand in ascending order of their names, the experiments of a section in the order given. Links
+/// Sections stand in the order of their names, numbers in them by size; in a section the figures of the thesis come first,
+/// by their numbers, the others in the order given. Links
 /// to the figures and data at full size are relative: the page belongs into the results folder.
 #[must_use]
 pub fn html(summary: &Summary, pictures: &Pictures<'_>) -> String {
@@ -61,11 +63,6 @@ fn head(outcomes: &[ExperimentSummary]) -> Markup {
     }
 }
 
-/// Whether the page shows anything of the thesis: users also run experiments of their own.
-fn is_of_thesis(outcomes: &[ExperimentSummary]) -> bool {
-    outcomes.is_empty() || outcomes.iter().any(|o| o.source.contains("Thesis"))
-}
-
 fn masthead(of_thesis: bool) -> Markup {
     markup! {
         header.page {
@@ -88,8 +85,10 @@ fn gallery(sections: &Sections<'_>, pictures: &Pictures<'_>) -> Markup {
         @for (i, (section, outcomes)) in sections.iter().enumerate() {
             section.experiments aria-labelledby=(section_id(i)) {
                 h2 #(section_id(i)) { (section) }
-                (overview(outcomes))
-                @for outcome in outcomes { (article(outcome, pictures)) }
+                @let shared = shared(outcomes);
+                (overview(&shared))
+                @let titles = titles(&shared);
+                @for outcome in outcomes { (article(outcome, &titles, pictures)) }
                 p.back { a href="#page--contents" { "Back to the contents" } }
             }
         }

@@ -5,14 +5,15 @@ use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, html};
 
 use super::Pictures;
+use super::words::words;
 use crate::PictureSummary;
 use crate::links::{address, path};
 
 /// Up to this width in pixels three figures share a row.
 const SMALL_PX: f64 = 400.0;
 
-/// Up to this width in pixels two figures share a row.
-const MEDIUM_PX: f64 = 800.0;
+/// Up to this width in pixels two figures share a row; half a page shows them nearly at full size.
+const MEDIUM_PX: f64 = 660.0;
 
 /// All figures, one to three in a row.
 pub(super) fn figures(slug: &str, figures: &[PictureSummary], pictures: &Pictures<'_>) -> Markup {
@@ -36,7 +37,7 @@ fn figure(slug: &str, figure: &PictureSummary, pictures: &Pictures<'_>) -> Marku
                     width=(width) height=(height);
             }
             figcaption {
-                (figure.caption)
+                (words(&figure.caption))
                 " "
                 span.files {
                     "Full size: "

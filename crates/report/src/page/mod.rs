@@ -6,11 +6,14 @@ mod figures;
 mod gallery;
 mod glossary;
 mod introduction;
+mod order;
 mod overview;
 mod tables;
 #[cfg(test)]
 mod tests;
+mod thesis;
 mod verdict;
+mod words;
 
 pub use document::html;
 

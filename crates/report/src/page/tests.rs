@@ -8,7 +8,7 @@ use crate::{
 
 fn about() -> About {
     let command = "tigereye reproduce --out results".into();
-    About { version: "1.2.3".into(), command, full: false, threads: 4, left_out: Vec::new() }
+    About { version: "1.2.3".into(), command, full: false, threads: 4, added: 3, left_out: Vec::new() }
 }
 
 /// The summary of a folder of these.
@@ -118,7 +118,7 @@ fn summary_keys_stand_in_a_fixed_order() {
     let text = summary(&mixed()[..1], &about()).to_json();
     let keys: Vec<&str> =
         text.lines().filter_map(|l| l.trim().strip_prefix('"')?.split_once("\": ")).map(|(k, _)| k).collect();
-    let expect = "passed seconds about version command full threads left_out experiments slug title source seconds \
+    let expect = "passed seconds about version command full threads added left_out experiments slug title source seconds \
                   passed figures timed_figures checks name value expected tolerance passed kind basis command work \
                   steps cells steps (2) version full file section claim look_for pictures name caption alt width_px \
                   height_px frames tables title caption columns heading words heading words rows data name bytes";
@@ -299,5 +299,5 @@ fn equal_outcomes_give_equal_pages() {
 fn experiments_left_out_are_named() {
     let left_out = vec![LeftOut { slug: "brain".into(), needs: "reference/x.vtp".into() }];
     let page = html(&[], &About { left_out, ..about() });
-    assert!(page.contains("Left out: brain needs reference/x.vtp, which is not there."), "{page}");
+    assert!(page.contains("does not come with tigereye: brain (<code>reference/x.vtp</code>)."), "{page}");
 }

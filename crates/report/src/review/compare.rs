@@ -62,23 +62,10 @@ fn experiment(e: ExperimentSummary) -> Experiment {
 }
 
 fn check(check: CheckOutcome) -> (String, Entry) {
-    let expected = match check.expected {
-        Expected::Near { value, .. } | Expected::AtMost(value) | Expected::AtLeast(value)
-            if value.is_nan() =>
-        {
-            None
-        }
-        Expected::AtMost(bound) => Some(format!("at most {}", short(bound))),
-        Expected::AtLeast(bound) => Some(format!("at least {}", short(bound))),
-        Expected::Near { value, tolerance: 0.0 } => Some(format!("exactly {}", short(value))),
-        Expected::Near { value, tolerance } => Some(format!("{} ± {}", short(value), short(tolerance))),
-    };
+    let (Expected::Near { value, .. } | Expected::AtMost(value) | Expected::AtLeast(value)) = check.expected;
+    // Older programs did not write it.
+    let expected = (!value.is_nan()).then_some(check.expected);
     (check.name, Entry { value: Value::Number(check.value), passed: Some(check.passed), expected })
-}
-
-/// All digits, with a power of ten where there would be many zeros.
-fn short(x: f64) -> String {
-    if x == 0.0 || (1e-4..1e15).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
 
 /// Reads a figure's PNG by its path in the summary of one side.
@@ -165,8 +152,15 @@ fn figure_review(
 ) -> Result<FigureReview, ReviewError> {
     let short = path.strip_prefix(slug).and_then(|p| p.strip_prefix('/')).unwrap_or(path);
     let name = short.strip_suffix(".png").unwrap_or(short).to_owned();
-    let unchanged =
-        FigureReview { name, state: State::Unchanged, change: 0.0, difference: None, base: None, head: None };
+    let unchanged = FigureReview {
+        name,
+        state: State::Unchanged,
+        change: 0.0,
+        difference: None,
+        sizes: None,
+        base: None,
+        head: None,
+    };
     if base == head {
         return Ok(unchanged);
     }
@@ -174,23 +168,32 @@ fn figure_review(
         Some(png) => Pixels::decode(&format!("{name}/{path}"), png).map(Some),
         None => Ok(None),
     };
-    let pixels = [decode(names[0], &base)?, decode(names[1], &head)?];
-    let difference = match &pixels {
-        [Some(a), Some(b)] => picture::difference(a, b),
-        _ => None,
+    let state = State::of(base.is_some(), head.is_some(), true);
+    let (Some(a), Some(b)) = (decode(names[0], &base)?, decode(names[1], &head)?) else {
+        let picture = |name: &str, png: Option<Vec<u8>>| -> Result<Option<Picture>, ReviewError> {
+            let Some(png) = png else { return Ok(None) };
+            Ok(Some(Pixels::decode(&format!("{name}/{path}"), &png)?.picture(png)))
+        };
+        let (base, head) = (picture(names[0], base)?, picture(names[1], head)?);
+        return Ok(FigureReview { state, change: f64::INFINITY, base, head, ..unchanged });
     };
-    if difference.as_ref().is_some_and(|d| d.differing == 0) {
-        return Ok(FigureReview { difference, ..unchanged });
+    let sizes = (a.size() != b.size()).then(|| [a.size(), b.size()]);
+    let difference = picture::difference(&a, &b);
+    if difference.differing == 0 && sizes.is_none() {
+        return Ok(FigureReview { difference: Some(difference), ..unchanged });
     }
-    let picture = |png: Option<Vec<u8>>, pixels: &Option<Pixels>| -> Option<Picture> {
-        Some(pixels.as_ref()?.picture(png?))
+    // Pictures of one size are shown as they are.
+    let shown = |pixels: Pixels, png: Option<Vec<u8>>| match sizes {
+        None => png.map(|png| pixels.picture(png)),
+        Some(_) => Some(pixels.padded(difference.size).encoded()),
     };
     Ok(FigureReview {
-        state: State::of(base.is_some(), head.is_some(), true),
-        change: difference.as_ref().map_or(f64::INFINITY, |d| d.mean),
-        base: picture(base, &pixels[0]),
-        head: picture(head, &pixels[1]),
-        difference,
+        state,
+        change: difference.mean,
+        sizes,
+        base: shown(a, base),
+        head: shown(b, head),
+        difference: Some(difference),
         ..unchanged
     })
 }

@@ -19,9 +19,11 @@ pub(super) struct Picture {
     pub(super) size: [u32; 2],
 }
 
-/// How two pictures of one size differ.
+/// How two pictures differ.
 #[derive(Clone, Debug)]
 pub(super) struct Difference {
+    /// Size of both together: the larger width and height.
+    pub(super) size: [u32; 2],
     pub(super) pixels: u64,
     pub(super) differing: u64,
     /// Largest difference of a channel, of 255.
@@ -76,15 +78,41 @@ impl Pixels {
         Ok(Self { size, rgba })
     }
 
+    /// Width and height.
+    pub(super) const fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
     pub(super) fn picture(&self, png: Vec<u8>) -> Picture {
         Picture { png, size: self.size }
     }
+
+    /// The picture in the upper left corner of a white one of `size`, which must not be smaller.
+    pub(super) fn padded(&self, size: [u32; 2]) -> Self {
+        let (width, new_width) = (self.size[0] as usize, size[0] as usize);
+        let mut rgba = vec![[255; 4]; new_width * size[1] as usize];
+        for (row, pixels) in rgba.chunks_exact_mut(new_width.max(1)).zip(self.rgba.chunks_exact(width.max(1)))
+        {
+            row[..width].copy_from_slice(pixels);
+        }
+        Self { size, rgba }
+    }
+
+    /// As a PNG, on white.
+    pub(super) fn encoded(&self) -> Picture {
+        let on_white = |[r, g, b, a]: [u8; 4]| {
+            [r, g, b].map(|c| (255 - (255 - u32::from(c)) * u32::from(a) / 255) as u8)
+        };
+        let rgb = self.rgba.iter().flat_map(|p| on_white(*p)).collect();
+        Picture { png: encode(self.size, rgb), size: self.size }
+    }
 }
 
-/// How `head` differs from `base`; none where their sizes differ.
-pub(super) fn difference(base: &Pixels, head: &Pixels) -> Option<Difference> {
+/// How `head` differs from `base`; where their sizes differ, both stand in the upper left corner of white.
+pub(super) fn difference(base: &Pixels, head: &Pixels) -> Difference {
+    let size = [0, 1].map(|i| base.size[i].max(head.size[i]));
     if base.size != head.size {
-        return None;
+        return difference(&base.padded(size), &head.padded(size));
     }
     let of_pixel = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).map(|i| a[i].abs_diff(b[i])).max().unwrap_or(0);
     let differences: Vec<u8> = base.rgba.iter().zip(&head.rgba).map(of_pixel).collect();
@@ -92,13 +120,14 @@ pub(super) fn difference(base: &Pixels, head: &Pixels) -> Option<Difference> {
     let sum: u64 = differences.iter().map(|d| u64::from(*d)).sum();
     let pixels = differences.len() as u64;
     let map = base.rgba.iter().zip(&differences).flat_map(|(p, d)| colour(faded(*p), *d, largest)).collect();
-    Some(Difference {
+    Difference {
+        size,
         pixels,
         differing: differences.iter().filter(|d| **d > 0).count() as u64,
         largest,
         mean: sum as f64 / (pixels.max(1) as f64 * 255.0),
         map: encode(base.size, map),
-    })
+    }
 }
 
 /// Brightness on white, in the upper quarter of the range.
@@ -147,7 +176,7 @@ mod tests {
     fn differences_are_counted_and_measured() {
         let base = pixels([2, 2], png::ColorType::Grayscale, &[0, 10, 20, 255]);
         let head = pixels([2, 2], png::ColorType::Grayscale, &[0, 13, 20, 204]);
-        let d = difference(&base, &head).expect("one size");
+        let d = difference(&base, &head);
         assert_eq!((d.pixels, d.differing, d.largest), (4, 2, 51));
         assert!((d.mean - 54.0 / 1020.0).abs() < 1e-15);
         let map = Pixels::decode("map", &d.map).expect("a map");
@@ -160,15 +189,22 @@ mod tests {
     fn colours_in_other_words_are_equal() {
         let grey = pixels([1, 1], png::ColorType::Grayscale, &[7]);
         let rgba = pixels([1, 1], png::ColorType::Rgba, &[7, 7, 7, 255]);
-        assert_eq!(difference(&grey, &rgba).map(|d| (d.differing, d.largest)), Some((0, 0)));
+        assert_eq!([difference(&grey, &rgba)].map(|d| (d.differing, d.largest)), [(0, 0)]);
         let clear = pixels([1, 1], png::ColorType::GrayscaleAlpha, &[7, 250]);
-        assert_eq!(difference(&grey, &clear).map(|d| (d.differing, d.largest)), Some((1, 5)));
+        assert_eq!([difference(&grey, &clear)].map(|d| (d.differing, d.largest)), [(1, 5)]);
     }
 
     #[test]
-    fn sizes_must_agree() {
-        let [a, b] = [[2, 1], [1, 2]].map(|size| pixels(size, png::ColorType::Grayscale, &[0, 0]));
-        assert!(difference(&a, &b).is_none());
+    fn pictures_of_different_sizes_are_compared_on_white() {
+        let [a, b] = [[2, 1], [1, 2]].map(|size| pixels(size, png::ColorType::Grayscale, &[0, 200]));
+        let d = difference(&a, &b);
+        // The corner is equal, one pixel of each lies on white, and one is white in both.
+        assert_eq!((d.size, d.pixels, d.differing, d.largest), ([2, 2], 4, 2, 55));
+        let padded = a.padded([2, 2]).encoded();
+        let shown = Pixels::decode("p.png", &padded.png).expect("a picture");
+        assert_eq!((shown.size, shown.rgba[1], shown.rgba[3]), ([2, 2], [200, 200, 200, 255], [255; 4]));
+        let wider = pixels([3, 1], png::ColorType::Grayscale, &[0, 200, 255]);
+        assert_eq!(difference(&a, &wider).differing, 0, "white at the edge is no difference");
     }
 
     #[test]

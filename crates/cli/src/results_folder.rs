@@ -2,9 +2,13 @@
 
 use crate::error::CliError;
 use crate::files;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use tigereye_report::review::MAX_FILE;
-use tigereye_report::{About, ExperimentOutcome, FilePath, Incoming, LeftOut, Made, Summary};
+use tigereye_report::{
+    About, ExperimentOutcome, ExperimentSummary, FilePath, Incoming, LeftOut, Made, PictureSummary, Summary,
+};
 
 /// What programs read.
 const SUMMARY: &str = "summary.json";
@@ -88,10 +92,16 @@ impl ResultsFolder {
     /// Makes the page of all that the folder holds; how many experiments that are.
     pub(crate) fn finish(&self) -> Result<usize, CliError> {
         let summary = self.summary()?.unwrap_or_default();
-        let picture = |path: &str| {
-            let inside = FilePath::try_from(path.to_owned()).ok()?;
-            files::read_at_most(&self.path.join(inside.as_str()), MAX_FILE).ok()
-        };
+        let figures: Vec<(FilePath, &PictureSummary)> =
+            summary.experiments.iter().flat_map(files_of).collect();
+        let previews: BTreeMap<&str, Vec<Vec<u8>>> = figures
+            .par_iter()
+            .filter_map(|(path, figure)| {
+                let png = files::read_at_most(&self.path.join(path.as_str()), MAX_FILE).ok()?;
+                Some((path.as_str(), tigereye_report::previews(&png, figure)?))
+            })
+            .collect();
+        let picture = |path: &str| previews.get(path).cloned();
         files::write(&self.page(), tigereye_report::html(&summary, &picture).as_bytes())?;
         Ok(summary.experiments.len())
     }
@@ -103,6 +113,12 @@ impl ResultsFolder {
         let ours = |version: &str| version == self.about.version;
         if summary.experiments.iter().all(|e| ours(&e.version)) { self.finish().map(drop) } else { Ok(()) }
     }
+}
+
+/// The figures of an experiment with the paths of their PNGs.
+fn files_of(experiment: &ExperimentSummary) -> impl Iterator<Item = (FilePath, &PictureSummary)> {
+    let path = |name: &str| FilePath::try_from(format!("{}/{name}.png", experiment.slug)).ok();
+    experiment.pictures.iter().filter_map(move |figure| Some((path(&figure.name)?, figure)))
 }
 
 /// What is still missing: what was left out earlier or is now, and is not there.

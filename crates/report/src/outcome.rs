@@ -61,10 +61,27 @@ pub struct Figure {
     pub timed: bool,
     /// Frames of the animation beside it, `NAME.apng` among the data; 0 for none.
     pub frames: usize,
+    /// Where its panels are; empty for a single one.
+    pub panels: Vec<PanelPlace>,
     /// The picture as PNG.
     pub png: Vec<u8>,
     /// The picture as SVG.
     pub svg: String,
+}
+
+/// A panel of a picture: where it is, pixels at scale 1.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PanelPlace {
+    /// Left edge.
+    pub x_px: f64,
+    /// Upper edge.
+    pub y_px: f64,
+    /// Width.
+    pub width_px: f64,
+    /// Height.
+    pub height_px: f64,
+    /// Alternative text.
+    pub alt: String,
 }
 
 /// A table of results for readers; what is compared with expectations stands in the checks.
@@ -212,14 +229,26 @@ impl CheckOutcome {
     }
 }
 
-/// In plain text, for terminals.
+impl Expected {
+    /// For readers of plain text: six significant digits.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match *self {
+            Self::Near { value, tolerance: 0.0 } => format!("exactly {}", plain(value)),
+            Self::Near { value, tolerance } => format!("{} ± {}", plain(value), plain(tolerance)),
+            Self::AtMost(bound) => format!("at most {}", plain(bound)),
+            Self::AtLeast(bound) => format!("at least {}", plain(bound)),
+        }
+    }
+}
+
+/// With all digits, as snapshots have it.
 impl std::fmt::Display for Expected {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match *self {
-            Self::Near { value, tolerance: 0.0 } => write!(f, "exactly {}", plain(value)),
-            Self::Near { value, tolerance } => write!(f, "{} ± {}", plain(value), plain(tolerance)),
-            Self::AtMost(bound) => write!(f, "at most {}", plain(bound)),
-            Self::AtLeast(bound) => write!(f, "at least {}", plain(bound)),
+            Self::Near { value, tolerance } => write!(f, "{value} +- {tolerance}"),
+            Self::AtMost(bound) => write!(f, "at most {bound}"),
+            Self::AtLeast(bound) => write!(f, "at least {bound}"),
         }
     }
 }
@@ -238,10 +267,10 @@ mod tests {
 
     #[test]
     fn expectations_are_readable() {
-        assert_eq!(Expected::AtMost(1e-13).to_string(), "at most 1e-13");
+        assert_eq!(Expected::AtMost(1e-13).words(), "at most 1e-13");
         let value = 425.514_550_643_004_2;
         let near = Expected::Near { value, tolerance: value * 1e-11 };
-        assert_eq!(near.to_string(), "425.515 ± 4.25515e-9");
-        assert_eq!(Expected::Near { value: 3.0, tolerance: 0.0 }.to_string(), "exactly 3");
+        assert_eq!(near.words(), "425.515 ± 4.25515e-9");
+        assert_eq!(Expected::Near { value: 3.0, tolerance: 0.0 }.words(), "exactly 3");
     }
 }

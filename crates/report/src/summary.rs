@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
 
 use crate::links::path;
-use crate::outcome::{CheckOutcome, ExperimentOutcome, Figure, Table};
+use crate::outcome::{CheckOutcome, ExperimentOutcome, Figure, PanelPlace, Table};
 
 /// Longest name of an experiment, bytes.
 const MAX_NAME: usize = 10_000;
@@ -130,6 +130,9 @@ pub struct PictureSummary {
     pub height_px: f64,
     /// Frames of the animation beside it; 0 for none.
     pub frames: usize,
+    /// Where its panels are; empty for a single one.
+    #[serde(default)]
+    pub panels: Vec<PanelPlace>,
 }
 
 /// A file of data.
@@ -368,7 +371,7 @@ impl ExperimentOutcome {
 
 impl PictureSummary {
     fn of(figure: &Figure) -> Self {
-        let Figure { name, caption, alt, width_px, height_px, frames, .. } = figure;
+        let Figure { name, caption, alt, width_px, height_px, frames, panels, .. } = figure;
         Self {
             name: name.clone(),
             caption: caption.clone(),
@@ -376,6 +379,7 @@ impl PictureSummary {
             width_px: *width_px,
             height_px: *height_px,
             frames: *frames,
+            panels: panels.clone(),
         }
     }
 }

@@ -284,7 +284,13 @@ fn conclude(
             o.checks.iter().filter(|c| !c.passed).map(move |c| {
                 let why = c.reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
                 let off = c.excess().map(|e| format!(", off by {}", plain(e))).unwrap_or_default();
-                format!("  {}: {} = {}{why}, expected {}{off}", o.slug, c.name, plain(c.value), c.expected)
+                format!(
+                    "  {}: {} = {}{why}, expected {}{off}",
+                    o.slug,
+                    c.name,
+                    plain(c.value),
+                    c.expected.words()
+                )
             })
         })
         .collect();

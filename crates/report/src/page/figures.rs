@@ -27,14 +27,20 @@ pub(super) fn figures(slug: &str, figures: &[PictureSummary], pictures: &Picture
 fn figure(slug: &str, figure: &PictureSummary, pictures: &Pictures<'_>) -> Markup {
     let path_of = |ending: &str| path(slug, &format!("{}.{ending}", figure.name));
     let address_of = |ending: &str| address(&path_of(ending));
-    let source = pictures(&path_of("png"))
-        .map_or_else(|| address_of("png"), |png| format!("data:image/png;base64,{}", STANDARD.encode(png)));
-    let (width, height) = (figure.width_px.round() as u32, figure.height_px.round() as u32);
+    let pngs = pictures(&path_of("png")).unwrap_or_default();
+    let inside = |png: &Vec<u8>| format!("data:image/png;base64,{}", STANDARD.encode(png));
+    let panels = if figure.panels.len() == pngs.len() { &figure.panels[..] } else { &[] };
+    let class = if panels.is_empty() { size_class(figure.width_px) } else { "large" };
     html! {
-        figure.(size_class(figure.width_px)) style={ "--width:" (width) "px" } {
-            a.plate href=(address_of("svg")) {
-                img src=(source) alt=(figure.alt)
-                    width=(width) height=(height);
+        figure.(class) style={ "--width:" (figure.width_px.round()) "px" } {
+            a.plate.panels[!panels.is_empty()] href=(address_of("svg")) {
+                @for (panel, png) in panels.iter().zip(&pngs) {
+                    (image(&inside(png), &panel.alt, [panel.width_px, panel.height_px]))
+                }
+                @if panels.is_empty() {
+                    @let source = pngs.first().map_or_else(|| address_of("png"), inside);
+                    (image(&source, &figure.alt, [figure.width_px, figure.height_px]))
+                }
             }
             figcaption {
                 (words(&figure.caption))
@@ -59,6 +65,11 @@ fn figure(slug: &str, figure: &PictureSummary, pictures: &Pictures<'_>) -> Marku
             }
         }
     }
+}
+
+fn image(source: &str, alt: &str, size_px: [f64; 2]) -> Markup {
+    let [width, height] = size_px.map(|side| side.round() as u32);
+    html! { img src=(source) alt=(alt) width=(width) height=(height) style={ "--width:" (width) "px" }; }
 }
 
 fn size_class(width_px: f64) -> &'static str {

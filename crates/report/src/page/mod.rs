@@ -17,5 +17,5 @@ mod words;
 
 pub use document::html;
 
-/// Gives the bytes of a picture by its path in the results folder; none where it is not there.
-pub type Pictures<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
+/// Gives the panels of a figure as PNGs by the figure's path in the results folder; none where it is not there.
+pub type Pictures<'a> = dyn Fn(&str) -> Option<Vec<Vec<u8>>> + 'a;

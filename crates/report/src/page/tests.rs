@@ -22,8 +22,9 @@ fn summary(outcomes: &[ExperimentOutcome], about: &About) -> Summary {
 fn html(outcomes: &[ExperimentOutcome], about: &About) -> String {
     super::html(&summary(outcomes, about), &|path| {
         let figures = outcomes.iter().flat_map(|o| o.figures.iter().map(move |f| (&o.slug, f)));
-        let png =
-            |(slug, f): (&String, &Figure)| (path == format!("{slug}/{}.png", f.name)).then(|| f.png.clone());
+        let png = |(slug, f): (&String, &Figure)| {
+            (path == format!("{slug}/{}.png", f.name)).then(|| vec![f.png.clone()])
+        };
         figures.into_iter().find_map(png)
     })
 }
@@ -43,6 +44,7 @@ fn outcome(slug: &str, section: &str, checks: Vec<CheckOutcome>) -> ExperimentOu
     let figure = Figure {
         timed: false,
         frames: 0,
+        panels: Vec::new(),
         name: "light map".into(),
         caption: "Light after ten steps.".into(),
         alt: "A bright spot".into(),
@@ -121,7 +123,7 @@ fn summary_keys_stand_in_a_fixed_order() {
     let expect = "passed seconds about version command full threads added left_out experiments slug title source seconds \
                   passed figures timed_figures checks name value expected tolerance passed kind basis command work \
                   steps cells steps (2) version full file section claim look_for pictures name caption alt width_px \
-                  height_px frames tables title caption columns heading words heading words rows data name bytes";
+                  height_px frames panels tables title caption columns heading words heading words rows data name bytes";
     assert_eq!(keys.join(" "), expect);
 }
 

@@ -1,10 +1,7 @@
-//! Why reviews fail, and how large their files may be.
+//! Why reviews fail.
 
 use crate::SummaryError;
 use thiserror::Error;
-
-/// Largest summary, snapshot or picture, bytes.
-pub const MAX_FILE: u64 = 64 << 20;
 
 /// Why two results cannot be compared.
 #[derive(Debug, Error)]

@@ -13,8 +13,9 @@ mod snapshot;
 mod tests;
 mod words;
 
+pub use crate::limits::MAX_FILE;
 pub use compare::{ReadFigure, Results, read, results};
-pub use error::{MAX_FILE, ReviewError};
+pub use error::ReviewError;
 pub use page::html;
 pub use snapshot::{Pending, snapshots};
 pub use words::{json, text};

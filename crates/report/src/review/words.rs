@@ -28,7 +28,7 @@ pub fn text(review: &Review) -> String {
     }
     lines.extend(failing.iter().take(FAILING).map(|f| {
         let expected = f.number.head.as_ref().and_then(|e| e.expected);
-        let expected = expected.map_or_else(String::new, |e| format!(", expected {e}"));
+        let expected = expected.map_or_else(String::new, |e| format!(", expected {}", e.words()));
         let value = |e: &Option<Entry>| match e.as_ref().map(|e| &e.value) {
             Some(Value::Number(x)) => plain(*x),
             Some(Value::Words(words)) => clipped(words),
@@ -173,7 +173,7 @@ impl<'a> Number<'a> {
     fn of(n: &'a NumberReview) -> Self {
         let value = |e: &'a Option<Entry>| e.as_ref().map(|e| Plain::of(&e.value));
         let passed = |e: &Option<Entry>| e.as_ref().and_then(|e| e.passed);
-        let expected = |e: &Option<Entry>| e.as_ref().and_then(|e| e.expected).map(|e| e.to_string());
+        let expected = |e: &Option<Entry>| e.as_ref().and_then(|e| e.expected).map(|e| e.words());
         Self {
             name: &n.name,
             base: value(&n.base),

@@ -11,7 +11,7 @@ use tigereye_report::{DataFile, Figure, PanelPlace};
 use tigereye_views::light;
 
 /// Resolution of the PNG files, pixels per unit.
-const PNG_SCALE: f64 = 1.25;
+const PNG_SCALE: f64 = 1.15;
 
 /// A figure with the tables behind its charts, and its animation.
 pub(crate) struct Drawn {

@@ -30,7 +30,9 @@ pub(super) fn article(outcome: &ExperimentSummary, shared: &[&str], pictures: &P
                 }
             }
             @if !outcome.claim.is_empty() {
-                blockquote.claim { p.label { "Claim examined" } p { (words(&outcome.claim)) } }
+                blockquote.claim {
+                    p.label { (if outcome.source.starts_with("Thesis") { "The thesis says" } else { "Claim examined" }) }
+                    p { (words(&outcome.claim)) } }
             }
             @if !outcome.look_for.is_empty() {
                 p.look-for { b { "What to look for. " } (words(&outcome.look_for)) }

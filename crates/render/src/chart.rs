@@ -41,8 +41,8 @@ pub struct Series {
     pub markers: bool,
     /// Colour; by default the next of [`SERIES_PALETTE`].
     pub colour: Option<Rgba>,
-    /// Its place among the series of several charts, which decides on colour, marker and dashes; by default that in this
-    /// chart.
+    /// Its place among the series of several charts, which decides on colour, marker and dashes; by default that in
+    /// this chart.
     pub style: Option<usize>,
     /// Dashes and gaps in pixels, empty for a solid line; by default solid for the first series, dashed for the next
     /// ones that have no markers.

@@ -88,7 +88,9 @@ fn place_row(page: &mut Scene, panels: &[(String, Scene)], first: usize, widths:
         page.place(scene.clone(), left, top + heading_height - 6.0, 1.0);
         tallest = tallest.max(scene.height_px);
         let height_px = heading_height + scene.height_px;
-        places.push(PageRect { x_px: left, y_px: top, width_px: *width, height_px });
+        // Without most of the margin on the right, which is empty.
+        let width_px = (width - 0.6 * MARGIN_PX).max(1.0);
+        places.push(PageRect { x_px: left, y_px: top, width_px, height_px });
         left += width + GAP_PX;
     }
     page.height_px = top + heading_height + tallest;

@@ -33,8 +33,8 @@ impl Default for RowChart {
     }
 }
 
-/// The chart with its rows below each other and a legend under the axis. Points that no row has, or that the axis cannot
-/// show, are left out.
+/// The chart with its rows below each other and a legend under the axis. Points that no row has, or that the axis
+/// cannot show, are left out.
 #[must_use]
 pub fn row_chart(chart: &RowChart) -> Scene {
     let width = if chart.width_px.is_finite() { chart.width_px.clamp(200.0, 4000.0) } else { 640.0 };

@@ -4,6 +4,7 @@
 //! programs and for everything else here: [`page`] makes one HTML page of it and of the pictures, and [`review`]
 //! compares two of them, or snapshots. Nothing here knows tensors.
 
+mod json;
 mod limits;
 mod links;
 mod numbers;

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::json::{not_a_number, nullable};
 use crate::numbers::plain;
-use crate::summary::{not_a_number, nullable};
 
 /// Everything one experiment produced.
 #[derive(Clone, Debug, PartialEq)]

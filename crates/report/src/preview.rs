@@ -7,8 +7,8 @@ use crate::{PanelPlace, PictureSummary};
 const COLOURS: usize = 256;
 
 /// The panels of a figure as PNGs of at most 256 colours on white, or the whole figure where it names none: unchanged
-/// where they have no more colours, and otherwise with colours that are close to their own. The same bytes give the same
-/// bytes. None for what is no PNG of 8 bits a channel.
+/// where they have no more colours, and otherwise with colours that are close to their own. The same bytes give the
+/// same bytes. None for what is no PNG of 8 bits a channel.
 #[must_use]
 pub fn previews(png: &[u8], figure: &PictureSummary) -> Option<Vec<Vec<u8>>> {
     let picture = Pixels::decode(png).ok()?;

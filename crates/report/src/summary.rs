@@ -1,11 +1,12 @@
-//! The summary of a folder of results, `summary.json`: written here, read here, and all that the page is made of besides
-//! the pictures.
+//! The summary of a folder of results, `summary.json`: written here, read here, and all that the page is made of
+//! besides the pictures.
 
 use std::collections::BTreeSet;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
 
+use crate::json::{not_a_number, nullable};
 use crate::links::path;
 use crate::outcome::{CheckOutcome, ExperimentOutcome, Figure, PanelPlace, Table};
 
@@ -448,15 +449,6 @@ impl<'de> Deserialize<'de> for Work {
         }
         deserializer.deserialize_map(Members)
     }
-}
-
-pub(crate) const fn not_a_number() -> f64 {
-    f64::NAN
-}
-
-/// A number, or NaN for `null`.
-pub(crate) fn nullable<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(Option::<f64>::deserialize(deserializer)?.unwrap_or(f64::NAN))
 }
 
 #[cfg(test)]

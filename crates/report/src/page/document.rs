@@ -19,8 +19,8 @@ const CLOSING: &str = "\
 
 /// A folder of results as one page that needs no other file: style and pictures are inside.
 ///
-/// Sections stand in the order of their names, numbers in them by size; in a section the figures of the thesis come first,
-/// by their numbers, the others in the order given. Links
+/// Sections stand in the order of their names, numbers in them by size; in a section the figures of the thesis come
+/// first, by their numbers, the others in the order given. Links
 /// to the figures and data at full size are relative: the page belongs into the results folder.
 #[must_use]
 pub fn html(summary: &Summary, pictures: &Pictures<'_>) -> String {

@@ -205,7 +205,7 @@ fn run_sources(
 }
 
 /// Everything that is to run, and what is left out. All files are checked before the first hour is spent.
-fn prepared(sources: &[Source], full: bool) -> Result<(Vec<(&Source, Plan)>, Vec<LeftOut>), CliError> {
+fn prepared(sources: &[Source], full: bool) -> Result<(Vec<Ready<'_>>, Vec<LeftOut>), CliError> {
     let mut prepared = Vec::new();
     let mut faults = Vec::new();
     let mut left_out = Vec::new();
@@ -236,6 +236,9 @@ fn prepared(sources: &[Source], full: bool) -> Result<(Vec<(&Source, Plan)>, Vec
     }
     Ok((prepared, left_out))
 }
+
+/// An experiment that is to run, with its file.
+type Ready<'a> = (&'a Source, Plan);
 
 /// How an experiment went.
 struct Verdict {

@@ -168,10 +168,14 @@ class Pages(unittest.TestCase):
     def test_dividers_have_names_of_their_own(self):
         self.browser.open(self.pages["review"])
         dividers = self.browser.find_all(".slider input")
-        self.assertEqual([self.browser.role(d) for d in dividers], ["slider"] * 2)
-        names = [self.browser.label(d).lower() for d in dividers]
-        for name, figure in zip(names, ["moving", "wide"]):
-            self.assertTrue(all(word in name for word in [figure, "turning", "before", "after"]), name)
+        self.assertEqual([self.browser.role(d) for d in dividers], ["slider"] * 4)
+        names = {self.browser.label(d).lower() for d in dividers}
+        self.assertEqual(len(names), 4, names)
+        # Figures of another size have one, too.
+        for experiment in ["turning", "growing"]:
+            for figure in ["moving", "wide"]:
+                words = [figure, experiment, "before", "after"]
+                self.assertTrue(any(all(word in name for word in words) for name in names), (words, names))
 
     def test_the_divider_follows_the_keys(self):
         self.browser.open(self.pages["review"])

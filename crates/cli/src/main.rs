@@ -13,6 +13,7 @@ mod input;
 mod interrupt;
 mod medium;
 mod part_file;
+mod results_folder;
 mod system;
 mod watch;
 

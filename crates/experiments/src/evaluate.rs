@@ -117,11 +117,14 @@ fn work_of(plan: &Plan, results: &Results<'_>) -> Vec<(String, u64)> {
     plan.runs.iter().enumerate().flat_map(of_run).collect()
 }
 
-/// Every run's result with its provenance.
+/// Every run's result with its provenance, except where the file wants none.
 fn data_files(plan: &Plan, command: &str, results: &Results<'_>) -> Result<Vec<DataFile>, ExperimentError> {
     let mut files = Vec::new();
     for (i, run) in plan.runs.iter().enumerate() {
         let (Some(outcome), Some(made)) = (results.outcome(RunId(i)), &run.plan) else { continue };
+        if !run.is_written {
+            continue;
+        }
         let encoded = outcome.data(made, &file_name(&run.name), command, &plan.media);
         let failed = |source| ExperimentError::Encoding {
             slug: plan.slug.clone(),

@@ -40,6 +40,9 @@ pub struct Experiment {
     /// Propagations, gradients, pulse studies and FTLE fields by name, in order.
     #[serde(default)]
     pub(crate) runs: Named<Run>,
+    /// Runs whose results are not written to files, because only numbers of them are of interest.
+    #[serde(default)]
+    pub(crate) without_data: Vec<Placed<String>>,
     /// Pictures.
     pub(crate) figures: Vec<Figure>,
     /// Tables of results.

@@ -6,12 +6,12 @@ use crate::plan::{PlannedAnimation, PlannedFigure};
 use crate::results::Results;
 use crate::unavailable::Unavailable;
 use std::fmt::Write as _;
-use tigereye_render::{RenderError, Scene, small_multiples};
-use tigereye_report::{DataFile, Figure};
+use tigereye_render::{PageRect, RenderError, Scene, placed_multiples};
+use tigereye_report::{DataFile, Figure, PanelPlace};
 use tigereye_views::light;
 
 /// Resolution of the PNG files, pixels per unit.
-const PNG_SCALE: f64 = 1.5;
+const PNG_SCALE: f64 = 1.15;
 
 /// A figure with the tables behind its charts, and its animation.
 pub(crate) struct Drawn {
@@ -52,15 +52,21 @@ pub(crate) fn draw(
         tables.push(DataFile { name: format!("{}.apng", figure.name), bytes });
         frames = count;
     }
-    let mut scene = match panels.len() {
-        1 => panels.remove(0).1,
-        _ => small_multiples(&panels, figure.columns.clamp(1, panels.len().max(1)), ""),
+    let (mut scene, places) = match panels.len() {
+        1 => (panels.remove(0).1, Vec::new()),
+        _ => placed_multiples(&panels, figure.columns.clamp(1, panels.len().max(1)), ""),
     };
+    let panel = |(place, alt): (&PageRect, &String)| {
+        let PageRect { x_px, y_px, width_px, height_px } = *place;
+        PanelPlace { x_px, y_px, width_px, height_px, alt: alt.clone() }
+    };
+    let places = places.iter().zip(&alt).map(panel).collect();
     scene.title.clone_from(&figure.caption);
     scene.description = alt.join(" ");
     let figure = Figure {
         timed: figure.panels.iter().any(|panel| panel.is_timed),
         frames,
+        panels: places,
         name: figure.name.clone(),
         caption: figure.caption.clone(),
         alt: scene.description.clone(),
@@ -75,7 +81,7 @@ pub(crate) fn draw(
 /// A panel; among others its heading stands above it.
 fn scene(panel: &PlannedPanel, alone: bool, results: &Results<'_>) -> Result<Scene, Unavailable> {
     let title = if alone { panel.title.clone() } else { String::new() };
-    (panel.picture)(&Drawing { results, alone, title })
+    (panel.picture)(&Drawing { results, alone, title, styles: &panel.styles })
 }
 
 /// Frames of a run of light and their number; `None` where nothing was kept.

@@ -8,7 +8,7 @@ use crate::host::Host;
 use crate::ids::LightId;
 use crate::media::{Media, NamedField};
 use crate::names::{KnownRun, Names};
-use crate::panels::PlannedPanel;
+use crate::panels::{self, PlannedPanel};
 use crate::quantities::Measure;
 use crate::runs::{RunPlan, RunResolver};
 use crate::scene::{self, PreparedScene, is_scene_file};
@@ -41,6 +41,8 @@ pub(crate) struct PlannedRun {
     pub(crate) name: String,
     /// `None` for a run of another scope, which is not made.
     pub(crate) plan: Option<RunPlan>,
+    /// Whether its result becomes a file.
+    pub(crate) is_written: bool,
 }
 
 /// A figure, ready to be drawn.
@@ -133,8 +135,13 @@ pub fn plan(
         })
         .collect();
     check_files(experiment, &mut faults);
+    for name in experiment.without_data.iter().filter(|name| !runs.iter().any(|run| run.name == ***name)) {
+        faults.at(name.place(), &format!("there is no run \"{name}\""));
+    }
     let mut names = Names::new(&media, &runs, &fields_declared, &mut faults);
-    let figures = experiment.figures.iter().filter_map(|f| figure(f, &mut names)).collect();
+    let mut figures: Vec<PlannedFigure> =
+        experiment.figures.iter().filter_map(|f| figure(f, &mut names)).collect();
+    panels::series_styles(figures.iter_mut().flat_map(|f| &mut f.panels));
     let tables = experiment.tables.iter().filter_map(|table| {
         // Rows are left out one by one.
         let rows = names.item("table", &table.title, |names| Some(table.rows.rows(names)))?;
@@ -154,7 +161,11 @@ pub fn plan(
     }
     let mut runs: Vec<PlannedRun> = runs
         .into_iter()
-        .map(|run| PlannedRun { name: run.name, plan: run.plan.filter(|_| run.is_made) })
+        .map(|run| PlannedRun {
+            is_written: !experiment.without_data.iter().any(|name| **name == run.name),
+            plan: run.plan.filter(|_| run.is_made),
+            name: run.name,
+        })
         .collect();
     for (LightId(id), kept) in kept {
         if let Some(RunPlan::Light(plan)) = &mut runs[id.0].plan {

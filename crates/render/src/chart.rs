@@ -41,6 +41,9 @@ pub struct Series {
     pub markers: bool,
     /// Colour; by default the next of [`SERIES_PALETTE`].
     pub colour: Option<Rgba>,
+    /// Its place among the series of several charts, which decides on colour, marker and dashes; by default that in
+    /// this chart.
+    pub style: Option<usize>,
     /// Dashes and gaps in pixels, empty for a solid line; by default solid for the first series, dashed for the next
     /// ones that have no markers.
     pub dash_px: Option<Vec<f64>>,
@@ -54,6 +57,7 @@ impl Default for Series {
             line: true,
             markers: false,
             colour: None,
+            style: None,
             dash_px: None,
         }
     }
@@ -236,7 +240,7 @@ impl Plan {
             let marked = series.markers || points.len() == 1;
             for &(u, v) in points.iter().step_by(every).filter(|_| marked) {
                 if inside(u) && inside(v) {
-                    marker(i).draw(scene, place(u, v), 3.6, colour(series, i));
+                    marker(series, i).draw(scene, place(u, v), 3.6, colour(series, i));
                 }
             }
         }
@@ -267,7 +271,7 @@ fn fits((x, y): (f64, f64), chart: &Chart) -> bool {
     fits(x, &chart.x) && fits(y, &chart.y)
 }
 
-fn fitted(options: &ChartAxis, values: impl Iterator<Item = f64>, outwards: bool) -> Axis {
+pub(crate) fn fitted(options: &ChartAxis, values: impl Iterator<Item = f64>, outwards: bool) -> Axis {
     let fixed = options.range.filter(|(a, b)| a.is_finite() && b.is_finite() && a < b);
     if let Some((low, high)) = fixed.filter(|(low, _)| !options.logarithmic || *low > 0.0) {
         return if options.logarithmic { Axis::logarithmic(low, high) } else { Axis::linear(low, high) };
@@ -340,8 +344,8 @@ fn clipped(a: (f64, f64), b: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
     (enter <= leave).then(|| (at(enter), at(leave)))
 }
 
-fn colour(series: &Series, index: usize) -> Rgba {
-    series.colour.unwrap_or(SERIES_PALETTE[index % SERIES_PALETTE.len()])
+pub(crate) fn colour(series: &Series, index: usize) -> Rgba {
+    series.colour.unwrap_or(SERIES_PALETTE[series.style.unwrap_or(index) % SERIES_PALETTE.len()])
 }
 
 fn dash(series: &Series, index: usize) -> Vec<f64> {
@@ -349,12 +353,12 @@ fn dash(series: &Series, index: usize) -> Vec<f64> {
         Some(dash) if dash.iter().all(|d| d.is_finite() && *d > 0.0) && dash.len() % 2 == 0 => dash.clone(),
         Some(_) => Vec::new(),
         None if series.markers => Vec::new(),
-        None => DASHES[index % DASHES.len()].to_vec(),
+        None => DASHES[series.style.unwrap_or(index) % DASHES.len()].to_vec(),
     }
 }
 
-fn marker(index: usize) -> Marker {
-    Marker::SERIES[index % Marker::SERIES.len()]
+pub(crate) fn marker(series: &Series, index: usize) -> Marker {
+    Marker::SERIES[series.style.unwrap_or(index) % Marker::SERIES.len()]
 }
 
 fn legend_entries(chart: &Chart, plan: &Plan) -> Vec<Entry> {
@@ -362,10 +366,10 @@ fn legend_entries(chart: &Chart, plan: &Plan) -> Vec<Entry> {
     for (i, series) in chart.series.iter().enumerate().filter(|(_, s)| !s.label.is_empty()) {
         let colour = colour(series, i);
         let mark = if series.line {
-            let marker = series.markers.then(|| marker(i));
+            let marker = series.markers.then(|| marker(series, i));
             Mark::Line { colour, width_px: 1.6, dash_px: dash(series, i), marker }
         } else {
-            Mark::Point(marker(i), colour)
+            Mark::Point(marker(series, i), colour)
         };
         let hidden = match plan.not_positive[i] {
             0 => String::new(),

@@ -26,6 +26,7 @@ mod png_export;
 mod polar_overlay;
 mod polar_plot;
 mod ribbon;
+mod row_chart;
 mod sampling;
 mod scene;
 mod shapes;
@@ -42,7 +43,7 @@ pub use glyphs::{
     GlyphColour, GlyphKind, GlyphOptions, GlyphOutline, GlyphPart, GlyphScale, glyph_outlines, glyphs,
 };
 pub use heat_map::{Difference, HeatOptions, HeatScale, difference_map, heat_map};
-pub use multiples::small_multiples;
+pub use multiples::{PageRect, placed_multiples, small_multiples};
 pub use orientation::{OrientationOptions, orientation_map};
 pub use outline::outline;
 pub use overlay::Overlay;
@@ -50,6 +51,7 @@ pub use plain_map::{PlainOptions, plain_map};
 pub use polar_overlay::{IntensityScale, PolarOptions, TransmissionScale, polar_overlay};
 pub use polar_plot::{PolarPlotOptions, PolarSeries, polar_plot};
 pub use ribbon::Ribbon;
+pub use row_chart::{RowChart, row_chart};
 pub use scene::{
     Anchor, Item, Page, PagePoint, PageVector, Path, PathBuilder, Raster, Scene, Segment, Stroke, Text,
 };

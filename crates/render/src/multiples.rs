@@ -15,6 +15,25 @@ const GAP_PX: f64 = 10.0;
 /// Give the panels no title of their own: their maps then share one upper edge.
 #[must_use]
 pub fn small_multiples(panels: &[(String, Scene)], columns: usize, title: &str) -> Scene {
+    placed_multiples(panels, columns, title).0
+}
+
+/// A rectangle on a page, pixels from its upper left corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PageRect {
+    /// Left edge.
+    pub x_px: f64,
+    /// Upper edge.
+    pub y_px: f64,
+    /// Width.
+    pub width_px: f64,
+    /// Height.
+    pub height_px: f64,
+}
+
+/// [`small_multiples`] with the place of each panel, its heading included.
+#[must_use]
+pub fn placed_multiples(panels: &[(String, Scene)], columns: usize, title: &str) -> (Scene, Vec<PageRect>) {
     let columns = columns.clamp(1, panels.len().max(1));
     let widths = column_widths(panels, columns);
     let width = (widths.iter().sum::<f64>() + GAP_PX * (columns - 1) as f64).max(240.0) + 2.0 * MARGIN_PX;
@@ -30,13 +49,14 @@ pub fn small_multiples(panels: &[(String, Scene)], columns: usize, title: &str) 
         page.text([MARGIN_PX, page.height_px + 12.0], "no panels", LABEL_PX, Rgba::MUTED, Anchor::Start);
         page.height_px += LABEL_LINE_PX;
     }
+    let mut places = Vec::new();
     for (row, shown) in panels.chunks(columns).enumerate() {
-        place_row(&mut page, shown, row * columns, &widths);
+        places.extend(place_row(&mut page, shown, row * columns, &widths));
     }
     page.height_px += 0.5 * MARGIN_PX;
     page.title = title.to_owned();
     page.description = described(panels);
-    page
+    (page, places)
 }
 
 fn column_widths(panels: &[(String, Scene)], columns: usize) -> Vec<f64> {
@@ -44,7 +64,7 @@ fn column_widths(panels: &[(String, Scene)], columns: usize) -> Vec<f64> {
     (0..columns).map(|c| panels.iter().skip(c).step_by(columns).map(width).fold(0.0, f64::max)).collect()
 }
 
-fn place_row(page: &mut Scene, panels: &[(String, Scene)], first: usize, widths: &[f64]) {
+fn place_row(page: &mut Scene, panels: &[(String, Scene)], first: usize, widths: &[f64]) -> Vec<PageRect> {
     let top = page.height_px;
     let headings: Vec<Vec<String>> = panels
         .iter()
@@ -58,6 +78,7 @@ fn place_row(page: &mut Scene, panels: &[(String, Scene)], first: usize, widths:
     let heading_height = LABEL_LINE_PX * headings.iter().map(Vec::len).max().unwrap_or(0) as f64;
     let mut left = MARGIN_PX;
     let mut tallest = 0.0_f64;
+    let mut places = Vec::new();
     for (((_, scene), heading), width) in panels.iter().zip(&headings).zip(widths) {
         for (i, line) in heading.iter().enumerate() {
             let baseline = top + 13.0 + LABEL_LINE_PX * i as f64;
@@ -66,9 +87,14 @@ fn place_row(page: &mut Scene, panels: &[(String, Scene)], first: usize, widths:
         // Panels bring a margin of their own above.
         page.place(scene.clone(), left, top + heading_height - 6.0, 1.0);
         tallest = tallest.max(scene.height_px);
+        let height_px = heading_height + scene.height_px;
+        // Without most of the margin on the right, which is empty.
+        let width_px = (width - 0.6 * MARGIN_PX).max(1.0);
+        places.push(PageRect { x_px: left, y_px: top, width_px, height_px });
         left += width + GAP_PX;
     }
     page.height_px = top + heading_height + tallest;
+    places
 }
 
 /// a to z, then aa, ab and so on.

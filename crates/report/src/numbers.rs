@@ -33,6 +33,22 @@ pub(crate) fn number_with(value: f64, further: usize) -> Markup {
     }
 }
 
+/// Whether two numbers are shown with the same digits.
+pub(crate) fn looks_equal(a: f64, b: f64) -> bool {
+    shown(a, FURTHER_DIGITS) == shown(b, FURTHER_DIGITS)
+}
+
+/// `value` in plain text: six significant digits, a power of ten where there would be many zeros.
+#[must_use]
+pub fn plain(value: f64) -> String {
+    plain_with(value, FURTHER_DIGITS)
+}
+
+/// [`plain`] with `further` digits after the first one.
+fn plain_with(value: f64, further: usize) -> String {
+    if value.is_finite() { in_full(value, further) } else { format!("{value}") }
+}
+
 /// Digits after the first one that tell two numbers apart, six in all at the least.
 pub(crate) fn digits_apart(a: f64, b: f64) -> usize {
     let apart = |further: &usize| shown(a, *further) != shown(b, *further);

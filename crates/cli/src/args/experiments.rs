@@ -5,10 +5,13 @@ use super::values::parse_threshold;
 use clap::Args;
 use std::path::PathBuf;
 
+/// Where results go unless `--out` says otherwise.
+pub(crate) const DEFAULT_OUT: &str = "results";
+
 #[derive(Debug, Args)]
 pub(crate) struct ReproduceArgs {
-    /// Folder for the report, figures and data.
-    #[arg(long, value_name = "DIR", default_value = "results")]
+    /// Folder for the report, figures and data; experiments that are there already stay.
+    #[arg(long, value_name = "DIR", default_value = DEFAULT_OUT)]
     pub(crate) out: PathBuf,
     /// Only the experiment of this name, or all whose names begin so (`fig-4-5`); may be repeated.
     #[arg(long, value_name = "SLUG")]
@@ -31,8 +34,8 @@ pub(crate) struct RunArgs {
     /// Experiment files.
     #[arg(required = true, value_name = "FILE.ron")]
     pub(crate) files: Vec<PathBuf>,
-    /// Folder for the report, figures and data.
-    #[arg(long, value_name = "DIR", default_value = "results")]
+    /// Folder for the report, figures and data; experiments that are there already stay.
+    #[arg(long, value_name = "DIR", default_value = DEFAULT_OUT)]
     pub(crate) out: PathBuf,
     /// Also the runs that are marked `scope: Full`.
     #[arg(long)]

@@ -1,10 +1,11 @@
 //! `tigereye reproduce` and `tigereye run`: experiments to a report.
 
-use crate::args::experiments::{ReproduceArgs, RunArgs};
+use crate::args::experiments::{DEFAULT_OUT, ReproduceArgs, RunArgs};
 use crate::args::light::Resources;
 use crate::commands::{counted, print_text, quoted};
 use crate::error::CliError;
 use crate::host::{FileHost, REFERENCE};
+use crate::results_folder::ResultsFolder;
 use crate::{files, interrupt, system};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -14,7 +15,7 @@ use tigereye_experiments::{
 };
 use tigereye_fields::{did_you_mean, nearest};
 use tigereye_input::provenance;
-use tigereye_report::{About, ExperimentOutcome};
+use tigereye_report::{About, CheckOutcome, ExperimentOutcome, LeftOut, plain};
 
 /// Largest number of experiment files in a folder.
 const MAX_FILES: usize = 10_000;
@@ -92,7 +93,7 @@ pub(crate) fn reproduce(args: &ReproduceArgs) -> Result<u8, CliError> {
             .experiments
             .as_ref()
             .map_or_else(String::new, |f| format!(" --experiments {}", quoted(&f.to_string_lossy())));
-        format!("tigereye reproduce --only {}{full}{folder}", quoted(slug))
+        format!("tigereye reproduce --only {}{full}{folder}{}", quoted(slug), out_option(&args.out))
     };
     run_sources(&sources, &args.out, args.full, &args.resources, &again)
 }
@@ -142,9 +143,19 @@ pub(crate) fn run(args: &RunArgs) -> Result<u8, CliError> {
     check_slugs(&sources)?;
     let again = |slug: &str| {
         let file = sources.iter().find(|s| s.slug() == slug).map_or(slug, |s| s.name.as_str());
-        format!("tigereye run {}{}", quoted(file), if args.full { " --full" } else { "" })
+        let full = if args.full { " --full" } else { "" };
+        format!("tigereye run {}{full}{}", quoted(file), out_option(&args.out))
     };
     run_sources(&sources, &args.out, args.full, &args.resources, &again)
+}
+
+/// The option that names a folder of results, with a blank before it; nothing for the default one.
+fn out_option(out: &Path) -> String {
+    if out == Path::new(DEFAULT_OUT) {
+        String::new()
+    } else {
+        format!(" --out {}", quoted(&out.to_string_lossy()))
+    }
 }
 
 /// Every experiment file below a folder, sorted.
@@ -200,19 +211,48 @@ fn run_sources(
     again: &(dyn Fn(&str) -> String + Sync),
 ) -> Result<u8, CliError> {
     let start = Instant::now();
-    // All files are checked before the first hour is spent.
+    let (prepared, left_out) = prepared(sources, full)?;
+    let about = About {
+        version: provenance::VERSION.to_owned(),
+        command: super::command_line(),
+        full,
+        threads: resources.threads.unwrap_or_else(rayon::current_num_threads),
+        added: 0,
+        left_out,
+    };
+    let names: Vec<_> = prepared.iter().map(|(s, plan)| (plan.slug.clone(), s.name.clone())).collect();
+    let mut folder = ResultsFolder::open(out, about, &names)?;
+    files::make_folder(out)?;
+    let memory = resources.memory.unwrap_or_else(system::half_of_memory);
+    let verdicts = system::on_threads(resources.threads, || {
+        let count = prepared.len();
+        let mut verdicts = Vec::with_capacity(count);
+        for (i, (source, plan)) in prepared.iter().enumerate() {
+            let outcome = run_one(source, plan, &again(&plan.slug), memory, &format!("[{}/{count}]", i + 1));
+            let outcome = outcome.inspect_err(|_| {
+                if i > 0 {
+                    // What is finished is kept; that this one ended is the message.
+                    let _ = folder.finish_early();
+                }
+            })?;
+            folder.add(&outcome, &source.name)?;
+            verdicts.push(Verdict { slug: outcome.slug, checks: outcome.checks });
+        }
+        Ok(verdicts)
+    })?;
+    let there = folder.finish()?;
+    conclude(&verdicts, &folder, there, start.elapsed().as_secs_f64())
+}
+
+/// Everything that is to run, and what is left out. All files are checked before the first hour is spent.
+fn prepared(sources: &[Source], full: bool) -> Result<(Vec<Ready<'_>>, Vec<LeftOut>), CliError> {
     let mut prepared = Vec::new();
     let mut faults = Vec::new();
     let mut left_out = Vec::new();
     for source in sources {
         match prepare(source, full) {
             Ok(Prepared::Ready(plan)) => prepared.push((source, plan)),
-            Ok(Prepared::Lacks(file)) => {
-                let slug = source.slug();
-                let where_to =
-                    if file.starts_with(REFERENCE) { " (TIGEREYE_REFERENCE names the folder)" } else { "" };
-                left_out.push(format!("{slug} needs {file}, which is not there{where_to}"));
-            }
+            Ok(Prepared::Lacks(needs)) => left_out.push(LeftOut { slug: source.slug(), needs }),
             Err(CliError::Inputs(found)) => faults.extend(found),
             Err(e) => faults.push(e.to_string()),
         }
@@ -223,37 +263,27 @@ fn run_sources(
     if !full {
         prepared.retain(|(_, s)| s.scope == Scope::Always);
     }
-    left_out.iter().for_each(|words| eprintln!("left out: {words}"));
+    for LeftOut { slug, needs } in &left_out {
+        let where_to =
+            if needs.starts_with(REFERENCE) { " (TIGEREYE_REFERENCE names the folder)" } else { "" };
+        eprintln!("left out: {slug} needs {needs}, which is not there{where_to}");
+    }
     if prepared.is_empty() && !left_out.is_empty() {
         return Err(CliError::Input("no experiment is left to run".to_owned()));
     }
     if prepared.is_empty() {
         return Err(CliError::Input("every experiment named runs only with --full".to_owned()));
     }
-    files::make_folder(out)?;
-    let memory = resources.memory.unwrap_or_else(system::half_of_memory);
-    let outcomes = system::on_threads(resources.threads, || {
-        let count = prepared.len();
-        let mut outcomes = Vec::with_capacity(count);
-        for (i, (source, plan)) in prepared.iter().enumerate() {
-            let outcome = run_one(source, plan, &again(&plan.slug), memory, &format!("[{}/{count}]", i + 1))?;
-            write_outcome(out, &outcome)?;
-            outcomes.push(outcome);
-        }
-        Ok(outcomes)
-    })?;
-    let seconds = start.elapsed().as_secs_f64();
-    let about = About {
-        version: provenance::VERSION.to_owned(),
-        seconds,
-        command: super::command_line(),
-        full,
-        threads: resources.threads.unwrap_or_else(rayon::current_num_threads),
-        left_out,
-    };
-    files::write(&out.join("summary.json"), tigereye_report::summary_json(&outcomes, seconds).as_bytes())?;
-    files::write(&out.join("index.html"), tigereye_report::html(&outcomes, &about).as_bytes())?;
-    conclude(&outcomes, out, seconds)
+    Ok((prepared, left_out))
+}
+
+/// An experiment that is to run, with its file.
+type Ready<'a> = (&'a Source, Plan);
+
+/// How an experiment went.
+struct Verdict {
+    slug: String,
+    checks: Vec<CheckOutcome>,
 }
 
 fn run_one(
@@ -282,35 +312,37 @@ fn run_one(
     Ok(outcome)
 }
 
-/// Figures and data of one experiment, each file replaced as a whole.
-fn write_outcome(out: &Path, outcome: &ExperimentOutcome) -> Result<(), CliError> {
-    let folder = out.join(&outcome.slug);
-    files::make_folder(&folder)?;
-    for figure in &outcome.figures {
-        files::write(&folder.join(format!("{}.png", figure.name)), &figure.png)?;
-        files::write(&folder.join(format!("{}.svg", figure.name)), figure.svg.as_bytes())?;
-    }
-    for data in &outcome.data {
-        files::write(&folder.join(&data.name), &data.bytes)?;
-    }
-    Ok(())
-}
-
 /// Says how it went; the exit code.
-fn conclude(outcomes: &[ExperimentOutcome], out: &Path, seconds: f64) -> Result<u8, CliError> {
-    let experiments = counted(outcomes.len(), "experiment");
-    let checks = counted(outcomes.iter().map(|o| o.checks.len()).sum(), "check");
-    let failed: Vec<String> = outcomes
+fn conclude(
+    verdicts: &[Verdict],
+    folder: &ResultsFolder,
+    there: usize,
+    seconds: f64,
+) -> Result<u8, CliError> {
+    let experiments = counted(verdicts.len(), "experiment");
+    let checks = counted(verdicts.iter().map(|o| o.checks.len()).sum(), "check");
+    let failed: Vec<String> = verdicts
         .iter()
         .flat_map(|o| {
             o.checks.iter().filter(|c| !c.passed).map(move |c| {
                 let why = c.reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
-                format!("  {}: {} = {:.6e}{why}, expected {}", o.slug, c.name, c.value, c.expected)
+                let off = c.excess().map(|e| format!(", off by {}", plain(e))).unwrap_or_default();
+                format!(
+                    "  {}: {} = {}{why}, expected {}{off}",
+                    o.slug,
+                    c.name,
+                    plain(c.value),
+                    c.expected.words()
+                )
             })
         })
         .collect();
-    let page = out.join("index.html");
-    let report = page.display();
+    let page = folder.page();
+    let mut report = page.display().to_string();
+    if there > verdicts.len() {
+        let others = counted(there - verdicts.len(), "earlier experiment");
+        report.push_str(&format!(", with {others}"));
+    }
     if failed.is_empty() {
         print_text(&format!("{experiments}, {checks}, all passed in {seconds:.0} s\nreport: {report}\n"))?;
         Ok(0)

@@ -371,7 +371,7 @@ fn the_command_to_redo_an_experiment_can_be_pasted_into_a_shell() {
     place.write("my files/it's small.ron", experiment("Near(3, 0)"));
     assert_eq!(place.tigereye(&["run", "my files/it's small.ron", "--out", "r"]).code, 0);
     let command = place.json("r/summary.json")["experiments"][0]["command"].as_str().unwrap().to_owned();
-    assert_eq!(command, r"tigereye run 'my files/it'\''s small.ron'");
+    assert_eq!(command, r"tigereye run 'my files/it'\''s small.ron' --out r");
     assert_eq!(place.tigereye(&["reproduce", "--experiments", "my files", "--out", "r"]).code, 0);
     let command = place.json("r/summary.json")["experiments"][0]["command"].as_str().unwrap().to_owned();
     assert!(
@@ -419,7 +419,7 @@ fn experiments_without_their_data_are_left_out() {
     let summary: serde_json::Value = serde_json::from_slice(&place.read("r/summary.json")).unwrap();
     assert_eq!(summary["experiments"].as_array().unwrap().len(), 1);
     let page = String::from_utf8(place.read("r/index.html")).unwrap();
-    assert!(page.contains("Left out: lacking needs reference/none.vtp"));
+    assert!(page.contains("lacking (<code>reference/none.vtp</code>)"));
     place.refuses(&["run", "lacking.ron", "--out", "s"], &["no experiment is left to run"]);
     assert!(place.succeeds(&["check", "lacking.ron"]).stdout.contains("needs reference/none.vtp"));
 }

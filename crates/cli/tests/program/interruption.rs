@@ -45,7 +45,7 @@ fn ending(mut child: Child) -> (Option<i32>, String) {
 fn leaves_everything(args: &[&str], signal: &str) {
     let place = Place::new();
     place.write("kept.vti", "an earlier result");
-    place.write("r/summary.json", "an earlier summary");
+    place.write("r/summary.json", r#"{"experiments": []}"#);
     place.write("long.ron", LONG);
     let before = place.files();
     let mut child = place.command(args).spawn().unwrap();
@@ -90,6 +90,31 @@ fn an_interrupted_propagation_leaves_no_output() {
 #[test]
 fn an_interrupted_experiment_leaves_no_report() {
     leaves_everything(&["run", "long.ron", "--out", "r"], "-INT");
+}
+
+/// What was finished stays, what was there before does too, and the page shows both.
+#[test]
+fn an_interrupted_run_keeps_finished_experiments_and_earlier_ones() {
+    let place = Place::new();
+    let quick = |title: &str| {
+        let quick = LONG.replace("\"size\": 151", "\"size\": 5");
+        quick.replace("title: \"t\", source", &format!("title: \"{title}\", source"))
+    };
+    place.write("earlier.ron", quick("Earlier"));
+    place.write("first.ron", quick("Finished"));
+    place.write("long.ron", LONG);
+    assert_eq!(place.tigereye(&["run", "earlier.ron", "--out", "r"]).code, 0);
+    let child = place.command(&["run", "first.ron", "long.ron", "--out", "r"]).spawn().unwrap();
+    let summary = || String::from_utf8(place.read("r/summary.json")).unwrap();
+    assert!(eventually(|| summary().contains("\"first\"")), "the first one never ended");
+    interrupt(&child, "-INT");
+    let (code, stderr) = ending(child);
+    assert_eq!(code, Some(130), "{stderr}");
+    let page = String::from_utf8(place.read("r/index.html")).unwrap();
+    assert!(page.contains("Earlier") && page.contains("Finished"));
+    assert!(summary().contains("\"earlier\"") && !summary().contains("\"long\""));
+    let leftovers = place.files().into_keys().filter(|p| p.to_string_lossy().contains(".tigereye-")).count();
+    assert_eq!(leftovers, 0);
 }
 
 #[test]

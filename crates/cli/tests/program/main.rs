@@ -13,6 +13,7 @@ mod interruption;
 mod linear;
 mod machine;
 mod masks;
+mod merging;
 mod odd_fields;
 mod own_fields;
 #[cfg(unix)]

@@ -107,6 +107,7 @@ fn verdicts_and_experiments_that_come_and_go_are_movement() {
     results(&place, "after", "10", "AtLeast(5)");
     std::fs::remove_file(place.path("after-files/constant.ron")).unwrap();
     place.write("after-files/fresh.ron", experiment("4", "AtLeast(0)"));
+    std::fs::remove_dir_all(place.path("after")).unwrap();
     assert_eq!(place.tigereye(&["reproduce", "--experiments", "after-files", "--out", "after"]).code, 1);
     let run = place.tigereye(&["review", "before", "after"]);
     assert_eq!(run.code, 1, "{}", run.stderr);

@@ -1,7 +1,7 @@
 //! Curves over a number.
 
 use crate::names::Names;
-use crate::panels::kind::{Curve, Curves, PanelKind, PlannedPanel};
+use crate::panels::kind::{Curve, Curves, Look, PanelKind, PlannedPanel};
 use crate::panels::series::{PlannedSeries, SeriesSource};
 use crate::results::Results;
 use crate::unavailable::Unavailable;
@@ -38,7 +38,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    fn drawn(&self) -> ChartAxis {
+    pub(super) fn drawn(&self) -> ChartAxis {
         ChartAxis { label: self.label.clone(), logarithmic: self.logarithmic, range: None }
     }
 }
@@ -47,15 +47,17 @@ impl PanelKind for Chart {
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let series = self.series.iter().map(|s| s.resolve(names)).collect::<Option<Vec<_>>>()?;
         let is_timed = series.iter().any(|s| s.is_timed);
+        let labels = series.iter().map(|s| s.label.clone()).collect();
         let series = Arc::new(series);
         let (x, y) = (self.x.drawn(), self.y.drawn());
         let of_picture = Arc::clone(&series);
         let picture = PlannedPanel::new(&self.title, move |drawing| {
-            let drawn = curves(&of_picture, drawing.results)?.into_iter().map(|curve| {
-                let Curve { label, points, is_formula } = curve;
-                // A formula is a line; what was computed or published at separate places also has markers.
-                let markers = !is_formula && points.len() <= MARKED;
-                Series { label, points, line: true, markers, ..Series::default() }
+            let drawn = curves(&of_picture, drawing.results)?.into_iter().enumerate().map(|(i, curve)| {
+                let Curve { label, points, look } = curve;
+                let line = look != Look::Marks;
+                let markers = !line || (look == Look::Joined && points.len() <= MARKED);
+                let style = drawing.styles.get(i).copied();
+                Series { label, points, line, markers, style, ..Series::default() }
             });
             let series = drawn.collect();
             let (title, x, y) = (drawing.title.clone(), x.clone(), y.clone());
@@ -63,10 +65,10 @@ impl PanelKind for Chart {
             Ok(line_chart(&chart)?)
         });
         let table: Curves = Box::new(move |results| curves(&series, results));
-        Some(PlannedPanel { curves: Some(table), is_timed, ..picture })
+        Some(PlannedPanel { curves: Some(table), is_timed, series: labels, ..picture })
     }
 }
 
-fn curves(series: &[PlannedSeries], results: &Results<'_>) -> Result<Vec<Curve>, Unavailable> {
+pub(super) fn curves(series: &[PlannedSeries], results: &Results<'_>) -> Result<Vec<Curve>, Unavailable> {
     series.iter().map(|s| s.curve(results)).collect()
 }

@@ -30,6 +30,10 @@ pub(crate) struct PlannedPanel {
     pub(crate) curves: Option<Curves>,
     /// Whether it shows seconds, which are others in every run.
     pub(crate) is_timed: bool,
+    /// Names of the curves in the legend, if it is a chart.
+    pub(crate) series: Vec<String>,
+    /// For each curve, which colour and marker it has: the same for one name in all charts of an experiment.
+    pub(crate) styles: Vec<usize>,
 }
 
 impl PlannedPanel {
@@ -38,7 +42,14 @@ impl PlannedPanel {
         title: &str,
         picture: impl Fn(&Drawing<'_>) -> Result<Scene, Unavailable> + Send + Sync + 'static,
     ) -> Self {
-        Self { title: title.to_owned(), picture: Box::new(picture), curves: None, is_timed: false }
+        Self {
+            title: title.to_owned(),
+            picture: Box::new(picture),
+            curves: None,
+            is_timed: false,
+            series: Vec::new(),
+            styles: Vec::new(),
+        }
     }
 }
 
@@ -48,8 +59,19 @@ pub(crate) struct Curve {
     /// Name in the legend.
     pub(crate) label: String,
     pub(crate) points: Vec<(f64, f64)>,
-    /// Whether it is a formula: a line without markers.
-    pub(crate) is_formula: bool,
+    /// How its points are shown.
+    pub(crate) look: Look,
+}
+
+/// How the points of a curve are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Look {
+    /// A formula: a line without markers.
+    Line,
+    /// Values at places that follow each other: a line, and markers where there are few.
+    Joined,
+    /// Single values: markers alone, since nothing is known between them.
+    Marks,
 }
 
 /// Width of a panel among others, pixels.
@@ -62,6 +84,8 @@ pub(crate) struct Drawing<'a> {
     pub(crate) alone: bool,
     /// Heading within the picture: empty among others, where it stands above.
     pub(crate) title: String,
+    /// For each curve of a chart, which colour and marker it has.
+    pub(crate) styles: &'a [usize],
 }
 
 impl Drawing<'_> {
@@ -95,5 +119,53 @@ impl Drawing<'_> {
             ..gradient::Request::default()
         };
         gradient::picture(scalar, request)
+    }
+}
+
+/// Chooses colours and markers of curves: those of one name look alike in all charts of an experiment, the others take
+/// what is left in theirs.
+pub(crate) fn series_styles<'a>(panels: impl Iterator<Item = &'a mut PlannedPanel>) {
+    let mut charts: Vec<&mut PlannedPanel> = panels.filter(|p| !p.series.is_empty()).collect();
+    let series: Vec<Vec<String>> = charts.iter().map(|c| c.series.clone()).collect();
+    let is_shared = |name: &str| series.iter().filter(|names| names.iter().any(|n| n == name)).count() > 1;
+    let mut known: Vec<(String, usize)> = Vec::new();
+    for chart in &mut charts {
+        let style_of =
+            |known: &[(String, usize)], name: &str| known.iter().find(|k| k.0 == name).map(|k| k.1);
+        let mut taken: Vec<usize> = chart.series.iter().filter_map(|name| style_of(&known, name)).collect();
+        for name in &chart.series {
+            let style = style_of(&known, name).unwrap_or_else(|| {
+                let free = (0..).find(|style| !taken.contains(style)).unwrap_or(0);
+                taken.push(free);
+                free
+            });
+            if is_shared(name) && style_of(&known, name).is_none() {
+                known.push((name.clone(), style));
+            }
+            chart.styles.push(style);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn styles(charts: &[&[&str]]) -> Vec<Vec<usize>> {
+        let panel = |names: &&[&str]| {
+            let drawn = PlannedPanel::new("", |_| Ok(Scene::sized(1.0, 1.0)));
+            PlannedPanel { series: names.iter().map(|n| (*n).to_owned()).collect(), ..drawn }
+        };
+        let mut panels: Vec<PlannedPanel> = charts.iter().map(panel).collect();
+        series_styles(panels.iter_mut());
+        panels.into_iter().map(|p| p.styles).collect()
+    }
+
+    #[test]
+    fn curves_of_one_name_look_alike_in_all_charts() {
+        let found = styles(&[&["1/r", "flux", "lobe"], &["flux", "lobe", "other"], &["a", "b"]]);
+        assert_eq!(found, [vec![0, 1, 2], vec![1, 2, 0], vec![0, 1]]);
+        // One that comes later keeps away from those that are there.
+        assert_eq!(styles(&[&["a", "b"], &["new", "b"]]), [vec![0, 1], vec![0, 1]]);
     }
 }

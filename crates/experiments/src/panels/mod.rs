@@ -7,7 +7,7 @@ mod kind;
 pub mod series;
 
 use kind::PanelKind;
-pub(crate) use kind::{Curve, Drawing, PANEL_PX, PlannedPanel};
+pub(crate) use kind::{Curve, Drawing, PANEL_PX, PlannedPanel, series_styles};
 
 use crate::names::Names;
 use serde::Deserialize;
@@ -48,4 +48,5 @@ panels! {
     flat::Flat,
     polar::Polar,
     chart::Chart,
+    rows::Rows,
 }

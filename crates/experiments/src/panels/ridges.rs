@@ -28,7 +28,10 @@ impl PanelKind for Ridges {
         Some(PlannedPanel::new(&self.title, move |drawing| {
             let named = drawing.results.field(field);
             let overlays = sources.iter().zip(SERIES_PALETTE).map(|((label, source), colour)| {
-                Ok(line_overlay(&source.lines(drawing.results)?, label, colour))
+                let lines = source.lines(drawing.results)?;
+                // Whoever looks for them must not take them for hidden.
+                let label = if lines.lines.is_empty() { format!("{label}: no ridge") } else { label.clone() };
+                Ok(line_overlay(&lines, &label, colour))
             });
             let options = PlainOptions {
                 title: drawing.title.clone(),

@@ -4,7 +4,7 @@ use crate::form::{Finite, Placed};
 use crate::names::Names;
 use crate::numerics::gradient::inner_cells;
 use crate::numerics::light::{lobe_ratio, net_flux_ratio};
-use crate::panels::kind::Curve;
+use crate::panels::kind::{Curve, Look};
 use crate::results::Results;
 use crate::runs::light::Outcome;
 use crate::runs::pulses::PulseNumber;
@@ -19,7 +19,7 @@ const FORMULA_POINTS: usize = 121;
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum SeriesSource {
-    /// Given points.
+    /// Given points, which are not joined.
     Points {
         /// Name in the legend.
         label: String,
@@ -126,9 +126,10 @@ type Points = Box<dyn Fn(&Results<'_>) -> Result<Vec<(f64, f64)>, Unavailable> +
 
 /// A curve, ready to be drawn.
 pub(crate) struct PlannedSeries {
-    label: String,
+    /// Name in the legend.
+    pub(crate) label: String,
     points: Points,
-    is_formula: bool,
+    look: Look,
     /// Whether it shows seconds, which are others in every run.
     pub(crate) is_timed: bool,
 }
@@ -138,12 +139,12 @@ impl PlannedSeries {
         label: &str,
         points: impl Fn(&Results<'_>) -> Result<Vec<(f64, f64)>, Unavailable> + Send + Sync + 'static,
     ) -> Self {
-        Self { label: label.to_owned(), points: Box::new(points), is_formula: false, is_timed: false }
+        Self { label: label.to_owned(), points: Box::new(points), look: Look::Joined, is_timed: false }
     }
 
     pub(crate) fn curve(&self, results: &Results<'_>) -> Result<Curve, Unavailable> {
         let points = (self.points)(results)?;
-        Ok(Curve { label: self.label.clone(), points, is_formula: self.is_formula })
+        Ok(Curve { label: self.label.clone(), points, look: self.look })
     }
 }
 
@@ -152,7 +153,7 @@ impl SeriesSource {
         Some(match self {
             Self::Points { label, points } => {
                 let points: Vec<(f64, f64)> = points.iter().map(|p| (p.0.get(), p.1.get())).collect();
-                PlannedSeries::new(label, move |_| Ok(points.clone()))
+                PlannedSeries { look: Look::Marks, ..PlannedSeries::new(label, move |_| Ok(points.clone())) }
             }
             Self::Formula { label, expression, range } => {
                 let f = names.expression(expression, &["x"])?;
@@ -161,15 +162,17 @@ impl SeriesSource {
                 let points = move |_: &Results<'_>| {
                     Ok((0..FORMULA_POINTS).map(|i| (at(i), f.eval(&[at(i)]))).collect())
                 };
-                PlannedSeries { is_formula: true, ..PlannedSeries::new(label, points) }
+                PlannedSeries { look: Look::Line, ..PlannedSeries::new(label, points) }
             }
             Self::Deviation { label, of, from } => {
                 let f = names.expression(from, &["x"])?;
                 let of = of.resolve(names)?;
-                PlannedSeries::new(label, move |results| {
+                let look = of.look;
+                let points = move |results: &Results<'_>| {
                     let points = (of.points)(results)?;
                     Ok(points.into_iter().map(|(x, y)| (x, y - f.eval(&[x]))).collect())
-                })
+                };
+                PlannedSeries { look, ..PlannedSeries::new(label, points) }
             }
             Self::NetFlux { label, run, to } => {
                 let (light, to) = (names.light(run)?, *to);
@@ -206,7 +209,7 @@ impl SeriesSource {
                     let taken = |(i, run)| Some(((i + 1) as f64, results.seconds(run)?));
                     Ok(runs.iter().copied().enumerate().filter_map(taken).collect())
                 };
-                PlannedSeries { is_timed: true, ..PlannedSeries::new(label, points) }
+                PlannedSeries { look: Look::Marks, is_timed: true, ..PlannedSeries::new(label, points) }
             }
             Self::SliceRow { label, run, deg, row } => {
                 let slice = names.slice(run, deg)?;

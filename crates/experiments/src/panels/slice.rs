@@ -12,6 +12,9 @@ use tigereye_views::gradient::Scalar;
 /// Columns between neighbouring rows beyond which a ridge line is broken.
 const LARGEST_JUMP: f64 = 2.0;
 
+/// Rows that a ridge line has at the least: fewer are chance.
+const FEWEST_ROWS: usize = 5;
+
 /// One direction of a gradient.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -42,15 +45,11 @@ impl PanelKind for Slice {
 
 fn ridge_line(slice: &Field<f64>) -> Overlay {
     let ridge = ridge_columns(slice);
+    let rows: Vec<(usize, f64)> = ridge.iter().enumerate().filter_map(|(y, x)| Some((y, (*x)?))).collect();
     // Where the largest value jumps from row to row there is no ridge to follow.
-    let near = |y: usize, other: Option<&Option<f64>>| match (ridge[y], other) {
-        (Some(a), Some(Some(b))) => (a - b).abs() <= LARGEST_JUMP,
-        _ => false,
-    };
-    let follows = |y: usize| near(y, ridge.get(y + 1)) || (y > 0 && near(y, ridge.get(y - 1)));
-    let point = |(y, x): (usize, &Option<f64>)| {
-        Point::new(x.filter(|_| follows(y)).unwrap_or(f64::NAN), y as f64)
-    };
-    let points = ridge.iter().enumerate().map(point).collect();
+    let follows = |a: &(usize, f64), b: &(usize, f64)| b.0 == a.0 + 1 && (a.1 - b.1).abs() <= LARGEST_JUMP;
+    let lines = rows.chunk_by(follows).filter(|line| line.len() >= FEWEST_ROWS);
+    let gap = Point::new(f64::NAN, f64::NAN);
+    let points = lines.flat_map(|line| line.iter().map(|(y, x)| Point::new(*x, *y as f64)).chain([gap])).collect();
     Overlay { label: "largest value of each row".to_owned(), points, ..Overlay::default() }
 }

@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use tigereye_core::{Cell, Field, LightDistribution, StopReason, Surface, TransmissionField, Work};
 use tigereye_io::volume::PlaneGeometry;
-use tigereye_io::{IoError, image_from_light, vti};
+use tigereye_io::{IoError, ScalarType, image_from_light, vti};
 use tigereye_report::DataFile;
 use tigereye_transport::{Problem, ScatteringRule, SharedWeights, StepView, StoppingRule, TransportError};
 use tigereye_views::Reel;
@@ -292,7 +292,9 @@ impl Outcome {
         let lights: Vec<_> = plan.lights.iter().map(|l| (l.cell.x, l.cell.y)).collect();
         let own = json!({ "lights": lights, "engine": format!("{:?}", plan.engine) });
         let story = plan.setup.story(command, media, own);
-        let image = image_from_light(&self.last, &PlaneGeometry::UNPLACED, &story);
+        let mut image = image_from_light(&self.last, &PlaneGeometry::UNPLACED, &story);
+        // For the eye: the profiles of all cells are most of what a folder of results holds.
+        image.point_arrays.iter_mut().for_each(|array| array.scalar = ScalarType::Float32);
         Ok(DataFile { name: format!("{name}.vti"), bytes: vti::write(&image)? })
     }
 }

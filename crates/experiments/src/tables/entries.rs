@@ -50,12 +50,6 @@ pub(crate) fn seconds(s: f64) -> String {
     shown(s, grouped(&format!("{s:.decimals$}")))
 }
 
-/// Two significant digits.
-pub(crate) fn significant(x: f64) -> String {
-    let decimals = if x < 10.0 { 1 } else { 0 };
-    shown(x, grouped(&format!("{x:.decimals$}")))
-}
-
 /// The digits before the decimal sign in groups of three.
 pub(crate) fn grouped(number: &str) -> String {
     let end = number.find('.').unwrap_or(number.len());
@@ -80,7 +74,6 @@ mod tests {
         assert_eq!((power(3.2e-10), power(0.0)), ("3 \u{d7} 10\u{207b}\u{b9}\u{2070}".into(), "0".into()));
         assert_eq!(power(5e-23), "5 \u{d7} 10\u{207b}\u{b2}\u{b3}");
         assert_eq!((seconds(179_878.0), seconds(0.4)), ("179\u{202f}878".into(), "0.40".into()));
-        assert_eq!((significant(7.34), significant(1234.5)), ("7.3".into(), "1\u{202f}234".into()));
         assert_eq!((percent(f64::NAN), seconds(f64::INFINITY)), (NOTHING.into(), NOTHING.into()));
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::form::{Placed, Positive};
 use crate::names::Names;
-use crate::tables::entries::{NOTHING, seconds, significant};
+use crate::tables::entries::seconds;
 use crate::tables::kind::{PlannedRow, TableKind, columns, rows_of};
 use serde::Deserialize;
 use tigereye_report::Column;
@@ -40,7 +40,6 @@ impl TableKind for Runtimes {
             "Published: cores",
             "Published /\u{a0}s",
             "This run /\u{a0}s",
-            "Times faster",
             "Remark",
         ]);
         if let Some(remark) = columns.last_mut() {
@@ -68,12 +67,12 @@ impl RuntimeRow {
     /// The entries of a row whose run took some time, is of another scope, or is not there.
     fn entries(&self, taken: Option<Option<f64>>) -> Vec<String> {
         let published_s = self.published_s.get();
-        let (seconds_taken, faster) = match taken {
-            Some(Some(s)) => (seconds(s), significant(published_s / s)),
-            Some(None) => ("only with --full".to_owned(), NOTHING.to_owned()),
-            None => ("no data".to_owned(), NOTHING.to_owned()),
+        let seconds_taken = match taken {
+            Some(Some(s)) => seconds(s),
+            Some(None) => "only with --full".to_owned(),
+            None => "no data".to_owned(),
         };
-        vec![self.cores.to_string(), seconds(published_s), seconds_taken, faster, self.remark.clone()]
+        vec![self.cores.to_string(), seconds(published_s), seconds_taken, self.remark.clone()]
     }
 }
 
@@ -85,7 +84,7 @@ mod tests {
     fn a_runtime_says_why_it_is_missing() {
         let published_s = Positive::try_from(100.0).expect("above 0");
         let row = RuntimeRow { label: "a".into(), cores: 64, published_s, run: None, remark: String::new() };
-        assert_eq!(row.entries(Some(Some(2.0)))[..4], ["64", "100", "2.00", "50"]);
+        assert_eq!(row.entries(Some(Some(2.0)))[..3], ["64", "100", "2.00"]);
         assert_eq!(row.entries(Some(None))[2], "only with --full");
         assert_eq!(row.entries(None)[2], "no data");
     }

@@ -9,7 +9,7 @@ use crate::colour::{ColourMap, Rgba};
 use crate::legend::Entry;
 use crate::scene::{PagePoint, PageVector, Scene};
 use crate::shapes;
-use tigereye_core::{Symmetry, Tensor2};
+use tigereye_core::{Symmetry, Tensor2, math};
 
 impl Layers {
     pub(super) fn add(&mut self, centre: PagePoint, t: &Tensor2, scaling: &Scaling) {
@@ -58,7 +58,8 @@ impl Layers {
             }
         }
         for (i, layer) in self.anisotropy.into_iter().enumerate() {
-            layer.draw(scene, ColourMap::Batlow.sample(i as f64 / (ANISOTROPY_STEPS - 1) as f64));
+            let colour = ColourMap::Batlow.sample(i as f64 / (ANISOTROPY_STEPS - 1) as f64);
+            layer.draw(scene, legible(colour));
         }
         let [left, right] = self.sectors;
         if !left.is_empty() {
@@ -77,5 +78,42 @@ impl Layers {
             scene.stroke(self.broken.finish(), Rgba::NOT_FINITE, 1.2);
         }
         self.notes.into_iter().map(|note| note.entry(self.colour)).collect()
+    }
+}
+
+/// Least contrast of a line with white, as for marks in WCAG 2.2, 1.4.11.
+const LEAST_CONTRAST: f64 = 3.0;
+
+/// A colour as a thin line on white: darkened until it stands out, its hue kept.
+fn legible(colour: Rgba) -> Rgba {
+    let darkened = |percent: u32| {
+        let darker = |c: u8| (u32::from(c) * percent / 100) as u8;
+        Rgba { r: darker(colour.r), g: darker(colour.g), b: darker(colour.b), a: colour.a }
+    };
+    let stands_out = |c: &Rgba| 1.05 / (luminance(*c) + 0.05) >= LEAST_CONTRAST;
+    (0..=100).rev().map(darkened).find(stands_out).unwrap_or(colour)
+}
+
+/// Relative luminance, of 1 (WCAG 2.2).
+fn luminance(c: Rgba) -> f64 {
+    let linear = |v: u8| {
+        let v = f64::from(v) / 255.0;
+        if v <= 0.040_45 { v / 12.92 } else { math::pow((v + 0.055) / 1.055, 2.4) }
+    };
+    0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn glyphs_of_every_anisotropy_stand_out_on_white() {
+        for i in 0..=100 {
+            let colour = ColourMap::Batlow.sample(f64::from(i) / 100.0);
+            let drawn = legible(colour);
+            assert!(1.05 / (luminance(drawn) + 0.05) >= LEAST_CONTRAST, "{i}: {drawn:?}");
+            assert!(luminance(colour) > 0.3 || drawn == colour, "dark colours stay");
+        }
     }
 }

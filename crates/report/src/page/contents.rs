@@ -1,24 +1,28 @@
 //! The result in short, and the list of all experiments.
 
-use std::collections::BTreeMap;
-
 use maud::{Markup, html};
 
-use super::About;
+use super::order::{natural, of_section};
+use super::thesis::{figure_number, is_of_thesis};
 use super::verdict::Tally;
-use crate::ExperimentOutcome;
 use crate::links::place;
 use crate::numbers::{count, counted, duration};
+use crate::{About, ExperimentSummary, LeftOut, Summary};
 
-/// Experiments by section, sections ascending, experiments of a section in the order given.
-pub(super) type Sections<'a> = BTreeMap<&'a str, Vec<&'a ExperimentOutcome>>;
+/// Experiments by section, in the order of the source.
+pub(super) type Sections<'a> = Vec<(&'a str, Vec<&'a ExperimentSummary>)>;
 
 /// `outcomes` by section.
-pub(super) fn by_section(outcomes: &[ExperimentOutcome]) -> Sections<'_> {
+pub(super) fn by_section(outcomes: &[ExperimentSummary]) -> Sections<'_> {
     let mut sections = Sections::new();
     for outcome in outcomes {
-        sections.entry(&outcome.section).or_default().push(outcome);
+        match sections.iter_mut().find(|(section, _)| *section == outcome.section) {
+            Some((_, outcomes)) => outcomes.push(outcome),
+            None => sections.push((&outcome.section, vec![outcome])),
+        }
     }
+    sections.sort_by(|(a, _), (b, _)| natural(a, b));
+    sections.iter_mut().for_each(|(_, outcomes)| outcomes.sort_by(|a, b| of_section(a, b)));
     sections
 }
 
@@ -28,7 +32,8 @@ pub(super) fn section_id(index: usize) -> String {
 }
 
 /// How the run went: one sentence, its numbers, and what failed.
-pub(super) fn result(outcomes: &[ExperimentOutcome], about: &About) -> Markup {
+pub(super) fn result(summary: &Summary) -> Markup {
+    let Summary { experiments: outcomes, about, seconds, .. } = summary;
     let tally = Tally::of(outcomes);
     html! {
         section.result.(tally.class()) aria-labelledby="page--result" {
@@ -39,11 +44,12 @@ pub(super) fn result(outcomes: &[ExperimentOutcome], about: &About) -> Markup {
                 (entry("Checks", html! { (count(tally.checks as u64)) }))
                 (entry("Passed", html! { (count(tally.passed() as u64)) }))
                 (entry("Failed", html! { (count(tally.failed as u64)) }))
-                (entry("Time", html! { (duration(about.seconds)) }))
+                (entry("Time", html! { (duration(*seconds)) }))
                 (entry("Version", html! { (about.version) }))
             }
-            p.command { code { (about.command) } }
-            p.setting { (setting(about)) }
+            p.command { @if about.added < outcomes.len() { "Latest run, of " (counted(about.added, "experiment")) ": " } code { (about.command) } }
+            p.setting { (setting(about, is_of_thesis(outcomes))) }
+            (left_out(&about.left_out))
             (failures(outcomes))
         }
     }
@@ -61,19 +67,34 @@ fn headline(experiments: usize, tally: Tally) -> String {
     format!("{}: {verdict}.", counted(experiments, "experiment"))
 }
 
-fn setting(about: &About) -> String {
-    let resolution = if about.full {
-        "Run at the thesis’s own resolutions (--full)"
-    } else {
-        "Run at the default resolutions; --full runs the thesis’s own where they are larger"
+fn setting(about: &About, of_thesis: bool) -> String {
+    let resolution = match (about.full, of_thesis) {
+        (true, true) => "Run at the thesis’s own resolutions (--full)",
+        (true, false) => "Run with --full",
+        (false, true) => "Run at the default resolutions; --full runs the thesis’s own where they are larger",
+        (false, false) => "Run without what is marked for --full only",
     };
-    let threads = counted(about.threads, "thread");
-    let left_out: String = about.left_out.iter().map(|words| format!(" Left out: {words}.")).collect();
-    format!("{resolution}. {threads}; only the times depend on it.{left_out}")
+    format!("{resolution}. {}; only the times depend on it.", counted(about.threads, "thread"))
+}
+
+/// What is not on the page.
+fn left_out(left_out: &[LeftOut]) -> Markup {
+    html! {
+        @if !left_out.is_empty() {
+            p.setting {
+                "Not run, for want of data that does not come with tigereye: "
+                @for (i, l) in left_out.iter().enumerate() {
+                    @if i > 0 { ", " }
+                    (l.slug) " (" code { (l.needs) } ")"
+                }
+                "."
+            }
+        }
+    }
 }
 
 /// Every failed check with a link to its experiment.
-fn failures(outcomes: &[ExperimentOutcome]) -> Markup {
+fn failures(outcomes: &[ExperimentSummary]) -> Markup {
     let mut failed =
         outcomes.iter().flat_map(|o| o.checks.iter().filter(|c| !c.passed).map(move |c| (o, c))).peekable();
     html! {
@@ -111,7 +132,7 @@ pub(super) fn contents(sections: &Sections<'_>, of_thesis: bool) -> Markup {
     }
 }
 
-fn line(outcome: &ExperimentOutcome) -> Markup {
+fn line(outcome: &ExperimentSummary) -> Markup {
     let tally = Tally::of([outcome]);
     html! {
         li {
@@ -119,7 +140,10 @@ fn line(outcome: &ExperimentOutcome) -> Markup {
                 span aria-hidden="true" title=(tally.sentence()) { (tally.sign()) }
                 span.unseen { (tally.sentence()) ": " }
             }
-            a href=(place(&outcome.slug)) { (outcome.title) }
+            a href=(place(&outcome.slug)) {
+                @if let Some(number) = figure_number(outcome) { span.figure-number { (number) } " " }
+                (outcome.title)
+            }
             @if tally.failed > 0 {
                 span.failed-count aria-hidden="true" { (tally.failed) " of " (tally.checks) " failed" }
             }

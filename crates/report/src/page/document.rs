@@ -2,26 +2,29 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 
-use super::About;
+use super::Pictures;
 use super::contents::{Sections, by_section, contents, result, section_id};
 use super::gallery::article;
 use super::glossary::glossary;
 use super::introduction::{about_tensor_lines, introduction};
-use super::overview::overview;
+use super::overview::{overview, shared, titles};
+use super::thesis::is_of_thesis;
 use super::verdict::Tally;
-use crate::ExperimentOutcome;
 use crate::numbers::counted;
+use crate::{ExperimentSummary, Summary};
 
 const CLOSING: &str = "\
     All pictures and numbers were computed in this run; summary.json beside this page holds the same \
     results for programs.";
 
-/// All outcomes as one page that needs no other file: style and pictures are inside.
+/// A folder of results as one page that needs no other file: style and pictures are inside.
 ///
-/// Sections stand in ascending order of their names, the experiments of a section in the order given. Links
+/// Sections stand in the order of their names, numbers in them by size; in a section the figures of the thesis come
+/// first, by their numbers, the others in the order given. Links
 /// to the figures and data at full size are relative: the page belongs into the results folder.
 #[must_use]
-pub fn html(outcomes: &[ExperimentOutcome], about: &About) -> String {
+pub fn html(summary: &Summary, pictures: &Pictures<'_>) -> String {
+    let outcomes = &summary.experiments;
     let sections = by_section(outcomes);
     let page = markup! {
         (DOCTYPE)
@@ -32,14 +35,14 @@ pub fn html(outcomes: &[ExperimentOutcome], about: &About) -> String {
                 (masthead(is_of_thesis(outcomes)))
                 main {
                     (introduction())
-                    (result(outcomes, about))
+                    (result(summary))
                     (contents(&sections, is_of_thesis(outcomes)))
-                    (gallery(&sections))
+                    (gallery(&sections, pictures))
                     @if is_of_thesis(outcomes) { (about_tensor_lines()) }
                     (glossary())
                 }
                 footer.page {
-                    p { "Written by tigereye " (about.version) ". " (CLOSING) }
+                    p { "Written by tigereye " (summary.about.version) ". " (CLOSING) }
                 }
             }
         }
@@ -47,7 +50,7 @@ pub fn html(outcomes: &[ExperimentOutcome], about: &About) -> String {
     page.into_string()
 }
 
-fn head(outcomes: &[ExperimentOutcome]) -> Markup {
+fn head(outcomes: &[ExperimentSummary]) -> Markup {
     let tally = Tally::of(outcomes);
     markup! {
         head {
@@ -58,11 +61,6 @@ fn head(outcomes: &[ExperimentOutcome]) -> Markup {
             style { (PreEscaped(include_str!("../style.css"))) }
         }
     }
-}
-
-/// Whether the page shows anything of the thesis: users also run experiments of their own.
-fn is_of_thesis(outcomes: &[ExperimentOutcome]) -> bool {
-    outcomes.is_empty() || outcomes.iter().any(|o| o.source.contains("Thesis"))
 }
 
 fn masthead(of_thesis: bool) -> Markup {
@@ -82,13 +80,15 @@ fn masthead(of_thesis: bool) -> Markup {
     }
 }
 
-fn gallery(sections: &Sections<'_>) -> Markup {
+fn gallery(sections: &Sections<'_>, pictures: &Pictures<'_>) -> Markup {
     markup! {
         @for (i, (section, outcomes)) in sections.iter().enumerate() {
             section.experiments aria-labelledby=(section_id(i)) {
                 h2 #(section_id(i)) { (section) }
-                (overview(outcomes))
-                @for outcome in outcomes { (article(outcome)) }
+                @let shared = shared(outcomes);
+                (overview(&shared))
+                @let titles = titles(&shared);
+                @for outcome in outcomes { (article(outcome, &titles, pictures)) }
                 p.back { a href="#page--contents" { "Back to the contents" } }
             }
         }

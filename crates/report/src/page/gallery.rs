@@ -2,40 +2,48 @@
 
 use maud::{Markup, html};
 
+use super::Pictures;
 use super::figures::figures;
 use super::tables::tables;
-use super::verdict::{Tally, excess, mark};
+use super::thesis::figure_number;
+use super::verdict::{Tally, mark};
+use super::words::words;
 use crate::links::{address, path};
-use crate::numbers::{count, counted, duration, file_size, number};
-use crate::{CheckOutcome, DataFile, Expected, ExperimentOutcome};
+use crate::numbers::{count, counted, duration, file_size, looks_equal, number, number_with};
+use crate::{CheckOutcome, DataSummary, Expected, ExperimentSummary};
 
-/// Everything about one experiment.
-pub(super) fn article(outcome: &ExperimentOutcome) -> Markup {
+/// Everything about one experiment. The tables with the titles `shared` stand beside others of their kind above.
+pub(super) fn article(outcome: &ExperimentSummary, shared: &[&str], pictures: &Pictures<'_>) -> Markup {
     let tally = Tally::of([outcome]);
     let heading = format!("{}--title", outcome.slug);
     html! {
         article #(outcome.slug) aria-labelledby=(heading) {
             header {
-                h3 #(heading) { (outcome.title) }
+                h3 #(heading) {
+                    @if let Some(number) = figure_number(outcome) { span.figure-number { (number) } " " }
+                    (outcome.title)
+                }
                 p.facts {
                     (tally.badge())
-                    span { (outcome.source) }
+                    span { (words(&outcome.source)) }
                     span { (duration(outcome.seconds)) }
                 }
             }
             @if !outcome.claim.is_empty() {
-                blockquote.claim { p.label { "Claim examined" } p { (outcome.claim) } }
+                blockquote.claim {
+                    p.label { (if outcome.source.starts_with("Thesis") { "The thesis says" } else { "Claim examined" }) }
+                    p { (words(&outcome.claim)) } }
             }
             @if !outcome.look_for.is_empty() {
-                p.look-for { b { "What to look for. " } (outcome.look_for) }
+                p.look-for { b { "What to look for. " } (words(&outcome.look_for)) }
             }
-            (figures(&outcome.slug, &outcome.figures))
-            (tables(&outcome.tables))
+            (figures(&outcome.slug, &outcome.pictures, pictures))
+            (tables(&outcome.tables, shared))
             (checks(&outcome.title, &outcome.checks))
             footer {
                 p.again { "Run it again: " code { (outcome.command) } }
                 (data(&outcome.slug, &outcome.data))
-                (work(&outcome.work))
+                (work(&outcome.work.0))
             }
         }
     }
@@ -71,7 +79,7 @@ fn row(check: &CheckOutcome) -> Markup {
         tr.failing[!check.passed] {
             td.mark {
                 (mark(check))
-                @if let Some(beyond) = excess(check).filter(|_| !check.passed) {
+                @if let Some(beyond) = check.excess().filter(|_| !check.passed) {
                     span.beyond { "by " (number(beyond)) }
                 }
             }
@@ -79,10 +87,28 @@ fn row(check: &CheckOutcome) -> Markup {
                 (check.name)
                 @if let Some(reason) = &check.reason { " " span.reason { "no value: " (reason) } }
             }
-            td.number { (number(check.value)) }
+            td.number { (value(check)) }
             td.number { (expected(check.expected)) }
             td.number { (tolerance(check.expected)) }
-            td.basis { (check.basis) }
+            td.basis { (words(&check.basis)) }
+        }
+    }
+}
+
+/// The value, and how far it is from what was expected where the digits shown are the same.
+fn value(check: &CheckOutcome) -> Markup {
+    let off = match check.expected {
+        Expected::Near { value, tolerance } if tolerance > 0.0 && looks_equal(value, check.value) => {
+            Some(check.value - value)
+        }
+        _ => None,
+    };
+    html! {
+        (number(check.value))
+        @match off {
+            Some(0.0) => span.beyond { "to the last digit" },
+            Some(off) => span.beyond { "differs by " (number_with(off.abs(), 1)) },
+            None => {},
         }
     }
 }
@@ -105,7 +131,7 @@ fn tolerance(expected: Expected) -> Markup {
     }
 }
 
-fn data(slug: &str, data: &[DataFile]) -> Markup {
+fn data(slug: &str, data: &[DataSummary]) -> Markup {
     html! {
         @if !data.is_empty() {
             p.data {
@@ -113,7 +139,7 @@ fn data(slug: &str, data: &[DataFile]) -> Markup {
                 @for (i, file) in data.iter().enumerate() {
                     @if i > 0 { ", " }
                     a href=(address(&path(slug, &file.name))) { (file.name) }
-                    " (" (file_size(file.bytes.len())) ")"
+                    " (" (file_size(file.bytes)) ")"
                 }
             }
         }

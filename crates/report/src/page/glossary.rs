@@ -2,7 +2,9 @@
 
 use maud::{Markup, html};
 
-const TERMS: [(&str, &str); 14] = [
+use super::words::words;
+
+const TERMS: [(&str, &str); 15] = [
     (
         "Tensor",
         "Here a 2 × 2 matrix in a cell, symmetric or not, that says how strongly something acts in each \
@@ -35,7 +37,7 @@ const TERMS: [(&str, &str); 14] = [
         "Light transport gradient: how much the final distribution of light changes when a flash is moved \
          by a cell in x or y or turned a little, summed over the whole field.",
     ),
-    ("Ridge", "A curve of locally largest LTG, the sign of tensor lines that part or meet there."),
+    ("Ridge", "A curve of locally largest LTG, the sign of tensor lines that diverge or meet there."),
     (
         "FTLE",
         "Finite-time Lyapunov exponent: how fast neighbouring particles of a flow drift apart within a \
@@ -52,6 +54,11 @@ const TERMS: [(&str, &str); 14] = [
          threshold.",
     ),
     ("S", "The number of samples of the full circle of directions, a multiple of 8."),
+    (
+        "K",
+        "The LTG compares the light of directions K samples to either side of a direction (`--omega-step`); by default \
+         a twelfth of all samples, rounded up.",
+    ),
 ];
 
 /// The glossary.
@@ -60,7 +67,7 @@ pub(super) fn glossary() -> Markup {
         section.glossary aria-labelledby="page--glossary" {
             h2 #page--glossary { "Glossary" }
             dl {
-                @for (term, meaning) in TERMS { div { dt { (term) } dd { (meaning) } } }
+                @for (term, meaning) in TERMS { div { dt { (term) } dd { (words(meaning)) } } }
             }
         }
     }

@@ -33,7 +33,7 @@ const STEPS: [(&str, &str); 4] = [
 
 const RIDGES: &str = "\
     Where the LTG has a ridge, moving the lamp a little changes a lot about where its light ends up: there \
-    the field’s lines part or meet, so the LTG does for tensor fields what the finite-time Lyapunov \
+    the field’s lines diverge or meet, so the LTG does for tensor fields what the finite-time Lyapunov \
     exponent (FTLE) does for flows.";
 
 const TENSOR_LINES: &str = "\

@@ -2,30 +2,35 @@
 
 use maud::{Markup, html};
 
-use super::tables::{class_of, scrolled};
+use super::tables::table_of;
 use crate::links::place;
-use crate::{ExperimentOutcome, Table};
+use crate::{ExperimentSummary, Table};
 
 /// Fewer experiments need no overview.
 const LEAST: usize = 3;
 
 /// The tables of the same title and columns in three experiments or more, their rows below each other.
-pub(super) fn overview(outcomes: &[&ExperimentOutcome]) -> Markup {
-    let shared: Vec<Vec<Part<'_>>> = shared(outcomes);
+pub(super) fn overview(shared: &[Vec<Part<'_>>]) -> Markup {
     html! {
         @if !shared.is_empty() {
             div.overview {
                 h3 { "Side by side" }
-                @for parts in &shared { (joined(parts)) }
+                @for parts in shared { (joined(parts)) }
             }
         }
     }
 }
 
 /// An experiment with one of its tables.
-type Part<'a> = (&'a ExperimentOutcome, &'a Table);
+pub(super) type Part<'a> = (&'a ExperimentSummary, &'a Table);
 
-fn shared<'a>(outcomes: &[&'a ExperimentOutcome]) -> Vec<Vec<Part<'a>>> {
+/// Titles of the tables that stand side by side.
+pub(super) fn titles<'a>(shared: &[Vec<Part<'a>>]) -> Vec<&'a str> {
+    shared.iter().filter_map(|parts| Some(parts.first()?.1.title.as_str())).collect()
+}
+
+/// The tables that experiments have in common.
+pub(super) fn shared<'a>(outcomes: &[&'a ExperimentSummary]) -> Vec<Vec<Part<'a>>> {
     let mut found: Vec<Vec<Part<'a>>> = Vec::new();
     for outcome in outcomes {
         for table in outcome.tables.iter().filter(|t| !t.rows.is_empty()) {
@@ -45,36 +50,16 @@ fn joined(parts: &[Part<'_>]) -> Markup {
     let titles: Vec<&str> = parts.iter().map(|(outcome, _)| outcome.title.as_str()).collect();
     let common = common_words(&titles);
     let title = format!("{}, all {} experiments", first.title, parts.len());
-    scrolled(
-        &title,
-        &html! {
-            table.results {
-                caption { b { (title) "." } " " (first.caption) }
-                thead {
-                    tr {
-                        @for column in &first.columns {
-                            th class=[class_of(column)] scope="col" { (column.heading) }
-                        }
-                    }
-                }
-                tbody {
-                    @for (outcome, table) in parts {
-                        @for (name, entries) in &table.rows {
-                            tr {
-                                th scope="row" {
-                                    a href=(place(&outcome.slug)) { (&outcome.title[common..]) }
-                                    @if table.rows.len() > 1 { ", " (name) }
-                                }
-                                @for (entry, column) in entries.iter().zip(first.columns.iter().skip(1)) {
-                                    td class=[class_of(column)] { (entry) }
-                                }
-                            }
-                        }
-                    }
-                }
-            }
-        },
-    )
+    let rows = parts.iter().flat_map(|(outcome, table)| {
+        table.rows.iter().map(move |(name, entries)| {
+            let head = html! {
+                a href=(place(&outcome.slug)) { (&outcome.title[common..]) }
+                @if table.rows.len() > 1 { ", " (name) }
+            };
+            (head, &entries[..])
+        })
+    });
+    table_of(&title, &first.caption, &first.columns, &rows.collect::<Vec<_>>())
 }
 
 /// Bytes of the words that all titles begin with; none where a title would be left empty.

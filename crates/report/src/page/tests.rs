@@ -2,12 +2,31 @@
 
 use serde_json::Value;
 
-use super::{About, html};
-use crate::{CheckOutcome, Column, DataFile, Expected, ExperimentOutcome, Figure, Table, summary_json};
+use crate::{
+    About, CheckOutcome, Column, DataFile, Expected, ExperimentOutcome, Figure, LeftOut, Made, Summary, Table,
+};
 
 fn about() -> About {
     let command = "tigereye reproduce --out results".into();
-    About { version: "1.2.3".into(), seconds: 75.0, command, full: false, threads: 4, left_out: Vec::new() }
+    About { version: "1.2.3".into(), command, full: false, threads: 4, added: 3, left_out: Vec::new() }
+}
+
+/// The summary of a folder of these.
+fn summary(outcomes: &[ExperimentOutcome], about: &About) -> Summary {
+    let mut summary = Summary { passed: true, about: about.clone(), ..Summary::default() };
+    let made = Made { version: "1.2.3", full: false, file: "a.ron" };
+    outcomes.iter().for_each(|o| summary.receive(o.summary(&made)));
+    summary
+}
+
+fn html(outcomes: &[ExperimentOutcome], about: &About) -> String {
+    super::html(&summary(outcomes, about), &|path| {
+        let figures = outcomes.iter().flat_map(|o| o.figures.iter().map(move |f| (&o.slug, f)));
+        let png = |(slug, f): (&String, &Figure)| {
+            (path == format!("{slug}/{}.png", f.name)).then(|| vec![f.png.clone()])
+        };
+        figures.into_iter().find_map(png)
+    })
 }
 
 fn check(name: &str, value: f64, expected: Expected) -> CheckOutcome {
@@ -25,6 +44,7 @@ fn outcome(slug: &str, section: &str, checks: Vec<CheckOutcome>) -> ExperimentOu
     let figure = Figure {
         timed: false,
         frames: 0,
+        panels: Vec::new(),
         name: "light map".into(),
         caption: "Light after ten steps.".into(),
         alt: "A bright spot".into(),
@@ -77,9 +97,9 @@ fn attribute_values<'a>(page: &'a str, attribute: &str) -> Vec<&'a str> {
 
 #[test]
 fn summary_has_the_agreed_shape() {
-    let text = summary_json(&mixed(), 12.5);
+    let text = summary(&mixed(), &about()).to_json();
     let summary: Value = serde_json::from_str(&text).expect("JSON");
-    assert_eq!((&summary["passed"], &summary["seconds"]), (&Value::from(false), &Value::from(12.5)));
+    assert_eq!((&summary["passed"], &summary["seconds"]), (&Value::from(false), &Value::from(4.5)));
     let drain = &summary["experiments"][0];
     assert_eq!(drain["slug"], "drain");
     assert_eq!(drain["passed"], true);
@@ -97,12 +117,25 @@ fn summary_has_the_agreed_shape() {
 
 #[test]
 fn summary_keys_stand_in_a_fixed_order() {
-    let text = summary_json(&mixed()[..1], 1.0);
+    let text = summary(&mixed()[..1], &about()).to_json();
     let keys: Vec<&str> =
         text.lines().filter_map(|l| l.trim().strip_prefix('"')?.split_once("\": ")).map(|(k, _)| k).collect();
-    let expect = "passed seconds experiments slug title source seconds passed figures timed_figures checks \
-                  name value expected tolerance passed kind basis command work steps cells steps (2)";
+    let expect = "passed seconds about version command full threads added left_out experiments slug title source seconds \
+                  passed figures timed_figures checks name value expected tolerance passed kind basis command work \
+                  steps cells steps (2) version full file section claim look_for pictures name caption alt width_px \
+                  height_px frames panels tables title caption columns heading words heading words rows data name bytes";
     assert_eq!(keys.join(" "), expect);
+}
+
+#[test]
+fn what_was_written_is_read_back() {
+    let mut written = summary(&mixed(), &about());
+    let text = written.to_json();
+    let read = Summary::from_json("summary.json", &text).expect("a summary");
+    assert_eq!(read.to_json(), text);
+    // NaN equals nothing, itself least of all.
+    written.experiments.retain(|e| e.checks.iter().all(|c| !c.value.is_nan()));
+    assert_eq!(Summary::from_json("summary.json", &written.to_json()).expect("a summary"), written);
 }
 
 #[test]
@@ -249,7 +282,7 @@ fn nothing_run_is_still_a_page() {
     let page = html(&[], &about());
     assert!(page.contains("No experiment was run") && page.contains("Glossary") && page.ends_with("</html>"));
     assert!(!page.contains("passed.") && !page.contains("<table"));
-    let summary: Value = serde_json::from_str(&summary_json(&[], 0.0)).expect("JSON");
+    let summary: Value = serde_json::from_str(&summary(&[], &about()).to_json()).expect("JSON");
     assert_eq!(summary["experiments"], serde_json::json!([]));
 }
 
@@ -266,7 +299,7 @@ fn equal_outcomes_give_equal_pages() {
 
 #[test]
 fn experiments_left_out_are_named() {
-    let left_out = vec!["brain needs reference/x.vtp, which is not there".to_owned()];
+    let left_out = vec![LeftOut { slug: "brain".into(), needs: "reference/x.vtp".into() }];
     let page = html(&[], &About { left_out, ..about() });
-    assert!(page.contains("Left out: brain needs reference/x.vtp, which is not there."), "{page}");
+    assert!(page.contains("does not come with tigereye: brain (<code>reference/x.vtp</code>)."), "{page}");
 }

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::{CheckOutcome, Expected, ExperimentOutcome};
+use crate::{CheckOutcome, ExperimentSummary};
 
 /// Number of checks and how many of them failed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -13,7 +13,7 @@ pub(super) struct Tally {
 
 impl Tally {
     /// Of all checks of `outcomes`.
-    pub(super) fn of<'a>(outcomes: impl IntoIterator<Item = &'a ExperimentOutcome>) -> Self {
+    pub(super) fn of<'a>(outcomes: impl IntoIterator<Item = &'a ExperimentSummary>) -> Self {
         let checks = outcomes.into_iter().flat_map(|o| &o.checks);
         checks.fold(Self::default(), |t, c| Self {
             checks: t.checks + 1,
@@ -67,14 +67,4 @@ impl Tally {
 pub(super) fn mark(check: &CheckOutcome) -> Markup {
     let (class, sign) = if check.passed { ("passed", "✓") } else { ("failed", "✗") };
     html! { span.verdict.(class) { span aria-hidden="true" { (sign) " " } (class) } }
-}
-
-/// How far a value lies outside of what is accepted; none if it lies inside or is not a number.
-pub(super) fn excess(check: &CheckOutcome) -> Option<f64> {
-    let beyond = match check.expected {
-        Expected::Near { value, tolerance } => (check.value - value).abs() - tolerance,
-        Expected::AtMost(bound) => check.value - bound,
-        Expected::AtLeast(bound) => bound - check.value,
-    };
-    (beyond > 0.0).then_some(beyond)
 }

@@ -5,16 +5,10 @@ use super::{
     Entry, ExperimentReview, FigureReview, Kind, NumberReview, Picture, Review, ReviewError, Side, State,
     Subject, Value,
 };
-use serde_json::Value as Json;
+use crate::{CheckOutcome, Expected, ExperimentSummary, FilePath, Summary};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Longest list in a summary.
-const MAX_ITEMS: usize = 100_000;
-
-/// Longest name in a summary, bytes.
-const MAX_NAME: usize = 10_000;
-
-/// What a `summary.json` holds; nothing by default.
+/// What a `summary.json` holds, as a review compares it; nothing by default.
 #[derive(Clone, Debug, Default)]
 pub struct Results {
     experiments: Vec<Experiment>,
@@ -47,158 +41,31 @@ struct Experiment {
 
 /// Reads the text of a `summary.json`; `file` names it in messages.
 ///
-/// Numbers that are `null` are not a number. What older programs did not write (`title`, `seconds`, `figures`, `work`,
-/// `expected`) may be missing.
-///
 /// # Errors
-/// [`ReviewError::Json`], [`ReviewError::Key`].
+/// [`ReviewError::Summary`].
 pub fn read(file: &str, text: &str) -> Result<Results, ReviewError> {
-    let json: Json = serde_json::from_str(text)
-        .map_err(|e| ReviewError::Json { file: file.to_owned(), problem: e.to_string() })?;
-    let root = At { file, key: String::new(), value: &json };
-    let list = root.need("experiments")?;
-    let experiments = list.items()?.iter().map(experiment).collect::<Result<Vec<_>, _>>()?;
-    let mut slugs = BTreeSet::new();
-    for (i, e) in experiments.iter().enumerate() {
-        if !slugs.insert(&e.slug) {
-            return Err(list.fault_at(&format!("[{i}].slug"), "a name that no other experiment has"));
-        }
-    }
-    Ok(Results { experiments })
+    let summary = Summary::from_json(file, text)?;
+    Ok(Results { experiments: summary.experiments.into_iter().map(experiment).collect() })
 }
 
-fn experiment(at: &At<'_>) -> Result<Experiment, ReviewError> {
-    let slug = at.need("slug")?.words()?;
-    let figures = match at.get("figures") {
-        None => Vec::new(),
-        Some(list) => list.items()?.iter().map(At::path).collect::<Result<Vec<_>, _>>()?,
-    };
+fn experiment(e: ExperimentSummary) -> Experiment {
     // Seconds never count as movement, drawn or not.
-    let timed = match at.get("timed_figures") {
-        None => Vec::new(),
-        Some(list) => list.items()?.iter().map(At::path).collect::<Result<Vec<_>, _>>()?,
-    };
-    let work = match at.get("work") {
-        None => Vec::new(),
-        Some(counters) => counters.members()?,
-    };
-    Ok(Experiment {
-        title: at.get("title").map_or_else(|| Ok(slug.clone()), |t| t.words())?,
-        seconds: at.get("seconds").map(|s| s.number()).transpose()?,
-        figures: figures.into_iter().filter(|f| f.ends_with(".png") && !timed.contains(f)).collect(),
-        checks: at.need("checks")?.items()?.iter().map(check).collect::<Result<_, _>>()?,
-        work: work
-            .iter()
-            .map(|(name, n)| Ok((name.clone(), Entry::bare(Value::Number(n.number()?)))))
-            .collect::<Result<_, ReviewError>>()?,
-        slug,
-    })
+    let counts = |f: &&FilePath| f.as_str().ends_with(".png") && !e.timed_figures.contains(f);
+    Experiment {
+        title: if e.title.is_empty() { e.slug.clone() } else { e.title },
+        seconds: e.seconds.is_finite().then_some(e.seconds),
+        figures: e.figures.iter().filter(counts).map(|f| f.as_str().to_owned()).collect(),
+        checks: e.checks.into_iter().map(check).collect(),
+        work: e.work.0.into_iter().map(|(name, n)| (name, Entry::bare(Value::Number(n as f64)))).collect(),
+        slug: e.slug,
+    }
 }
 
-fn check(at: &At<'_>) -> Result<(String, Entry), ReviewError> {
-    let number = |key: &str| at.get(key).map(|n| n.number()).transpose();
-    let kind = at.get("kind").map(|k| k.words()).transpose()?;
-    let expected = number("expected")?.map(|value| {
-        let tolerance = number("tolerance")?.unwrap_or(0.0);
-        Ok(match kind.as_deref() {
-            Some(bound @ ("at most" | "at least")) => format!("{bound} {}", short(value)),
-            _ if tolerance == 0.0 => format!("exactly {}", short(value)),
-            _ => format!("{} ± {}", short(value), short(tolerance)),
-        })
-    });
-    let entry = Entry {
-        value: Value::Number(at.need("value")?.number()?),
-        passed: Some(at.need("passed")?.flag()?),
-        expected: expected.transpose()?,
-    };
-    Ok((at.need("name")?.words()?, entry))
-}
-
-/// All digits, with a power of ten where there would be many zeros.
-fn short(x: f64) -> String {
-    if x == 0.0 || (1e-4..1e15).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
-}
-
-/// A value and its place in a file.
-struct At<'a> {
-    file: &'a str,
-    key: String,
-    value: &'a Json,
-}
-
-impl<'a> At<'a> {
-    fn fault(&self, expected: impl Into<String>) -> ReviewError {
-        ReviewError::Key { file: self.file.to_owned(), key: self.key.clone(), expected: expected.into() }
-    }
-
-    fn fault_at(&self, below: &str, expected: &str) -> ReviewError {
-        let key = format!("{}{below}", self.key);
-        ReviewError::Key { file: self.file.to_owned(), key, expected: expected.to_owned() }
-    }
-
-    fn get(&self, name: &str) -> Option<Self> {
-        let value = self.value.get(name)?;
-        let dot = if self.key.is_empty() { "" } else { "." };
-        Some(Self { file: self.file, key: format!("{}{dot}{name}", self.key), value })
-    }
-
-    fn need(&self, name: &str) -> Result<Self, ReviewError> {
-        let dot = if self.key.is_empty() { "" } else { "." };
-        self.get(name).ok_or_else(|| self.fault_at(&format!("{dot}{name}"), "a value, which is missing"))
-    }
-
-    fn items(&self) -> Result<Vec<Self>, ReviewError> {
-        let items = self.value.as_array().ok_or_else(|| self.fault("a list"))?;
-        if items.len() > MAX_ITEMS {
-            return Err(self.fault(format!("at most {MAX_ITEMS} entries")));
-        }
-        let at = |(i, value): (usize, &'a Json)| Self {
-            file: self.file,
-            key: format!("{}[{i}]", self.key),
-            value,
-        };
-        Ok(items.iter().enumerate().map(at).collect())
-    }
-
-    fn members(&self) -> Result<Vec<(String, Self)>, ReviewError> {
-        let members = self.value.as_object().ok_or_else(|| self.fault("an object"))?;
-        if members.len() > MAX_ITEMS {
-            return Err(self.fault(format!("at most {MAX_ITEMS} entries")));
-        }
-        let at = |(name, value): (&String, &'a Json)| {
-            let key = format!("{}.{}", self.key, crate::shortened(name));
-            (name.clone(), Self { file: self.file, key, value })
-        };
-        Ok(members.iter().map(at).collect())
-    }
-
-    fn words(&self) -> Result<String, ReviewError> {
-        match self.value.as_str() {
-            Some(words) if words.len() <= MAX_NAME => Ok(words.to_owned()),
-            Some(_) => Err(self.fault(format!("at most {MAX_NAME} bytes of text"))),
-            None => Err(self.fault("text")),
-        }
-    }
-
-    fn number(&self) -> Result<f64, ReviewError> {
-        match self.value {
-            Json::Null => Ok(f64::NAN),
-            Json::Number(n) => n.as_f64().ok_or_else(|| self.fault("a number or null")),
-            _ => Err(self.fault("a number or null")),
-        }
-    }
-
-    fn flag(&self) -> Result<bool, ReviewError> {
-        self.value.as_bool().ok_or_else(|| self.fault("true or false"))
-    }
-
-    /// A path that stays in the results folder.
-    fn path(&self) -> Result<String, ReviewError> {
-        let path = self.words()?;
-        let inside = path.split('/').all(|part| !["", ".", ".."].contains(&part))
-            && !path.chars().any(|c| c == '\\' || c == ':' || c.is_control());
-        if inside { Ok(path) } else { Err(self.fault("the path of a file below the results folder")) }
-    }
+fn check(check: CheckOutcome) -> (String, Entry) {
+    let (Expected::Near { value, .. } | Expected::AtMost(value) | Expected::AtLeast(value)) = check.expected;
+    // Older programs did not write it.
+    let expected = (!value.is_nan()).then_some(check.expected);
+    (check.name, Entry { value: Value::Number(check.value), passed: Some(check.passed), expected })
 }
 
 /// Reads a figure's PNG by its path in the summary of one side.
@@ -285,8 +152,15 @@ fn figure_review(
 ) -> Result<FigureReview, ReviewError> {
     let short = path.strip_prefix(slug).and_then(|p| p.strip_prefix('/')).unwrap_or(path);
     let name = short.strip_suffix(".png").unwrap_or(short).to_owned();
-    let unchanged =
-        FigureReview { name, state: State::Unchanged, change: 0.0, difference: None, base: None, head: None };
+    let unchanged = FigureReview {
+        name,
+        state: State::Unchanged,
+        change: 0.0,
+        difference: None,
+        sizes: None,
+        base: None,
+        head: None,
+    };
     if base == head {
         return Ok(unchanged);
     }
@@ -294,23 +168,32 @@ fn figure_review(
         Some(png) => Pixels::decode(&format!("{name}/{path}"), png).map(Some),
         None => Ok(None),
     };
-    let pixels = [decode(names[0], &base)?, decode(names[1], &head)?];
-    let difference = match &pixels {
-        [Some(a), Some(b)] => picture::difference(a, b),
-        _ => None,
+    let state = State::of(base.is_some(), head.is_some(), true);
+    let (Some(a), Some(b)) = (decode(names[0], &base)?, decode(names[1], &head)?) else {
+        let picture = |name: &str, png: Option<Vec<u8>>| -> Result<Option<Picture>, ReviewError> {
+            let Some(png) = png else { return Ok(None) };
+            Ok(Some(Pixels::decode(&format!("{name}/{path}"), &png)?.picture(png)))
+        };
+        let (base, head) = (picture(names[0], base)?, picture(names[1], head)?);
+        return Ok(FigureReview { state, change: f64::INFINITY, base, head, ..unchanged });
     };
-    if difference.as_ref().is_some_and(|d| d.differing == 0) {
-        return Ok(FigureReview { difference, ..unchanged });
+    let sizes = (a.size() != b.size()).then(|| [a.size(), b.size()]);
+    let difference = picture::difference(&a, &b);
+    if difference.differing == 0 && sizes.is_none() {
+        return Ok(FigureReview { difference: Some(difference), ..unchanged });
     }
-    let picture = |png: Option<Vec<u8>>, pixels: &Option<Pixels>| -> Option<Picture> {
-        Some(pixels.as_ref()?.picture(png?))
+    // Pictures of one size are shown as they are.
+    let shown = |pixels: Pixels, png: Option<Vec<u8>>| match sizes {
+        None => png.map(|png| pixels.picture(png)),
+        Some(_) => Some(pixels.padded(difference.size).encoded()),
     };
     Ok(FigureReview {
-        state: State::of(base.is_some(), head.is_some(), true),
-        change: difference.as_ref().map_or(f64::INFINITY, |d| d.mean),
-        base: picture(base, &pixels[0]),
-        head: picture(head, &pixels[1]),
-        difference,
+        state,
+        change: difference.mean,
+        sizes,
+        base: shown(a, base),
+        head: shown(b, head),
+        difference: Some(difference),
         ..unchanged
     })
 }

@@ -13,16 +13,22 @@ mod snapshot;
 mod tests;
 mod words;
 
+pub use crate::limits::MAX_FILE;
 pub use compare::{ReadFigure, Results, read, results};
-pub use error::{MAX_FILE, ReviewError};
+pub use error::ReviewError;
 pub use page::html;
 pub use snapshot::{Pending, snapshots};
 pub use words::{json, text};
 
+use crate::Expected;
 use picture::Picture;
 
 /// Below this magnitude values are rounding noise, as in snapshots: their changes are relative to it.
 const NOISE: f64 = 1e-9;
+
+/// A check that accepts no more than this, relative to what it expects, says that its value is exact but for rounding:
+/// within what it accepts, nothing has moved.
+const ROUNDING: f64 = 1e-8;
 
 /// One of the two things that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,18 +70,29 @@ impl Review {
         Self { base: base.to_owned(), head: head.to_owned(), tolerance, subject, experiments }
     }
 
-    /// Checks that passed before and fail now, with the place of their experiment and itself.
-    fn failing(&self) -> impl Iterator<Item = (usize, &ExperimentReview, &NumberReview)> {
+    /// Checks that fail now and did not before, with the places of their experiment and their own.
+    fn failing(&self) -> impl Iterator<Item = Failing<'_>> {
         let all = self.experiments.iter().enumerate();
-        let numbers = all.flat_map(|(i, e)| e.numbers.iter().map(move |n| (i, e, n)));
-        let passed = |e: &Option<Entry>| e.as_ref().and_then(|e| e.passed);
-        numbers.filter(move |(_, _, n)| (passed(&n.base), passed(&n.head)) == (Some(true), Some(false)))
+        let numbers = all.flat_map(|(i, experiment)| {
+            let numbers = experiment.numbers.iter().enumerate();
+            numbers.map(move |(k, number)| Failing { place: [i, k], experiment, number })
+        });
+        numbers.filter(|f| f.number.fails_now())
     }
 
     /// Number of experiments in a state.
     fn count(&self, state: State) -> usize {
         self.experiments.iter().filter(|e| e.state == state).count()
     }
+}
+
+/// A check that fails now.
+#[derive(Clone, Copy)]
+struct Failing<'a> {
+    /// Index of the experiment, and of the number in it.
+    place: [usize; 2],
+    experiment: &'a ExperimentReview,
+    number: &'a NumberReview,
 }
 
 /// What is compared.
@@ -179,7 +196,7 @@ impl ExperimentReview {
     fn with_figures(mut self, figures: Vec<FigureReview>) -> Self {
         self.figures = figures;
         let moved = self.figures.iter().filter(|f| f.state != State::Unchanged);
-        let figures = moved.map(|f| (f.change, format!("figure {}{}", f.name, f.reason())));
+        let figures = moved.map(|f| (f.change, format!("figure {} ({})", f.name, f.reason())));
         let of_kind = |work: bool| {
             let numbers = self.numbers.iter().filter(move |n| (n.kind == Kind::Work) == work);
             numbers.map(|n| (n.change, format!("{} {}{}", n.kind.name(), n.name, n.reason())))
@@ -273,13 +290,34 @@ impl Value {
 struct Entry {
     value: Value,
     passed: Option<bool>,
-    /// What a check expects, in words.
-    expected: Option<String>,
+    /// What a check expects.
+    expected: Option<Expected>,
 }
 
 impl Entry {
     const fn bare(value: Value) -> Self {
         Self { value, passed: None, expected: None }
+    }
+
+    /// The difference that is rounding, by the check's own expectation; none where it accepts more than that.
+    fn rounding(&self) -> Option<f64> {
+        match self.expected? {
+            Expected::Near { value, tolerance } => {
+                Some(tolerance).filter(|t| *t <= ROUNDING * value.abs().max(1.0))
+            }
+            Expected::AtMost(bound) => Some(bound).filter(|b| (0.0..=ROUNDING).contains(b)),
+            Expected::AtLeast(_) => None,
+        }
+    }
+
+    /// Whether this is the other one but for rounding.
+    fn is_rounding_of(&self, other: &Self) -> bool {
+        match (&self.value, &other.value, self.rounding()) {
+            (Value::Number(a), Value::Number(b), Some(rounding)) => {
+                (self.passed, self.expected) == (other.passed, other.expected) && (a - b).abs() <= rounding
+            }
+            _ => false,
+        }
     }
 }
 
@@ -297,6 +335,7 @@ struct NumberReview {
 impl NumberReview {
     fn new(name: String, kind: Kind, base: Option<Entry>, head: Option<Entry>, tolerance: f64) -> Self {
         let (change, moved) = match (&base, &head) {
+            (Some(a), Some(b)) if a.is_rounding_of(b) => (0.0, false),
             (Some(a), Some(b)) => {
                 let change = a.value.change(&b.value);
                 (change, change > tolerance || a.passed != b.passed || a.expected != b.expected)
@@ -319,6 +358,12 @@ impl NumberReview {
         }
     }
 
+    /// Whether it fails and did not fail before.
+    fn fails_now(&self) -> bool {
+        let verdict = |e: &Option<Entry>| e.as_ref().and_then(|e| e.passed);
+        verdict(&self.head) == Some(false) && verdict(&self.base) != Some(false)
+    }
+
     fn verdict_changed(&self) -> bool {
         let verdict = |e: &Option<Entry>| e.as_ref().and_then(|e| e.passed);
         verdict(&self.base).is_some_and(|a| verdict(&self.head).is_some_and(|b| a != b))
@@ -331,23 +376,24 @@ struct FigureReview {
     /// Path without the experiment's folder and the ending.
     name: String,
     state: State,
-    /// Mean difference of a pixel over the full range; infinite for another size.
+    /// Mean difference of a pixel over the full range; infinite where one is missing.
     change: f64,
-    /// Where the pictures differ; none for another size, and where one is missing.
+    /// Where the pictures differ; none where one is missing.
     difference: Option<picture::Difference>,
+    /// Their sizes, where these differ: both are drawn on white of the larger width and height.
+    sizes: Option<[[u32; 2]; 2]>,
     /// The pictures, kept where they differ.
     base: Option<Picture>,
     head: Option<Picture>,
 }
 
 impl FigureReview {
-    /// Why the change cannot be quantified.
+    /// What its change is, or why it cannot be quantified.
     const fn reason(&self) -> &'static str {
         match self.state {
-            State::Added => ", added",
-            State::Gone => ", gone",
-            _ if self.change.is_finite() => "",
-            _ => ", another size",
+            State::Added => "added",
+            State::Gone => "gone",
+            _ => "mean difference of its pixels",
         }
     }
 }

@@ -2,16 +2,14 @@
 
 use super::words::counts;
 use super::{
-    Entry, ExperimentReview, FigureReview, Kind, NOISE, NumberReview, Picture, Review, Side, State, Subject,
-    Value,
+    Entry, ExperimentReview, Failing, FigureReview, Kind, NOISE, NumberReview, Picture, Review, Side, State,
+    Subject, Value,
 };
+use crate::Expected;
 use crate::numbers::{counted, digits_apart, duration, number, number_with};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
-
-/// Checks that fail now and are named at the top.
-const FAILING: usize = 8;
 
 /// Digits of a change after the first one.
 const CHANGE_DIGITS: usize = 1;
@@ -31,15 +29,15 @@ pub fn html(review: &Review) -> String {
     let page = markup! {
         (DOCTYPE)
         html lang="en" {
-            (head(moved.len(), review.subject))
+            (head(review))
             body {
                 (masthead(review))
                 main {
                     (result(review))
                     @if !moved.is_empty() {
-                        (contents(&moved))
+                        (contents(review, &moved))
                         section.experiments aria-labelledby="details" {
-                            h2 #details { "In detail" }
+                            h2 #details { "Before and after" }
                             @for (i, e) in moved.iter().enumerate() { (article(review, i, e)) }
                         }
                     }
@@ -48,7 +46,7 @@ pub fn html(review: &Review) -> String {
                 footer.page {
                     p {
                         "Changes are relative to the larger of both values, or to " (number(NOISE))
-                        " where both are smaller. Seconds depend on the machine and never count."
+                        " where both are smaller. A check whose tolerance is rounding has not moved within it. Seconds depend on the machine and never count."
                         @if review.subject == Subject::Results { " review.json beside this page holds the same for programs." }
                     }
                 }
@@ -59,24 +57,32 @@ pub fn html(review: &Review) -> String {
     page.into_string()
 }
 
-fn head(moved: usize, subject: Subject) -> Markup {
+fn head(review: &Review) -> Markup {
     markup! {
         head {
             meta charset="utf-8";
             meta http-equiv="Content-Security-Policy" content=(POLICY);
             meta name="viewport" content="width=device-width, initial-scale=1";
             meta name="color-scheme" content="light dark";
-            title { "tigereye review: " (headline(moved, subject)) }
+            title { "tigereye review: " (headlines(review).join(", ")) }
             style { (PreEscaped(include_str!("../style.css"))) (PreEscaped(include_str!("page.css"))) }
         }
     }
 }
 
-fn headline(moved: usize, subject: Subject) -> String {
-    match moved {
+/// What matters most: what fails now, if anything does, and how much moved.
+fn headlines(review: &Review) -> Vec<String> {
+    let moved = review.experiments.len() - review.count(State::Unchanged);
+    let failing = match review.failing().count() {
+        0 => None,
+        1 => Some("1 check fails now".to_owned()),
+        n => Some(format!("{} fail now", counted(n, "check"))),
+    };
+    let moved = match moved {
         0 => "nothing moved".to_owned(),
-        n => format!("{} moved", counted(n, subject.noun())),
-    }
+        n => format!("{n} of {} moved", counted(review.experiments.len(), review.subject.noun())),
+    };
+    failing.into_iter().chain([moved]).collect()
 }
 
 fn masthead(review: &Review) -> Markup {
@@ -103,58 +109,91 @@ const fn side(review: &Review, side: Side) -> &'static str {
 }
 
 fn result(review: &Review) -> Markup {
-    let moved = review.experiments.len() - review.count(State::Unchanged);
-    let headline = headline(moved, review.subject);
+    let moved = review.moved();
+    let failing: Vec<_> = review.failing().collect();
+    let class = match (failing.is_empty(), moved) {
+        (false, _) => "failed",
+        (true, true) => "moved",
+        (true, false) => "passed",
+    };
     let [states, numbers] = counts(review);
     markup! {
-        section.result.(if moved > 0 { "moved" } else { "passed" }) aria-labelledby="result" {
+        section.result.(class) aria-labelledby="result" {
             h2 #result { "Result" }
-            p.headline { (headline[..1].to_uppercase()) (headline[1..]) "." }
+            @for (i, line) in headlines(review).iter().enumerate() {
+                @let fails = i == 0 && !failing.is_empty();
+                p.headline {
+                    span {
+                        @if fails { span aria-hidden="true" { "✗ " } }
+                        (line[..1].to_uppercase()) (line[1..]) "."
+                    }
+                }
+                @if fails { (list_of_failing(review, &failing)) }
+            }
             p { (states) ". " (numbers) "." }
-            (failing(review))
         }
     }
 }
 
-/// The checks that passed before and fail now: what was broken.
-fn failing(review: &Review) -> Markup {
-    let failing: Vec<_> = review.failing().collect();
-    let more = failing.len().saturating_sub(FAILING);
+/// Every check that fails now and did not before, by experiment, each with its place on the page.
+fn list_of_failing(review: &Review, failing: &[Failing<'_>]) -> Markup {
     let value = |entry: &Option<Entry>| match entry.as_ref().map(|e| &e.value) {
         Some(Value::Number(x)) => number(*x),
         Some(Value::Words(words)) => markup! { (words) },
         None => markup! { "none" },
     };
     markup! {
-        @if !failing.is_empty() {
-            p { b { "Checks that passed and fail now:" } }
-            ul.failures {
-                @for (i, e, n) in failing.iter().take(FAILING) {
-                    li {
-                        a href={ "#moved-" (i + 1) } { (e.title) } ": " (n.name) ", "
-                        (value(&n.base)) " → " (value(&n.head))
-                        @if let Some(expected) = n.head.as_ref().and_then(|e| e.expected.as_ref()) { ", expected " (expected) }
+        ul.failures {
+            @for group in failing.chunk_by(|a, b| a.place[0] == b.place[0]) {
+                li {
+                    a href={ "#moved-" (group[0].place[0] + 1) } { (group[0].experiment.title) }
+                    ul {
+                        @for f in group {
+                            li {
+                                a href={ "#" (row_id(f.place)) } { (f.number.name) } ": "
+                                (side(review, Side::Base).to_lowercase()) " " (value(&f.number.base)) ", "
+                                (side(review, Side::Head).to_lowercase()) " " (value(&f.number.head))
+                                @if let Some(expected) = f.number.head.as_ref().and_then(|e| e.expected) {
+                                    ", expected " (expectation(expected))
+                                }
+                            }
+                        }
                     }
                 }
-                @if more > 0 { li { "and " (more) " more" } }
             }
         }
     }
 }
 
+/// Id of a number's row.
+fn row_id([experiment, number]: [usize; 2]) -> String {
+    format!("moved-{}-{}", experiment + 1, number + 1)
+}
+
+/// What a check expects, never broken inside.
+fn expectation(expected: Expected) -> Markup {
+    let words = match expected {
+        Expected::Near { value, tolerance: 0.0 } => markup! { "exactly " (number(value)) },
+        Expected::Near { value, tolerance } => markup! { (number(value)) " ± " (number(tolerance)) },
+        Expected::AtMost(bound) => markup! { "at most " (number(bound)) },
+        Expected::AtLeast(bound) => markup! { "at least " (number(bound)) },
+    };
+    markup! { span.whole { (words) } }
+}
+
 /// The experiments that moved, with what moved most.
-fn contents(moved: &[&ExperimentReview]) -> Markup {
+fn contents(review: &Review, moved: &[&ExperimentReview]) -> Markup {
     markup! {
         section.contents aria-labelledby="list" {
-            h2 #list { "By how much" }
-            div.scroll tabindex="0" role="region" aria-label="By how much" {
+            h2 #list { "What moved most" }
+            div.scroll tabindex="0" role="region" aria-label="What moved most" {
                 table.moved-list {
                     thead {
                         tr {
-                            th scope="col" { "Name" }
+                            th scope="col" { (if review.subject == Subject::Results { "Experiment" } else { "Snapshot" }) }
                             th scope="col" { "State" }
-                            th.number scope="col" { "Largest change" }
-                            th scope="col" { "Of" }
+                            th.number scope="col" { "Largest relative change" }
+                            th scope="col" { "Where" }
                         }
                     }
                     tbody {
@@ -193,8 +232,10 @@ fn article(review: &Review, index: usize, e: &ExperimentReview) -> Markup {
     let id = format!("moved-{}", index + 1);
     let heading = format!("{id}--title");
     let seconds = |s: Option<f64>| s.map_or_else(|| "none".to_owned(), duration);
-    let of_kind =
-        |work: bool| e.numbers.iter().filter(|n| (n.kind == Kind::Work) == work).collect::<Vec<_>>();
+    let of_kind = |work: bool| {
+        let numbers = e.numbers.iter().enumerate().map(|(k, n)| (row_id([index, k]), n));
+        numbers.filter(|(_, n)| (n.kind == Kind::Work) == work).collect::<Vec<_>>()
+    };
     let (moved, still): (Vec<_>, Vec<_>) = e.figures.iter().partition(|f| f.state != State::Unchanged);
     markup! {
         article #(id) aria-labelledby=(heading) {
@@ -252,6 +293,10 @@ fn figure(review: &Review, e: &ExperimentReview, f: &FigureReview) -> Markup {
                         " of " (crate::numbers::count(d.pixels)) " differ"
                         @if d.differing == 1 { "s" }
                         " (" (number_with(share, 2)) " %), by " (d.largest) " of 255 at most"
+                        @if let Some([before, after]) = f.sizes {
+                            "; the size is another one, " (size(before)) " → " (size(after))
+                            " pixels, and both stand in the upper left corner of white"
+                        }
                     }
                     div.beside.pair.wide[base.size[0] > 2 * base.size[1]] {
                         div.slider {
@@ -277,13 +322,6 @@ fn figure(review: &Review, e: &ExperimentReview, f: &FigureReview) -> Markup {
                             }
                         }
                     }
-                },
-                (Some(base), Some(head), None) => {
-                    p {
-                        b { "Figure " (f.name) ": " } "differs in size, "
-                        (size(base.size)) " → " (size(head.size)) " pixels"
-                    }
-                    div.beside { (shown(base, Side::Base)) (shown(head, Side::Head)) }
                 },
                 (base, head, _) => {
                     p { b { "Figure " (f.name) ": " } span.state.(f.state.name()) { (f.state.name()) } }
@@ -324,10 +362,11 @@ fn image(png: &[u8], [width, height]: [u32; 2], alt: &str) -> Markup {
 }
 
 /// The numbers that moved.
-fn numbers(review: &Review, title: &str, numbers: &[&NumberReview]) -> Markup {
-    let has =
-        |what: fn(&Entry) -> bool| numbers.iter().any(|n| [&n.base, &n.head].into_iter().flatten().any(what));
-    let checks = numbers.iter().any(|n| n.kind == Kind::Check);
+fn numbers(review: &Review, title: &str, numbers: &[(String, &NumberReview)]) -> Markup {
+    let has = |what: fn(&Entry) -> bool| {
+        numbers.iter().any(|(_, n)| [&n.base, &n.head].into_iter().flatten().any(what))
+    };
+    let checks = numbers.iter().any(|(_, n)| n.kind == Kind::Check);
     let (verdicts, expected) = (has(|e| e.passed.is_some()), has(|e| e.expected.is_some()));
     let what = match (checks, review.subject) {
         (true, _) => "Check",
@@ -348,14 +387,14 @@ fn numbers(review: &Review, title: &str, numbers: &[&NumberReview]) -> Markup {
                             @if expected { th scope="col" { "Expected" } }
                         }
                     }
-                    tbody { @for n in numbers { (row(n, verdicts, expected)) } }
+                    tbody { @for (id, n) in numbers { (row(id, n, verdicts, expected)) } }
                 }
             }
         }
     }
 }
 
-fn row(n: &NumberReview, verdicts: bool, expected: bool) -> Markup {
+fn row(id: &str, n: &NumberReview, verdicts: bool, expected: bool) -> Markup {
     let digits = match (&n.base, &n.head) {
         (Some(Entry { value: Value::Number(a), .. }), Some(Entry { value: Value::Number(b), .. })) => {
             digits_apart(*a, *b)
@@ -364,7 +403,7 @@ fn row(n: &NumberReview, verdicts: bool, expected: bool) -> Markup {
     };
     let there = |state: State| markup! { span.state.(state.name()) { (state.name()) } };
     markup! {
-        tr.failing[n.verdict_changed()] {
+        tr.failing[n.fails_now()] #(id) {
             th scope="row" { (n.name) }
             (cell(n.base.as_ref(), digits))
             (cell(n.head.as_ref(), digits))
@@ -375,7 +414,7 @@ fn row(n: &NumberReview, verdicts: bool, expected: bool) -> Markup {
                 }
             }
             @if verdicts { td { (both(n, |e| e.passed.map(verdict))) } }
-            @if expected { td { (both(n, |e| e.expected.as_ref().map(|e| markup! { (e) }))) } }
+            @if expected { td { (both(n, |e| e.expected.map(expectation))) } }
         }
     }
 }

@@ -1,10 +1,6 @@
 //! Where two pictures differ, pixel by pixel.
 
-use super::error::{MAX_FILE, ReviewError};
-use std::io::Cursor;
-
-/// Largest picture, pixels.
-const MAX_PIXELS: u64 = 1 << 26;
+use super::error::ReviewError;
 
 /// Red of the map's largest difference.
 const RED: [u8; 3] = [200, 0, 30];
@@ -19,9 +15,11 @@ pub(super) struct Picture {
     pub(super) size: [u32; 2],
 }
 
-/// How two pictures of one size differ.
+/// How two pictures differ.
 #[derive(Clone, Debug)]
 pub(super) struct Difference {
+    /// Size of both together: the larger width and height.
+    pub(super) size: [u32; 2],
     pub(super) pixels: u64,
     pub(super) differing: u64,
     /// Largest difference of a channel, of 255.
@@ -32,73 +30,68 @@ pub(super) struct Difference {
     pub(super) map: Vec<u8>,
 }
 
-/// Red, green, blue and opacity of every pixel, row by row.
-pub(super) struct Pixels {
-    size: [u32; 2],
-    rgba: Vec<[u8; 4]>,
-}
+/// A picture of one side.
+pub(super) struct Pixels(crate::pixels::Pixels);
 
 impl Pixels {
     /// Decodes a PNG of 8 bits a channel or fewer.
     pub(super) fn decode(file: &str, png: &[u8]) -> Result<Self, ReviewError> {
-        let fault = |problem: String| ReviewError::Picture { file: file.to_owned(), problem };
-        let limits = png::Limits { bytes: MAX_FILE as usize };
-        let mut decoder = png::Decoder::new_with_limits(Cursor::new(png), limits);
-        // Palettes and bits become bytes.
-        decoder.set_transformations(png::Transformations::EXPAND);
-        let mut reader = decoder.read_info().map_err(|e| fault(e.to_string()))?;
-        let size = [reader.info().width, reader.info().height];
-        let pixels = u64::from(size[0]) * u64::from(size[1]);
-        if pixels > MAX_PIXELS {
-            return Err(fault(format!("{pixels} pixels: expected at most {MAX_PIXELS}")));
-        }
-        if reader.info().interlaced {
-            return Err(fault("it is interlaced: expected plain rows".to_owned()));
-        }
-        let (colour, depth) = reader.output_color_type();
-        if depth != png::BitDepth::Eight {
-            return Err(fault("more than 8 bits a channel: expected 8".to_owned()));
-        }
-        let mut rgba = Vec::new();
-        // Row by row, so that memory grows with what is really there.
-        while let Some(row) = reader.next_row().map_err(|e| fault(e.to_string()))? {
-            rgba.extend(row.data().chunks_exact(colour.samples()).map(|p| match *p {
-                [grey] => [grey, grey, grey, 255],
-                [grey, a] => [grey, grey, grey, a],
-                [r, g, b] => [r, g, b, 255],
-                [r, g, b, a, ..] => [r, g, b, a],
-                [] => [0; 4],
-            }));
-        }
-        if rgba.len() as u64 != pixels {
-            return Err(fault("the rows do not fill the picture".to_owned()));
-        }
-        Ok(Self { size, rgba })
+        let fault = |problem| ReviewError::Picture { file: file.to_owned(), problem };
+        crate::pixels::Pixels::decode(png).map(Self).map_err(fault)
+    }
+
+    /// Width and height.
+    pub(super) const fn size(&self) -> [u32; 2] {
+        self.0.size
     }
 
     pub(super) fn picture(&self, png: Vec<u8>) -> Picture {
-        Picture { png, size: self.size }
+        Picture { png, size: self.0.size }
+    }
+
+    /// The picture in the upper left corner of a white one of `size`, which must not be smaller.
+    pub(super) fn padded(&self, size: [u32; 2]) -> Self {
+        let (width, new_width) = (self.0.size[0] as usize, size[0] as usize);
+        let mut rgba = vec![[255; 4]; new_width * size[1] as usize];
+        for (row, pixels) in
+            rgba.chunks_exact_mut(new_width.max(1)).zip(self.0.rgba.chunks_exact(width.max(1)))
+        {
+            row[..width].copy_from_slice(pixels);
+        }
+        Self(crate::pixels::Pixels { size, rgba })
+    }
+
+    /// As a PNG, on white.
+    pub(super) fn encoded(&self) -> Picture {
+        let on_white = |[r, g, b, a]: [u8; 4]| {
+            [r, g, b].map(|c| (255 - (255 - u32::from(c)) * u32::from(a) / 255) as u8)
+        };
+        let rgb = self.0.rgba.iter().flat_map(|p| on_white(*p)).collect();
+        Picture { png: encode(self.0.size, rgb), size: self.0.size }
     }
 }
 
-/// How `head` differs from `base`; none where their sizes differ.
-pub(super) fn difference(base: &Pixels, head: &Pixels) -> Option<Difference> {
-    if base.size != head.size {
-        return None;
+/// How `head` differs from `base`; where their sizes differ, both stand in the upper left corner of white.
+pub(super) fn difference(base: &Pixels, head: &Pixels) -> Difference {
+    let size = [0, 1].map(|i| base.0.size[i].max(head.0.size[i]));
+    if base.0.size != head.0.size {
+        return difference(&base.padded(size), &head.padded(size));
     }
     let of_pixel = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).map(|i| a[i].abs_diff(b[i])).max().unwrap_or(0);
-    let differences: Vec<u8> = base.rgba.iter().zip(&head.rgba).map(of_pixel).collect();
+    let differences: Vec<u8> = base.0.rgba.iter().zip(&head.0.rgba).map(of_pixel).collect();
     let largest = differences.iter().copied().max().unwrap_or(0);
     let sum: u64 = differences.iter().map(|d| u64::from(*d)).sum();
     let pixels = differences.len() as u64;
-    let map = base.rgba.iter().zip(&differences).flat_map(|(p, d)| colour(faded(*p), *d, largest)).collect();
-    Some(Difference {
+    let map =
+        base.0.rgba.iter().zip(&differences).flat_map(|(p, d)| colour(faded(*p), *d, largest)).collect();
+    Difference {
+        size,
         pixels,
         differing: differences.iter().filter(|d| **d > 0).count() as u64,
         largest,
         mean: sum as f64 / (pixels.max(1) as f64 * 255.0),
-        map: encode(base.size, map),
-    })
+        map: encode(base.0.size, map),
+    }
 }
 
 /// Brightness on white, in the upper quarter of the range.
@@ -147,28 +140,38 @@ mod tests {
     fn differences_are_counted_and_measured() {
         let base = pixels([2, 2], png::ColorType::Grayscale, &[0, 10, 20, 255]);
         let head = pixels([2, 2], png::ColorType::Grayscale, &[0, 13, 20, 204]);
-        let d = difference(&base, &head).expect("one size");
+        let d = difference(&base, &head);
         assert_eq!((d.pixels, d.differing, d.largest), (4, 2, 51));
         assert!((d.mean - 54.0 / 1020.0).abs() < 1e-15);
         let map = Pixels::decode("map", &d.map).expect("a map");
-        let reddish = |i: usize| map.rgba[i][0] > map.rgba[i][1];
+        let reddish = |i: usize| map.0.rgba[i][0] > map.0.rgba[i][1];
         assert_eq!([reddish(0), reddish(1), reddish(2), reddish(3)], [false, true, false, true]);
-        assert_eq!(map.rgba[3][..3], RED);
+        assert_eq!(map.0.rgba[3][..3], RED);
     }
 
     #[test]
     fn colours_in_other_words_are_equal() {
         let grey = pixels([1, 1], png::ColorType::Grayscale, &[7]);
         let rgba = pixels([1, 1], png::ColorType::Rgba, &[7, 7, 7, 255]);
-        assert_eq!(difference(&grey, &rgba).map(|d| (d.differing, d.largest)), Some((0, 0)));
+        assert_eq!([difference(&grey, &rgba)].map(|d| (d.differing, d.largest)), [(0, 0)]);
         let clear = pixels([1, 1], png::ColorType::GrayscaleAlpha, &[7, 250]);
-        assert_eq!(difference(&grey, &clear).map(|d| (d.differing, d.largest)), Some((1, 5)));
+        assert_eq!([difference(&grey, &clear)].map(|d| (d.differing, d.largest)), [(1, 5)]);
     }
 
     #[test]
-    fn sizes_must_agree() {
-        let [a, b] = [[2, 1], [1, 2]].map(|size| pixels(size, png::ColorType::Grayscale, &[0, 0]));
-        assert!(difference(&a, &b).is_none());
+    fn pictures_of_different_sizes_are_compared_on_white() {
+        let [a, b] = [[2, 1], [1, 2]].map(|size| pixels(size, png::ColorType::Grayscale, &[0, 200]));
+        let d = difference(&a, &b);
+        // The corner is equal, one pixel of each lies on white, and one is white in both.
+        assert_eq!((d.size, d.pixels, d.differing, d.largest), ([2, 2], 4, 2, 55));
+        let padded = a.padded([2, 2]).encoded();
+        let shown = Pixels::decode("p.png", &padded.png).expect("a picture");
+        assert_eq!(
+            (shown.0.size, shown.0.rgba[1], shown.0.rgba[3]),
+            ([2, 2], [200, 200, 200, 255], [255; 4])
+        );
+        let wider = pixels([3, 1], png::ColorType::Grayscale, &[0, 200, 255]);
+        assert_eq!(difference(&a, &wider).differing, 0, "white at the edge is no difference");
     }
 
     #[test]

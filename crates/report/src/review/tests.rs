@@ -150,19 +150,45 @@ fn what_fails_now_is_named_at_once() {
         &[experiment("broken", checks(false), &[]), one("mended", 2.0)],
     );
     let words = text(&review);
-    assert!(
-        words.contains("fails now: broken: law 0, expected") && words.contains("and 7 more checks"),
-        "{words}"
-    );
+    assert!(words.lines().nth(1) == Some("11 checks FAIL now:"), "{words}");
+    assert!(words.contains("  broken: law 0: 0 -> 0, expected 1 ± 0.5\n"), "{words}");
+    assert!(words.contains("  and 1 more, all on the page") && words.lines().count() <= 24, "{words}");
     let page = html(&review);
+    assert!(page.contains("<title>tigereye review: 11 checks fail now, 2 of 2 experiments moved</title>"));
+    let (failing, moved) = (page.find("11 checks fail now."), page.find("2 of 2 experiments moved."));
+    assert!(failing.is_some() && failing < moved, "failures lead");
     let list =
         page.split("class=\"failures\"").nth(1).and_then(|rest| rest.split("</ul>").next()).expect("a list");
-    assert!(list.contains("law 7") && !list.contains("law 8") && list.contains("and 3 more"), "{list}");
+    assert!((0..11).all(|k| list.contains(&format!("law {k}</a>"))), "{list}");
     assert!(list.contains("<a href=\"#moved-1\">Title of broken</a>"), "{list}");
+    for link in attribute_values(list, "href") {
+        assert!(page.contains(&format!(" id=\"{}\"", &link[1..])), "nothing at {link}");
+    }
     // What fails as before, and what passes again, is no news.
     let again =
         reviewed(&[experiment("broken", checks(false), &[])], &[experiment("broken", checks(true), &[])]);
-    assert!(!text(&again).contains("fails now") && !html(&again).contains("failures\""), "{}", text(&again));
+    assert!(!text(&again).contains("FAIL") && !html(&again).contains("failures\""), "{}", text(&again));
+}
+
+#[test]
+fn rounding_within_a_tolerance_of_rounding_is_no_movement() {
+    let with = |kind: &str, expected: f64, tolerance: f64, x: f64| {
+        let mut check = check("n", &value!(x), true);
+        (check["kind"], check["expected"], check["tolerance"]) =
+            (value!(kind), value!(expected), value!(tolerance));
+        [experiment("a", vec![check], &[])]
+    };
+    for (kind, expected, tolerance, a, b, moved) in [
+        ("at most", 1e-12, 0.0, 9.5e-16, 1.4e-15, false),
+        ("near", 425.5, 4e-9, 425.5, 425.500_000_003, false),
+        // A bound that accepts more than rounding is no excuse.
+        ("at most", 8.0, 0.0, 0.47, 0.48, true),
+        ("near", 0.5, 0.1, 0.5, 0.51, true),
+        ("at least", 1e-12, 0.0, 0.5, 0.500_001, true),
+    ] {
+        let review = reviewed(&with(kind, expected, tolerance, a), &with(kind, expected, tolerance, b));
+        assert_eq!(review.moved(), moved, "{kind} {expected}: {a} {b}");
+    }
 }
 
 #[test]
@@ -177,7 +203,9 @@ fn a_verdict_or_an_expectation_is_movement_too() {
     loose[0]["checks"][0]["tolerance"] = value!(5.0);
     let review = reviewed(&good, &loose);
     assert!(review.moved());
-    assert!(html(&review).contains("1 ± 0.5 <span class=\"arrow\">→</span> 1 ± 5"));
+    let page = html(&review);
+    let (before, after) = page.split_once("<span class=\"arrow\">→</span>").expect("both");
+    assert!(before.ends_with(">0.5</data></span> ") && after.contains(">5</data>"), "{after}");
 }
 
 #[test]
@@ -223,7 +251,8 @@ fn checks_and_figures_come_and_go() {
     let states: Vec<_> =
         figures.as_array().expect("a list").iter().map(|f| [f["name"].clone(), f["state"].clone()]).collect();
     assert_eq!(value!(states), value!([["growing", "moved"], ["drawn", "added"], ["dropped", "gone"]]));
-    assert!(figures[0]["pixels_differing"].is_null());
+    // A column more of white, and the first pixel as before.
+    assert_eq!(figures[0]["pixels_differing"], 4);
     let moving = &json["experiments"][0]["figures"][1];
     assert_eq!((&moving["pixels_differing"], &moving["largest_difference"]), (&value!(1), &value!(51)));
 }
@@ -241,8 +270,8 @@ fn checks_of_one_name_are_told_apart() {
 fn pages_are_whole() {
     let page = html(&mixed());
     let images = page.matches("<img ").count();
-    // Two and a map, two of different sizes, one added and one gone; an added and a gone experiment's figure.
-    assert_eq!(images, 3 + 2 + 2 + 2);
+    // Two and a map, of one size and of two; one added and one gone; an added and a gone experiment's figure.
+    assert_eq!(images, 3 + 3 + 2 + 2);
     let alts = attribute_values(&page, "alt");
     assert!(alts.len() == images && alts.iter().all(|a| a.len() > 10), "{alts:?}");
     for address in attribute_values(&page, "src").iter().chain(&attribute_values(&page, "href")) {
@@ -260,7 +289,7 @@ fn pages_are_whole() {
     for label in attribute_values(&page, "for") {
         assert_eq!(ids.iter().filter(|id| **id == label).count(), 1, "{label}");
     }
-    assert_eq!(page.matches("type=\"range\"").count(), 1);
+    assert_eq!(page.matches("type=\"range\"").count(), 2);
     for link in attribute_values(&page, "href") {
         assert!(ids.contains(&&link[1..]), "{link}");
     }
@@ -298,24 +327,28 @@ fn summaries_that_are_wrong_are_refused_by_key() {
     let refused = |text: &str| read("r/summary.json", text).expect_err("refused").to_string();
     for (text, words) in [
         ("", "JSON"),
-        ("[1, 2", "JSON"),
-        ("[]", "experiments"),
-        ("{}", "experiments: expected a value"),
-        (r#"{"experiments": {}}"#, "experiments: expected a list"),
-        (r#"{"experiments": [7]}"#, "experiments[0].slug"),
+        ("{\"seconds\": 1", "JSON"),
+        ("[]", "invalid length"),
+        ("{}", "missing field `experiments`"),
+        (r#"{"experiments": {}}"#, "experiments: invalid type: map, expected a sequence"),
+        (r#"{"experiments": [7]}"#, "experiments[0]: invalid type"),
     ] {
         let message = refused(text);
         assert!(message.starts_with("r/summary.json: ") && message.contains(words), "{message}");
     }
     for (from, to, words) in [
-        ("\"a\"", "7", "experiments[0].slug: expected text"),
-        ("\"value\":1.0", "\"value\":\"1\"", "experiments[0].checks[0].value: expected a number or null"),
+        ("\"a\"", "7", "experiments[0].slug: invalid type: integer `7`, expected a string"),
+        (
+            "\"value\":1.0",
+            "\"value\":\"1\"",
+            "experiments[0].checks[0].value: invalid type: string \"1\", expected f64",
+        ),
         (
             "\"passed\":true,\"tolerance\"",
             "\"passed\":1,\"tolerance\"",
-            "checks[0].passed: expected true or false",
+            "checks[0].passed: invalid type: integer `1`, expected a boolean",
         ),
-        ("\"steps\":12", "\"steps\":[]", "experiments[0].work.steps: expected a number"),
+        ("\"steps\":12", "\"steps\":[]", "experiments[0].work.steps: invalid type: sequence, expected u64"),
         ("a/still.png", "../still.png", "experiments[0].figures[0]: expected the path"),
         ("a/still.png", "/etc/still.png", "experiments[0].figures[0]: expected the path"),
         ("a/still.png", "a//still.png", "experiments[0].figures[0]: expected the path"),
@@ -326,7 +359,7 @@ fn summaries_that_are_wrong_are_refused_by_key() {
         assert!(message.contains(words), "{message}");
     }
     assert!(refused(&summary(&[one("a", 1.0), one("a", 2.0)])).contains("experiments[1].slug"));
-    assert!(refused(&format!("{}1{}", "[".repeat(9999), "]".repeat(9999))).contains("JSON"));
+    assert!(refused(&format!("{}1{}", "[".repeat(9999), "]".repeat(9999))).starts_with("r/summary.json: "));
     assert!(refused(&good.replace("\"a\"", &format!("\"{}\"", "x".repeat(20_000)))).contains("at most"));
 }
 

@@ -1,34 +1,49 @@
 //! A review as a screenful of text and as JSON.
 
 use super::{Entry, ExperimentReview, FigureReview, Kind, NumberReview, Review, State, Subject, Value};
-use crate::numbers::counted;
+use crate::numbers::{counted, plain};
 use serde::Serialize;
 
-/// Experiments that the text names.
+/// Experiments that the text names, where no check fails now.
 const NAMED: usize = 12;
 
+/// Experiments that the text names below checks that fail now.
+const NAMED_BELOW: usize = 6;
+
 /// Checks that fail now and that the text names.
-const FAILING: usize = 4;
+const FAILING: usize = 10;
 
 /// Longest name in the text, characters.
 const NAME: usize = 72;
 
-/// What moved, in at most twenty-one lines: counts, checks that fail now, the experiments that moved most.
+/// What moved, in at most two dozen lines: checks that fail now, counts, the experiments that moved most.
 #[must_use]
 pub fn text(review: &Review) -> String {
     let mut lines = vec![format!("{} -> {}, tolerance {:e}", review.base, review.head, review.tolerance)];
-    lines.extend(counts(review));
     let failing: Vec<_> = review.failing().collect();
-    lines.extend(failing.iter().take(FAILING).map(|(_, e, n)| {
-        let expected = n.head.as_ref().and_then(|e| e.expected.as_ref());
-        let expected = expected.map_or_else(String::new, |words| format!(", expected {}", clipped(words)));
-        format!("  fails now: {}: {}{expected}", clipped(&e.slug), clipped(&n.name))
+    match failing.len() {
+        0 => {}
+        1 => lines.push("1 check FAILS now:".to_owned()),
+        n => lines.push(format!("{n} checks FAIL now:")),
+    }
+    lines.extend(failing.iter().take(FAILING).map(|f| {
+        let expected = f.number.head.as_ref().and_then(|e| e.expected);
+        let expected = expected.map_or_else(String::new, |e| format!(", expected {}", e.words()));
+        let value = |e: &Option<Entry>| match e.as_ref().map(|e| &e.value) {
+            Some(Value::Number(x)) => plain(*x),
+            Some(Value::Words(words)) => clipped(words),
+            None => "none".to_owned(),
+        };
+        let (name, base, head) = (clipped(&f.number.name), value(&f.number.base), value(&f.number.head));
+        format!("  {}: {name}: {base} -> {head}{expected}", clipped(&f.experiment.slug))
     }));
     if failing.len() > FAILING {
-        lines.push(format!("  and {} more checks fail now", failing.len() - FAILING));
+        lines.push(format!("  and {} more, all on the page", failing.len() - FAILING));
     }
+    lines.extend(counts(review));
     let moved: Vec<_> = review.experiments.iter().filter(|e| e.state != State::Unchanged).collect();
-    for e in moved.iter().take(NAMED) {
+    let named = if failing.is_empty() { NAMED } else { NAMED_BELOW };
+    for e in moved.iter().take(named) {
         let verdicts = match e.verdicts_changed() {
             0 => String::new(),
             n => format!(", {} changed", counted(n, "verdict")),
@@ -39,8 +54,8 @@ pub fn text(review: &Review) -> String {
         };
         lines.push(format!("  {}  {change}", clipped(&e.slug)));
     }
-    if moved.len() > NAMED {
-        lines.push(format!("  and {} more", moved.len() - NAMED));
+    if moved.len() > named {
+        lines.push(format!("  and {} more", moved.len() - named));
     }
     lines.join("\n") + "\n"
 }
@@ -50,12 +65,11 @@ pub(super) fn counts(review: &Review) -> [String; 2] {
     let noun = review.subject.noun();
     let states = [State::Moved, State::Added, State::Gone, State::Unchanged];
     let states = states.map(|s| format!("{} {}", review.count(s), s.name())).join(", ");
-    let of_kind = |kind| {
-        let numbers = review.experiments.iter().flat_map(|e| &e.numbers);
-        numbers.filter(|n| n.kind == kind).count()
-    };
-    let verdicts: usize = review.experiments.iter().map(ExperimentReview::verdicts_changed).sum();
-    let figures: usize = review.experiments.iter().map(ExperimentReview::figures_moved).sum();
+    // Those of experiments that came or went as a whole count as these.
+    let there = || review.experiments.iter().filter(|e| !matches!(e.state, State::Added | State::Gone));
+    let of_kind = |kind| there().flat_map(|e| &e.numbers).filter(|n| n.kind == kind).count();
+    let verdicts: usize = there().map(ExperimentReview::verdicts_changed).sum();
+    let figures: usize = there().map(ExperimentReview::figures_moved).sum();
     let verdicts = counted(verdicts, "verdict");
     match review.subject {
         Subject::Results => [
@@ -150,16 +164,16 @@ struct Number<'a> {
     base_passed: Option<bool>,
     head_passed: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    base_expected: Option<&'a str>,
+    base_expected: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    head_expected: Option<&'a str>,
+    head_expected: Option<String>,
 }
 
 impl<'a> Number<'a> {
     fn of(n: &'a NumberReview) -> Self {
         let value = |e: &'a Option<Entry>| e.as_ref().map(|e| Plain::of(&e.value));
         let passed = |e: &Option<Entry>| e.as_ref().and_then(|e| e.passed);
-        let expected = |e: &'a Option<Entry>| e.as_ref().and_then(|e| e.expected.as_deref());
+        let expected = |e: &Option<Entry>| e.as_ref().and_then(|e| e.expected).map(|e| e.words());
         Self {
             name: &n.name,
             base: value(&n.base),

@@ -6,12 +6,13 @@ use crate::files;
 use crate::host::FileHost;
 use crate::input::Input;
 use std::path::{Path, PathBuf};
-use tigereye_core::{Directions, Field, Grid, Normalization, Surface, TransmissionField};
+use tigereye_core::{Cell, Directions, Field, Grid, Normalization, Surface, Tensor2, TransmissionField};
 use tigereye_experiments::Medium;
 use tigereye_experiments::scene::{PreparedScene, is_scene_file, light_fault, prepare};
 use tigereye_input::Reading;
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_transport::Light;
+use tigereye_views::Placement;
 
 /// The scene of a file, and the names of all files it was read from.
 pub(crate) fn read_scene(name: &str) -> Result<(PreparedScene, Vec<String>), CliError> {
@@ -134,6 +135,21 @@ impl MediumInput {
             Self::Tensors(input) => &input.geometry,
             Self::Scene(..) => &PlaneGeometry::UNPLACED,
         }
+    }
+
+    /// The tensors, unless it is a scene.
+    pub(crate) fn tensors(&self) -> Option<&Field<Tensor2>> {
+        self.medium().tensors()
+    }
+
+    /// Cells without a tensor.
+    pub(crate) fn masked(&self) -> Vec<Cell> {
+        self.medium().masked()
+    }
+
+    /// Where its cells lie, for what is drawn.
+    pub(crate) fn placement(&self) -> Placement {
+        Placement::new(*self.geometry(), self.grid())
     }
 
     /// The walls of a scene.

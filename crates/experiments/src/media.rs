@@ -4,6 +4,9 @@ use crate::ids::{FieldId, MediumId};
 use crate::medium::Medium;
 use crate::scene::PreparedScene;
 use tigereye_core::{CellShape, Field, Tensor2};
+use tigereye_io::volume::PlaneGeometry;
+use tigereye_render::Coordinates;
+use tigereye_views::Placement;
 
 /// A field with its name.
 #[derive(Clone, Debug)]
@@ -14,6 +17,15 @@ pub(crate) struct NamedField {
     pub(crate) field: Field<Tensor2>,
     /// The shape of its cells.
     pub(crate) cell: CellShape,
+    /// Where they lie.
+    pub(crate) geometry: PlaneGeometry,
+}
+
+impl NamedField {
+    /// Coordinates of its columns and rows, where its file has some.
+    pub(crate) fn coordinates(&self) -> Option<[Coordinates; 2]> {
+        Placement::new(self.geometry, self.field.grid()).coordinates()
+    }
 }
 
 /// All of them.

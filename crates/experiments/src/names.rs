@@ -13,6 +13,7 @@ use crate::runs::light::Kept;
 use std::collections::BTreeMap;
 use tigereye_core::{Cell, Directions, Grid};
 use tigereye_fields::Expression;
+use tigereye_render::Coordinates;
 use tigereye_scenes::shortest_path;
 use tigereye_transport::StoppingRule;
 
@@ -224,6 +225,14 @@ impl<'a, 'f> Names<'a, 'f> {
     /// Cells of what a run goes through.
     pub(crate) fn grid(&self, run: RunId) -> Option<Grid> {
         self.medium_of(run).map(|id| self.media.medium(id).grid())
+    }
+
+    /// Coordinates of the columns and rows of what a run goes through, where its file has some.
+    pub(crate) fn coordinates(&self, run: RunId) -> Option<[Coordinates; 2]> {
+        match self.medium_of(run)? {
+            MediumId::Field(id) => self.media.field(id).coordinates(),
+            MediumId::Scene(_) => None,
+        }
     }
 
     /// A cell of a run.

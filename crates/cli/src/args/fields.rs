@@ -1,6 +1,7 @@
 //! The command line of the test fields.
 
 use super::reading::ReadingArgs;
+use super::style::StyleArgs;
 use super::values::{choice, parse_cell, parse_normalization};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
@@ -42,7 +43,7 @@ pub(crate) struct FieldNewArgs {
 pub(crate) struct FieldShowArgs {
     /// A field file, a data file or a generator.
     pub(crate) input: String,
-    /// The sheet, .png or .svg.
+    /// The sheet, .png, .svg or .pdf.
     #[arg(short, long = "output", value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// Cell that shines, column and row; by default the one nearest to the middle whose tensor is not zero.
@@ -59,6 +60,8 @@ pub(crate) struct FieldShowArgs {
     pub(crate) normalization: Option<Normalization>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) style: StyleArgs,
 }
 
 #[derive(Debug, Args)]

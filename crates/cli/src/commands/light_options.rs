@@ -35,10 +35,15 @@ pub(super) fn stopping_of(args: &SchemeArgs) -> Stopping {
 }
 
 /// The parameters of a propagation, for its provenance.
-pub(super) fn parameters(args: &PropagateArgs, stopping: &Stopping, normalization: &str) -> Value {
+pub(super) fn parameters(
+    args: &PropagateArgs,
+    lights: &[String],
+    stopping: &Stopping,
+    normalization: &str,
+) -> Value {
     let mut parameters = json!({
         "input": args.input,
-        "light": args.lights,
+        "light": lights,
         "impulse": args.impulse,
         "steps": args.steps,
         "directions": args.scheme.directions.count(),

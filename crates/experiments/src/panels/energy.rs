@@ -1,13 +1,13 @@
 //! The energy of every cell in colours.
 
-use crate::form::{Placed, Positive};
+use crate::form::{Placed, Positive, StyleSource};
 use crate::names::Names;
 use crate::numerics::paths::Paths;
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_core::Cell;
-use tigereye_render::{Overlay, Rgba};
-use tigereye_views::light::{self, Request};
+use tigereye_render::{Colours, HeatOptions, Overlay, Rgba, heat_map};
+use tigereye_views::light;
 
 /// The energy of every cell in colours.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -26,9 +26,20 @@ pub struct Energy {
     way_to: Option<Placed<(usize, usize)>>,
     /// Heading of the panel.
     title: String,
+    /// How it looks.
+    #[serde(default)]
+    style: Option<Placed<StyleSource>>,
 }
 
 impl PanelKind for Energy {
+    fn style(&self) -> Option<&Placed<StyleSource>> {
+        self.style.as_ref()
+    }
+
+    fn colours(&self) -> Colours {
+        Colours::Values
+    }
+
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let frame = names.frame(&self.run, self.step.as_ref())?;
         let to = match &self.way_to {
@@ -36,23 +47,26 @@ impl PanelKind for Energy {
             None => None,
         };
         let decades = self.decades.map(Positive::get);
-        Some(PlannedPanel::new(&self.title, move |drawing| {
+        let coordinates = names.coordinates(frame.light.0);
+        let panel = PlannedPanel::new(&self.title, move |drawing| {
             let run = &drawing.results[frame.light];
             let overlays = match to {
                 Some(to) => overlays(&Paths::of(run, to)?),
                 None => Vec::new(),
             };
-            let request = Request {
+            let options = HeatOptions {
                 title: drawing.title.clone(),
-                decades,
                 sources: run.sources.clone(),
                 walls: run.surfaces.clone(),
                 overlays,
                 cell_px: drawing.cell_px(run.last.grid()),
-                ..Request::default()
+                masked: run.masked.clone(),
+                style: drawing.style(),
+                ..light::options(decades)
             };
-            Ok(light::picture(&drawing.results.frame(frame)?.energy(), request))
-        }))
+            Ok(heat_map(&drawing.results.frame(frame)?.energy(), &options))
+        });
+        Some(panel.placed(coordinates))
     }
 }
 

@@ -1,11 +1,12 @@
 //! Where the light at a receiver comes from, in colours.
 
-use crate::form::{Placed, Positive};
+use crate::form::{Placed, Positive, StyleSource};
 use crate::names::Names;
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_core::math;
-use tigereye_views::light::{self, Request};
+use tigereye_render::{Colours, HeatOptions, heat_map};
+use tigereye_views::light;
 
 /// Mean importance over direction of every cell in colours; the receiver is marked.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -18,26 +19,37 @@ pub struct Importance {
     decades: Option<Positive>,
     /// Heading of the panel.
     title: String,
+    /// How it looks.
+    #[serde(default)]
+    style: Option<Placed<StyleSource>>,
 }
 
 impl PanelKind for Importance {
+    fn style(&self) -> Option<&Placed<StyleSource>> {
+        self.style.as_ref()
+    }
+
+    fn colours(&self) -> Colours {
+        Colours::Values
+    }
+
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let id = names.importance(&self.run)?;
         let decades = self.decades.map(Positive::get);
-        Some(PlannedPanel::new(&self.title, move |drawing| {
+        let coordinates = names.coordinates(id.0);
+        let panel = PlannedPanel::new(&self.title, move |drawing| {
             let outcome = &drawing.results[id];
-            let request = Request {
+            let options = HeatOptions {
                 title: drawing.title.clone(),
-                quantity: Some("mean importance over direction".to_owned()),
-                decades,
                 sources: vec![outcome.receiver],
-                source_name: Some("receiver"),
-                dark_name: Some("unimportant"),
                 walls: outcome.surfaces.clone(),
                 cell_px: drawing.cell_px(outcome.importance.grid()),
-                ..Request::default()
+                masked: outcome.masked.clone(),
+                style: drawing.style(),
+                ..light::importance_options(decades)
             };
-            Ok(light::picture(&outcome.importance.energy().map(|e| e / math::TAU), request))
-        }))
+            Ok(heat_map(&outcome.importance.energy().map(|e| e / math::TAU), &options))
+        });
+        Some(panel.placed(coordinates))
     }
 }

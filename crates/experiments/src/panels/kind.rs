@@ -1,10 +1,12 @@
 //! What a panel is.
 
+use crate::form::{Placed, StyleSource};
 use crate::names::Names;
 use crate::results::Results;
+use crate::runs::gradient::Outcome;
 use crate::unavailable::Unavailable;
-use tigereye_core::{CellShape, Field, Grid, Surface};
-use tigereye_render::{Overlay, Scene};
+use tigereye_core::{CellShape, Field, Grid};
+use tigereye_render::{AxisNumbers, Colours, Coordinates, HeatOptions, Overlay, Scene, Style};
 use tigereye_views::gradient;
 
 /// A picture of the results, every name looked up; or why it is not to be had.
@@ -17,6 +19,49 @@ pub(crate) trait PanelKind {
     /// Looks up names, checks cells and steps, and parses expressions; `None` where something is wrong, which is
     /// reported.
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel>;
+
+    /// How it is to look.
+    fn style(&self) -> Option<&Placed<StyleSource>> {
+        None
+    }
+
+    /// What its colours show.
+    fn colours(&self) -> Colours {
+        Colours::Kinds
+    }
+
+    /// [`Self::resolve`] with the style.
+    fn planned(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+        let style = checked_style(self.style(), Some(self.colours()), names);
+        let panel = self.resolve(names)?;
+        let coordinates = panel.style.coordinates.clone();
+        Some(PlannedPanel { style: style?.or(Style { coordinates, ..Style::default() }), ..panel })
+    }
+}
+
+/// The style of a panel, or of a figure, whose panels show different things; `None` where something is wrong, which is
+/// reported.
+pub(crate) fn checked_style(
+    source: Option<&Placed<StyleSource>>,
+    colours: Option<Colours>,
+    names: &mut Names<'_, '_>,
+) -> Option<Style> {
+    let Some(source) = source else { return Some(Style::default()) };
+    let useless = |style: &Style| {
+        let (key, expected) = colours.and_then(|colours| style.useless(colours))?;
+        Some(format!("`{key}` has no effect here: expected {expected}"))
+    };
+    let single = source
+        .of_single_pictures()
+        .map(|key| format!("`{key}` has no effect in experiments: expected it in a style file"));
+    match source.style() {
+        Err(problem) => names.fault(source.place(), &problem),
+        Ok(style) => match single.or_else(|| useless(&style)) {
+            None => return Some(style),
+            Some(problem) => names.fault(source.place(), &problem),
+        },
+    }
+    None
 }
 
 /// A panel, ready to be drawn.
@@ -28,6 +73,8 @@ pub(crate) struct PlannedPanel {
     pub(crate) curves: Option<Curves>,
     /// Whether it shows seconds, which are others in every run.
     pub(crate) is_timed: bool,
+    /// How it is to look.
+    pub(crate) style: Style,
 }
 
 impl PlannedPanel {
@@ -36,7 +83,14 @@ impl PlannedPanel {
         title: &str,
         picture: impl Fn(&Drawing<'_>) -> Result<Scene, Unavailable> + Send + Sync + 'static,
     ) -> Self {
-        Self { title: title.to_owned(), picture: Box::new(picture), curves: None, is_timed: false }
+        let style = Style::default();
+        Self { title: title.to_owned(), picture: Box::new(picture), curves: None, is_timed: false, style }
+    }
+
+    /// The panel with the coordinates of what it shows.
+    pub(crate) fn placed(mut self, coordinates: Option<[Coordinates; 2]>) -> Self {
+        self.style.coordinates = coordinates;
+        self
     }
 }
 
@@ -60,9 +114,21 @@ pub(crate) struct Drawing<'a> {
     pub(crate) alone: bool,
     /// Heading within the picture: empty among others, where it stands above.
     pub(crate) title: String,
+    style: Style,
 }
 
-impl Drawing<'_> {
+impl<'a> Drawing<'a> {
+    /// Of a panel of a figure, in its style; axes are marked with cells unless it says otherwise.
+    pub(crate) fn new(results: &'a Results<'a>, alone: bool, title: String, style: Style) -> Self {
+        let cells = Style { numbers: Some(AxisNumbers::Cells), ..Style::default() };
+        Self { results, alone, title, style: style.or(cells) }
+    }
+
+    /// How the panel looks.
+    pub(crate) fn style(&self) -> Style {
+        self.style.clone()
+    }
+
     /// Pixels per cell: chosen by the picture where it stands alone, fitting a panel otherwise.
     pub(crate) fn cell_px(&self, grid: Grid) -> Option<usize> {
         self.cell_px_of(grid, CellShape::SQUARE)
@@ -78,18 +144,19 @@ impl Drawing<'_> {
     pub(crate) fn gradient_map(
         &self,
         scalar: &Field<f64>,
-        walls: Option<&Field<Option<Surface>>>,
+        of: &Outcome,
         which: gradient::Scalar,
         overlays: Vec<Overlay>,
     ) -> Scene {
-        let request = gradient::Request {
+        let options = HeatOptions {
             title: self.title.clone(),
-            scalar: which,
-            walls: walls.cloned(),
+            walls: of.surfaces.clone(),
             overlays,
             cell_px: self.cell_px(scalar.grid()),
-            ..gradient::Request::default()
+            masked: of.masked.clone(),
+            style: self.style(),
+            ..HeatOptions::default()
         };
-        gradient::picture(scalar, request)
+        gradient::picture(scalar, which, options)
     }
 }

@@ -7,7 +7,7 @@ mod kind;
 pub mod series;
 
 use kind::PanelKind;
-pub(crate) use kind::{Curve, Drawing, PANEL_PX, PlannedPanel};
+pub(crate) use kind::{Curve, Drawing, PANEL_PX, PlannedPanel, checked_style};
 
 use crate::names::Names;
 use serde::Deserialize;
@@ -27,7 +27,7 @@ macro_rules! panels {
             /// How the panel is drawn; `None` where something is wrong, which is reported.
             pub(crate) fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
                 match self {
-                    $(Self::$kind(form) => form.resolve(names),)+
+                    $(Self::$kind(form) => form.planned(names),)+
                 }
             }
         }

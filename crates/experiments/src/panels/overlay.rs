@@ -1,6 +1,6 @@
 //! Transmission and light of every cell as polar diagrams.
 
-use crate::form::{Placed, Positive};
+use crate::form::{Placed, Positive, StyleSource};
 use crate::names::Names;
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
@@ -23,6 +23,9 @@ pub struct Overlay {
     transmission: bool,
     /// Heading of the panel.
     title: String,
+    /// How it looks.
+    #[serde(default)]
+    style: Option<Placed<StyleSource>>,
 }
 
 fn yes() -> bool {
@@ -46,6 +49,10 @@ pub enum Scale {
 }
 
 impl PanelKind for Overlay {
+    fn style(&self) -> Option<&Placed<StyleSource>> {
+        self.style.as_ref()
+    }
+
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let frame = names.frame(&self.run, self.step.as_ref())?;
         let intensity = match self.scale {
@@ -56,7 +63,8 @@ impl PanelKind for Overlay {
             Scale::Decades(d) => IntensityScale::Logarithmic { decades: d.get() },
         };
         let shows_transmission = self.transmission;
-        Some(PlannedPanel::new(&self.title, move |drawing| {
+        let coordinates = names.coordinates(frame.light.0);
+        let panel = PlannedPanel::new(&self.title, move |drawing| {
             let run = &drawing.results[frame.light];
             let options = PolarOptions {
                 title: drawing.title.clone(),
@@ -65,10 +73,13 @@ impl PanelKind for Overlay {
                 sources: run.sources.clone(),
                 walls: run.surfaces.clone(),
                 cell_px: drawing.cell_px(run.last.grid()),
+                masked: run.masked.clone(),
+                style: drawing.style(),
                 ..PolarOptions::default()
             };
             let light = drawing.results.frame(frame)?;
             Ok(polar_overlay(shows_transmission.then_some(&run.transmission), Some(light), &options))
-        }))
+        });
+        Some(panel.placed(coordinates))
     }
 }

@@ -12,7 +12,7 @@ use crate::runs::setup::{RunResolver, Setup};
 use serde::Deserialize;
 use serde_json::json;
 use std::ops::ControlFlow;
-use tigereye_core::{Field, LtgVolume, Surface, SweepWork};
+use tigereye_core::{Cell, Field, LtgVolume, Surface, SweepWork};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{IoError, image_from_ltg, vti};
 use tigereye_ltg::{
@@ -137,6 +137,8 @@ pub(crate) struct Outcome {
     pub(crate) relative_error: Option<f64>,
     /// What the cells are, in a scene.
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
+    /// Cells without a tensor.
+    pub(crate) masked: Vec<Cell>,
 }
 
 impl Plan {
@@ -184,7 +186,7 @@ impl Plan {
             source => failed(source),
         })?;
         let surfaces = medium.scene().map(|scene| scene.layout.surfaces.clone());
-        Ok(Outcome { outcome, relative_error, surfaces })
+        Ok(Outcome { outcome, relative_error, surfaces, masked: medium.masked() })
     }
 
     /// The gradient of linear scattering, exact or estimated.

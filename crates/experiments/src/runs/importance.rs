@@ -100,6 +100,8 @@ pub(crate) struct Outcome {
     pub(crate) work: Work,
     /// What the cells are, in a scene.
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
+    /// Cells without a tensor.
+    pub(crate) masked: Vec<Cell>,
 }
 
 impl Plan {
@@ -138,6 +140,7 @@ impl Plan {
             importance,
             work,
             surfaces: medium.scene().map(|scene| scene.layout.surfaces.clone()),
+            masked: medium.masked(),
         })
     }
 }

@@ -158,6 +158,8 @@ pub(crate) struct Outcome {
     pub(crate) work: Work,
     /// What the cells are, in a scene.
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
+    /// Cells without a tensor.
+    pub(crate) masked: Vec<Cell>,
     /// Cells that pass light on, in a scene.
     pub(crate) open: Option<Field<bool>>,
 }
@@ -244,6 +246,7 @@ impl Plan {
             work: outcome.work,
             transmission,
             surfaces: scene.map(|scene| scene.layout.surfaces.clone()),
+            masked: medium.masked(),
             open: scene.map(PreparedScene::open),
         })
     }

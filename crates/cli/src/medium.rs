@@ -152,6 +152,14 @@ impl MediumInput {
         Placement::new(*self.geometry(), self.grid())
     }
 
+    /// Unit of the coordinates, where the file states it.
+    pub(crate) const fn unit(&self) -> Option<&'static str> {
+        match self {
+            Self::Tensors(input) => input.unit,
+            Self::Scene(..) => None,
+        }
+    }
+
     /// The walls of a scene.
     pub(crate) fn surfaces(&self) -> Option<&Field<Option<Surface>>> {
         self.medium().scene().map(|scene| &scene.layout.surfaces)

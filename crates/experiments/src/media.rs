@@ -5,7 +5,7 @@ use crate::medium::Medium;
 use crate::scene::PreparedScene;
 use tigereye_core::{CellShape, Field, Tensor2};
 use tigereye_io::volume::PlaneGeometry;
-use tigereye_render::Coordinates;
+use tigereye_render::Style;
 use tigereye_views::Placement;
 
 /// A field with its name.
@@ -19,12 +19,15 @@ pub(crate) struct NamedField {
     pub(crate) cell: CellShape,
     /// Where they lie.
     pub(crate) geometry: PlaneGeometry,
+    /// Unit of the coordinates, where the file states it.
+    pub(crate) unit: Option<&'static str>,
 }
 
 impl NamedField {
-    /// Coordinates of its columns and rows, where its file has some.
-    pub(crate) fn coordinates(&self) -> Option<[Coordinates; 2]> {
-        Placement::new(self.geometry, self.field.grid()).coordinates()
+    /// How pictures mark its axes, where its file has coordinates.
+    pub(crate) fn place(&self) -> Style {
+        let coordinates = Placement::new(self.geometry, self.field.grid()).coordinates();
+        Style { coordinates, unit: self.unit.map(str::to_owned), ..Style::default() }
     }
 }
 

@@ -13,7 +13,7 @@ use crate::runs::light::Kept;
 use std::collections::BTreeMap;
 use tigereye_core::{Cell, Directions, Grid};
 use tigereye_fields::Expression;
-use tigereye_render::Coordinates;
+use tigereye_render::Style;
 use tigereye_scenes::shortest_path;
 use tigereye_transport::StoppingRule;
 
@@ -227,10 +227,15 @@ impl<'a, 'f> Names<'a, 'f> {
         self.medium_of(run).map(|id| self.media.medium(id).grid())
     }
 
-    /// Coordinates of the columns and rows of what a run goes through, where its file has some.
-    pub(crate) fn coordinates(&self, run: RunId) -> Option<[Coordinates; 2]> {
+    /// How pictures mark the axes of what a run goes through, where its file has coordinates.
+    pub(crate) fn place(&self, run: RunId) -> Style {
+        self.field_of(run).map_or_else(Style::default, |id| self.media.field(id).place())
+    }
+
+    /// The field that a run goes through; none where it is a scene.
+    pub(crate) fn field_of(&self, run: RunId) -> Option<FieldId> {
         match self.medium_of(run)? {
-            MediumId::Field(id) => self.media.field(id).coordinates(),
+            MediumId::Field(id) => Some(id),
             MediumId::Scene(_) => None,
         }
     }

@@ -182,7 +182,8 @@ fn fields(sources: &Named<FieldSource>, host: &dyn Host, faults: &mut Faults<'_>
     let made = sources.iter().filter_map(|(name, source)| match make_plane(source, host) {
         Ok((plane, _)) => {
             let (geometry, cell) = (plane.geometry, CellShape::of(plane.geometry.spacing()));
-            Some(NamedField { name: name.to_string(), field: plane.field, cell, geometry })
+            let (field, unit) = (plane.field, plane.unit);
+            Some(NamedField { name: name.to_string(), field, cell, geometry, unit })
         }
         Err(problem) => {
             faults.at(name.place(), &format!("field \"{name}\": {problem}"));

@@ -124,10 +124,10 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     let block = sampling.block(&page);
     let colour = |first| cell_colour(block_mean(field, first, block), &axis, map);
     page.scene.items.push(sampling.raster(&page, colour));
-    page.hatch(&sampling.cells_where(|sample| !field.at(sample).is_finite()));
+    let is_hatched = page.hatch(&sampling.cells_where(|sample| !field.at(sample).is_finite()));
     mask::draw(&mut page, &masked);
     let names = [options.missing.as_deref(), options.dark_name];
-    let mut legend = value_legend(&seen, &summary, &axis, names, &sampling);
+    let mut legend = value_legend(&seen, &summary, &axis, (names, is_hatched), &sampling);
     mask::explain(&masked, &options.style, &mut legend);
     if let Some(text) = sampling.mean_in_words(block) {
         legend.push(Entry::of(Mark::None, text));
@@ -257,7 +257,7 @@ fn value_legend(
     values: &[f64],
     summary: &Summary,
     axis: &Axis,
-    [missing, dark_name]: [Option<&str>; 2],
+    ([missing, dark_name], is_hatched): ([Option<&str>; 2], bool),
     sampling: &Sampling,
 ) -> Vec<Entry> {
     let dark_name = dark_name.unwrap_or("no light");
@@ -277,7 +277,7 @@ fn value_legend(
             || format!("not a finite number ({broken} of {} {})", values.len(), sampling.places()),
             ToOwned::to_owned,
         );
-        legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), text));
+        legend.push(Entry::of(Mark::broken(is_hatched), text));
     }
     if summary.finite == 0 {
         legend.push(Entry::of(Mark::None, "The field has no finite value."));

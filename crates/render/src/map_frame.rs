@@ -6,6 +6,7 @@ use crate::font;
 use crate::legend::{self, Entry, SMALL_PX};
 use crate::scene::{Anchor, PagePoint, PathBuilder, Scene};
 use crate::style::{Coordinates, Style};
+use std::collections::BTreeMap;
 use tigereye_core::{Cell, CellShape, Grid, Point};
 
 /// Margin around pictures in pixels.
@@ -20,6 +21,8 @@ const LEAST_WIDTH_PX: f64 = 300.0;
 /// Least height that leaves room for a scale beside flat maps; less where somebody chose the width.
 const LEAST_SIDE_HEIGHT_PX: f64 = 150.0;
 const NARROW_SIDE_HEIGHT_PX: f64 = 80.0;
+/// Least distance of the lines of a hatching.
+const HATCH_PX: f64 = 4.0;
 /// Least distance of the marks of an axis.
 const TICKS_APART_PX: f64 = 40.0;
 /// Narrower maps cannot be read; a page that has no room for one becomes wider.
@@ -40,6 +43,8 @@ pub(crate) struct MapFrame {
     has_side: bool,
     margin: f64,
     least_side_height: f64,
+    /// Pixels of the picture per pixel of the page, where somebody chose its size; 1 otherwise.
+    pub(crate) fineness: f64,
 }
 
 /// Names of the axes of cells; what stands instead beside maps of less than so many pixels.
@@ -84,6 +89,14 @@ impl MapAxis {
         }
     }
 
+    /// How far the last label reaches beyond the end of the axis, of so many cells.
+    fn overhang(&self, cells: usize, cell_px: f64) -> f64 {
+        let beyond = |(at, label): &(f64, String)| {
+            (at + 0.5 - cells as f64) * cell_px + 0.5 * font::text_width(label, SMALL_PX)
+        };
+        self.marks.iter().map(beyond).fold(0.0, f64::max)
+    }
+
     fn widest(&self) -> f64 {
         self.marks.iter().map(|(_, label)| font::text_width(label, SMALL_PX)).fold(0.0, f64::max)
     }
@@ -111,7 +124,9 @@ impl MapFrame {
         let title = style.title_or(own_title);
         frame.title = title.to_owned();
         let lines = frame.title_lines().len() as f64;
-        frame.top = frame.margin + TITLE_LINE_PX * lines + if lines == 0.0 { 0.0 } else { 6.0 };
+        // A label may reach above the map.
+        frame.top =
+            (frame.margin + TITLE_LINE_PX * lines + if lines == 0.0 { 0.0 } else { 6.0 }).max(SMALL_PX);
         frame
     }
 
@@ -139,7 +154,9 @@ impl MapFrame {
         };
         let left = margin + 22.0 + widest + 8.0;
         let side_px = side_px((cell[1] * grid.height() as f64).max(least_side_height));
-        let mut scene = Scene::sized(left + cell[0] * grid.width() as f64 + side_px + margin, 0.0);
+        let overhang = axes[0].overhang(grid.width(), cell[0]);
+        let right = margin.max(overhang - side_px + 1.0);
+        let mut scene = Scene::sized(left + cell[0] * grid.width() as f64 + side_px + right, 0.0);
         scene.pt_per_px = style.pt_per_px();
         scene.on_paper = style.width.is_some() || style.font_pt.is_some();
         Self {
@@ -153,6 +170,7 @@ impl MapFrame {
             has_side: side_px > 0.0,
             margin,
             least_side_height,
+            fineness: style.fineness(),
         }
     }
 
@@ -199,18 +217,27 @@ impl MapFrame {
         path
     }
 
-    /// Hatches `cells` if they are large enough to show it.
-    pub(crate) fn hatch(&mut self, cells: &[Cell]) {
-        if self.smaller_side() < 4.0 || cells.is_empty() {
-            return;
+    /// Hatches `cells` with a line in each, or in each square of so many that a line can be seen. Whether there was room
+    /// for one.
+    pub(crate) fn hatch(&mut self, cells: &[Cell]) -> bool {
+        let block = (HATCH_PX / self.smaller_side()).ceil().max(1.0) as usize;
+        // Blocks, row by row, with the number of their cells.
+        let mut blocks = BTreeMap::new();
+        for c in cells {
+            *blocks.entry((c.y / block, c.x / block)).or_insert(0) += 1;
         }
         let mut path = PathBuilder::default();
-        for c in cells {
-            let PagePoint { x, y, .. } = self.centre(*c);
-            let [r, s] = self.cell.map(|side| 0.5 * side);
-            path.line([x - r, y + s], [x + r, y - s]);
+        for ((y, x), _) in blocks.into_iter().filter(|(_, count)| *count == block * block) {
+            let [left, top] =
+                [self.left + self.cell[0] * (x * block) as f64, self.top + self.cell[1] * (y * block) as f64];
+            let [width, height] = self.cell.map(|side| side * block as f64);
+            path.line([left, top + height], [left + width, top]);
         }
-        self.scene.stroke(path.finish(), Rgba::WHITE, 1.0);
+        let is_hatched = !path.is_empty();
+        if is_hatched {
+            self.scene.stroke(path.finish(), Rgba::WHITE, 1.0);
+        }
+        is_hatched
     }
 
     /// Lines between cells, unless only every n-th cell is drawn.

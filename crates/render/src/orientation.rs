@@ -46,14 +46,14 @@ pub fn orientation_map(field: &Field<Tensor2>, options: &OrientationOptions) -> 
     let map = options.style.map.unwrap_or(ColourMap::RomaO);
     page.scene.items.push(raster(field, &page, block, map));
     let broken: Vec<Cell> = field.iter().filter(|(_, t)| !t.is_finite()).map(|(c, _)| c).collect();
-    page.hatch(&broken);
+    let is_hatched = page.hatch(&broken);
     draw_half_ring(&mut page, map);
     let mut legend = Vec::new();
     if field.values().iter().any(Tensor2::is_zero) {
         legend.push(Entry::of(Mark::Swatch(Rgba::MASKED), mask::name(&options.style)));
     }
     if !broken.is_empty() {
-        legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), "tensor not finite"));
+        legend.push(Entry::of(Mark::broken(is_hatched), "tensor not finite"));
     }
     ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);

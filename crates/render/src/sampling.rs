@@ -57,7 +57,7 @@ impl Sampling {
 
     /// Samples along x and y that are combined into one cell of a raster: more than 1 if they are smaller than a pixel.
     pub(crate) fn block(&self, page: &MapFrame) -> [usize; 2] {
-        self.sample_px(page).map(|side| (1.0 / side).round().max(1.0) as usize)
+        self.sample_px(page).map(|side| (1.0 / (page.fineness * side)).round().max(1.0) as usize)
     }
 
     /// A remark on the mean that one cell of a raster shows, if it combines several samples.

@@ -181,6 +181,14 @@ impl Style {
         self.font_pt.map_or(crate::scene::PT_PER_PX, |pt| pt / SMALL_PX)
     }
 
+    /// Pixels of a PNG per pixel of the page where a size was chosen, otherwise 1.
+    pub(crate) fn fineness(&self) -> f64 {
+        match self.width {
+            Some(_) => self.dpi.unwrap_or(Self::DPI) / POINTS_AN_INCH * self.pt_per_px(),
+            None => 1.0,
+        }
+    }
+
     /// Width of the page in pixels of the page.
     pub(crate) fn width_px(&self) -> Option<f64> {
         self.width_pt().map(|width_pt| width_pt / self.pt_per_px())

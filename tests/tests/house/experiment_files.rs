@@ -9,6 +9,7 @@ use tigereye_core::Choice;
 use tigereye_lines::{Axes, Family, Major};
 use tigereye_render::{AxisNumbers, ColourMap, GlyphColour};
 use tigereye_transport::{ENGINES, ScatteringRule, SharedWeights};
+use tigereye_views::added::Added;
 
 const PAGE: &str = "docs/reference/experiment-files.md";
 
@@ -63,6 +64,7 @@ fn names<T: Choice>() -> String {
 /// The names of a choice, as written in a file.
 fn names_of_choice(choice: &str) -> String {
     match choice {
+        "Added" => names::<Added>(),
         "Axes" => names::<Axes>(),
         "AxisNumbers" => names::<AxisNumbers>(),
         "ColourMap" => names::<ColourMap>(),

@@ -146,7 +146,8 @@ pub(super) fn check_whole_page(args: &StyleArgs) -> Result<(), CliError> {
     }
 }
 
-/// The style of a picture of an input, whose axes have the file's coordinates.
-pub(super) fn placed(style: Style, placement: &Placement) -> Style {
-    style.or(Style { coordinates: placement.coordinates(), ..Style::default() })
+/// The style of a picture of an input, whose axes have the file's coordinates and unit.
+pub(super) fn placed(style: Style, placement: &Placement, unit: Option<&'static str>) -> Style {
+    let (coordinates, unit) = (placement.coordinates(), unit.map(str::to_owned));
+    style.or(Style { coordinates, unit, ..Style::default() })
 }

@@ -16,7 +16,7 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vti", "png", "svg", "pdf"])?;
     let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
     let style = drawing::style(&args.style, Colours::Values)?;
-    let style = drawing::placed(style, &drawing::placement(&input));
+    let style = drawing::placed(style, &drawing::placement(&input), input.unit);
     let overlaid = Overlaid::read(&args.overlay)?;
     overlaid.check(&drawing::placement(&input), true, true, false)?;
     let following = args.of.following(&input)?;

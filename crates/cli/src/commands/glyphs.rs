@@ -30,7 +30,8 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
         ));
     }
     let colours = if colour == GlyphColour::Anisotropy { Colours::Quantity } else { Colours::Kinds };
-    let style = drawing::placed(drawing::style(&args.style, colours)?, &drawing::placement(&input));
+    let style =
+        drawing::placed(drawing::style(&args.style, colours)?, &drawing::placement(&input), input.unit);
     let cell = CellShape::of(input.geometry.spacing());
     let options = GlyphOptions {
         title,

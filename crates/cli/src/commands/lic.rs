@@ -17,7 +17,8 @@ pub(crate) fn run(args: &LicArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["png", "svg", "pdf", "vti"])?;
     let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
     let colours = if args.tint { Colours::Values } else { Colours::Kinds };
-    let style = drawing::placed(drawing::style(&args.style, colours)?, &drawing::placement(&input));
+    let style =
+        drawing::placed(drawing::style(&args.style, colours)?, &drawing::placement(&input), input.unit);
     let overlaid = Overlaid::read(&args.overlay)?;
     overlaid.check(&drawing::placement(&input), true, false, false)?;
     let (samples, half_length, seed) = (args.samples, args.half_length, args.seed);

@@ -24,7 +24,11 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
     if args.tolerance.is_some() && args.method != MethodName::Rk45 {
         return Err(CliError::input("--tolerance", "is that of adaptive steps: expected --method rk45"));
     }
-    let style = drawing::placed(drawing::style(&args.style, Colours::Kinds)?, &drawing::placement(&input));
+    let style = drawing::placed(
+        drawing::style(&args.style, Colours::Kinds)?,
+        &drawing::placement(&input),
+        input.unit,
+    );
     let request = request(args, &input)?;
     drawing::check_steps(request.options.length, request.options.step)?;
     check_seeds(args, &input)?;

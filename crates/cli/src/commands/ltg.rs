@@ -233,7 +233,15 @@ fn preview(args: &LtgArgs, look: &Look<'_>, identity: &Identity, sums: &SketchSu
 /// What pictures of the gradient show beside it.
 fn look<'a>(input: &'a MediumInput, style: &Style, overlaid: &'a Overlaid) -> Look<'a> {
     let (title, walls, masked) = (input.title(), input.surfaces(), input.masked());
-    Look { title, walls, masked, style: style.clone(), tensors: input.tensors(), overlaid }
+    Look {
+        title,
+        walls,
+        masked,
+        style: style.clone(),
+        unit: input.unit(),
+        tensors: input.tensors(),
+        overlaid,
+    }
 }
 
 /// Names the option behind a refusal.

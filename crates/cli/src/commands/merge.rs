@@ -55,7 +55,8 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     let title = scene.as_ref().map_or(input, |scene| &scene.title);
     // Parts do not say which cells have no tensor.
     let overlaid = Overlaid::default();
-    let look = Look { title, walls, masked: Vec::new(), style, tensors: None, overlaid: &overlaid };
+    let look =
+        Look { title, walls, masked: Vec::new(), style, unit: None, tensors: None, overlaid: &overlaid };
     volume::write(&args.outputs, &gradient, &look, &identity)?;
     if args.json {
         print_json(&summary)?

@@ -48,7 +48,7 @@ pub(crate) fn propagate(args: &PropagateArgs) -> Result<u8, CliError> {
         input.check_apart(&job.outputs)?;
         job.check_folders(&input)?;
     }
-    let style = drawing::placed(style, &input.placement());
+    let style = drawing::placed(style, &input.placement(), input.unit());
     if let Some(receiver) = &args.towards {
         return importance::importance(args, &input, receiver, (&style, &overlaid), start);
     }

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &RidgesArgs) -> Result<u8, CliError> {
     let image = ScalarImage::of(&image, args.array.as_deref()).map_err(|e| fault(e.to_string()))?;
     let image = if args.mean { image.mean() } else { image };
     let style = drawing::style(&args.style, Colours::Values)?;
-    let style = image.placement().map_or(style.clone(), |place| drawing::placed(style, &place));
+    let style = image.placement().map_or(style.clone(), |place| drawing::placed(style, &place, None));
     if let Some(output) = args.outputs.iter().find(|o| drawing::is_picture(o))
         && image.layers() > 1
         && args.layer.is_none()

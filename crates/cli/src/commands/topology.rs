@@ -13,7 +13,11 @@ pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vtp", "png", "svg", "pdf"])?;
     let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
     let following = args.of.following(&input)?;
-    let style = drawing::placed(drawing::style(&args.style, Colours::Kinds)?, &drawing::placement(&input));
+    let style = drawing::placed(
+        drawing::style(&args.style, Colours::Kinds)?,
+        &drawing::placement(&input),
+        input.unit,
+    );
     let axes = following.axes;
     let length = args.length.unwrap_or(4.0 * following.longer_side(input.field.grid()));
     let options = LineOptions { step: args.step, length, ..LineOptions::default() };

@@ -66,6 +66,8 @@ pub(super) struct Look<'a> {
     pub(super) masked: Vec<Cell>,
     /// What is chosen otherwise.
     pub(super) style: Style,
+    /// Unit of the coordinates, where the file states it.
+    pub(super) unit: Option<&'static str>,
     /// The tensors, unless it is a scene.
     pub(super) tensors: Option<&'a Field<Tensor2>>,
     /// What is drawn over them.
@@ -125,7 +127,7 @@ fn picture(volume: &LtgVolume, look: &Look<'_>, identity: &Identity) -> Result<S
         walls: look.walls.cloned(),
         cell: placement.cell(),
         masked: look.masked.clone(),
-        style: drawing::placed(look.style.clone(), &placement),
+        style: drawing::placed(look.style.clone(), &placement, look.unit),
         ..HeatOptions::default()
     };
     Ok(gradient::picture(&field, scalar, options))

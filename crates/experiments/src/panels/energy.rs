@@ -1,12 +1,14 @@
 //! The energy of every cell in colours.
 
-use crate::form::{Placed, Positive, StyleSource};
+use crate::form::{Chosen, Placed, Positive, StyleSource};
 use crate::names::Names;
 use crate::numerics::paths::Paths;
+use crate::panels::additions::{PlannedAdditions, Shown};
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_core::Cell;
 use tigereye_render::{Colours, HeatOptions, Overlay, Rgba, heat_map};
+use tigereye_views::added::{Added, Additions, Scalars};
 use tigereye_views::light;
 
 /// The energy of every cell in colours.
@@ -26,6 +28,9 @@ pub struct Energy {
     way_to: Option<Placed<(usize, usize)>>,
     /// Heading of the panel.
     title: String,
+    /// What is drawn over it, as `--overlay` of commands.
+    #[serde(default)]
+    overlays: Option<Placed<Vec<Chosen<Added>>>>,
     /// How it looks.
     #[serde(default)]
     style: Option<Placed<StyleSource>>,
@@ -47,31 +52,36 @@ impl PanelKind for Energy {
             None => None,
         };
         let decades = self.decades.map(Positive::get);
-        let coordinates = names.coordinates(frame.light.0);
+        let of = names.field_of(frame.light.0);
+        let added = PlannedAdditions::resolve(&self.overlays, of, Shown::Scalar, names)?;
+        let place = names.place(frame.light.0);
         let panel = PlannedPanel::new(&self.title, move |drawing| {
             let run = &drawing.results[frame.light];
-            let overlays = match to {
-                Some(to) => overlays(&Paths::of(run, to)?),
-                None => Vec::new(),
-            };
+            let energy = drawing.results.frame(frame)?.energy();
+            let scalars = Scalars { values: &energy, samples: 1 };
+            let Additions { mut overlays, glyphs } = added.over(drawing.results, Some(scalars))?;
+            if let Some(to) = to {
+                overlays.extend(ways(&Paths::of(run, to)?));
+            }
             let options = HeatOptions {
                 title: drawing.title.clone(),
                 sources: run.sources.clone(),
                 walls: run.surfaces.clone(),
                 overlays,
+                glyphs,
                 cell_px: drawing.cell_px(run.last.grid()),
                 masked: run.masked.clone(),
                 style: drawing.style(),
                 ..light::options(decades)
             };
-            Ok(heat_map(&drawing.results.frame(frame)?.energy(), &options))
+            Ok(heat_map(&energy, &options))
         });
-        Some(panel.placed(coordinates))
+        Some(panel.placed(place))
     }
 }
 
 /// The shortest path, and the brightest one over it.
-fn overlays(paths: &Paths) -> Vec<Overlay> {
+fn ways(paths: &Paths) -> Vec<Overlay> {
     let line = |path: &[Cell], label: &str, colour, width_px| Overlay {
         label: label.to_owned(),
         points: path.iter().map(|c| c.centre()).collect(),

@@ -40,7 +40,7 @@ impl PanelKind for Glyphs {
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let field = names.field(&self.field)?;
         let Chosen(colour) = self.colour;
-        let coordinates = names.named_field(field).coordinates();
+        let place = names.named_field(field).place();
         let panel = PlannedPanel::new(&self.title, move |drawing| {
             let named = drawing.results.field(field);
             let (field, cell) = (&named.field, named.cell);
@@ -52,7 +52,7 @@ impl PanelKind for Glyphs {
                 GlyphOptions { title, scale, colour, cell_px, cell, style, ..GlyphOptions::default() };
             Ok(glyphs(field, &options))
         });
-        Some(panel.placed(coordinates))
+        Some(panel.placed(place))
     }
 }
 

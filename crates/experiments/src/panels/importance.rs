@@ -1,11 +1,13 @@
 //! Where the light at a receiver comes from, in colours.
 
-use crate::form::{Placed, Positive, StyleSource};
+use crate::form::{Chosen, Placed, Positive, StyleSource};
 use crate::names::Names;
+use crate::panels::additions::{PlannedAdditions, Shown};
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_core::math;
 use tigereye_render::{Colours, HeatOptions, heat_map};
+use tigereye_views::added::{Added, Additions, Scalars};
 use tigereye_views::light;
 
 /// Mean importance over direction of every cell in colours; the receiver is marked.
@@ -19,6 +21,9 @@ pub struct Importance {
     decades: Option<Positive>,
     /// Heading of the panel.
     title: String,
+    /// What is drawn over it, as `--overlay` of commands.
+    #[serde(default)]
+    overlays: Option<Placed<Vec<Chosen<Added>>>>,
     /// How it looks.
     #[serde(default)]
     style: Option<Placed<StyleSource>>,
@@ -36,10 +41,17 @@ impl PanelKind for Importance {
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let id = names.importance(&self.run)?;
         let decades = self.decades.map(Positive::get);
-        let coordinates = names.coordinates(id.0);
+        let of = names.field_of(id.0);
+        let added = PlannedAdditions::resolve(&self.overlays, of, Shown::Scalar, names)?;
+        let place = names.place(id.0);
         let panel = PlannedPanel::new(&self.title, move |drawing| {
             let outcome = &drawing.results[id];
+            let mean = outcome.importance.energy().map(|e| e / math::TAU);
+            let scalars = Scalars { values: &mean, samples: 1 };
+            let Additions { overlays, glyphs } = added.over(drawing.results, Some(scalars))?;
             let options = HeatOptions {
+                overlays,
+                glyphs,
                 title: drawing.title.clone(),
                 sources: vec![outcome.receiver],
                 walls: outcome.surfaces.clone(),
@@ -48,8 +60,8 @@ impl PanelKind for Importance {
                 style: drawing.style(),
                 ..light::importance_options(decades)
             };
-            Ok(heat_map(&outcome.importance.energy().map(|e| e / math::TAU), &options))
+            Ok(heat_map(&mean, &options))
         });
-        Some(panel.placed(coordinates))
+        Some(panel.placed(place))
     }
 }

@@ -2,11 +2,13 @@
 
 use crate::form::{Placed, StyleSource};
 use crate::names::Names;
+use crate::panels::additions::PlannedAdditions;
 use crate::results::Results;
 use crate::runs::gradient::Outcome;
 use crate::unavailable::Unavailable;
 use tigereye_core::{CellShape, Field, Grid};
-use tigereye_render::{AxisNumbers, Colours, Coordinates, HeatOptions, Overlay, Scene, Style};
+use tigereye_render::{AxisNumbers, Colours, HeatOptions, Overlay, Scene, Style};
+use tigereye_views::added::Scalars;
 use tigereye_views::gradient;
 
 /// A picture of the results, every name looked up; or why it is not to be had.
@@ -34,8 +36,8 @@ pub(crate) trait PanelKind {
     fn planned(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let style = checked_style(self.style(), Some(self.colours()), names);
         let panel = self.resolve(names)?;
-        let coordinates = panel.style.coordinates.clone();
-        Some(PlannedPanel { style: style?.or(Style { coordinates, ..Style::default() }), ..panel })
+        let place = panel.style.clone();
+        Some(PlannedPanel { style: style?.or(place), ..panel })
     }
 }
 
@@ -73,7 +75,7 @@ pub(crate) struct PlannedPanel {
     pub(crate) curves: Option<Curves>,
     /// Whether it shows seconds, which are others in every run.
     pub(crate) is_timed: bool,
-    /// How it is to look.
+    /// How it is to look, and where what it shows lies.
     pub(crate) style: Style,
 }
 
@@ -87,10 +89,9 @@ impl PlannedPanel {
         Self { title: title.to_owned(), picture: Box::new(picture), curves: None, is_timed: false, style }
     }
 
-    /// The panel with the coordinates of what it shows.
-    pub(crate) fn placed(mut self, coordinates: Option<[Coordinates; 2]>) -> Self {
-        self.style.coordinates = coordinates;
-        self
+    /// The panel where what it shows lies.
+    pub(crate) fn placed(self, place: Style) -> Self {
+        Self { style: place, ..self }
     }
 }
 
@@ -146,17 +147,23 @@ impl<'a> Drawing<'a> {
         scalar: &Field<f64>,
         of: &Outcome,
         which: gradient::Scalar,
-        overlays: Vec<Overlay>,
-    ) -> Scene {
+        (mut overlays, added): (Vec<Overlay>, &PlannedAdditions),
+    ) -> Result<Scene, Unavailable> {
+        let mut shown = gradient::where_result(scalar, of.surfaces.as_ref());
+        of.masked.iter().for_each(|cell| shown.values_mut()[scalar.grid().index(*cell)] = f64::NAN);
+        let scalars = Scalars { values: &shown, samples: 1 };
+        let additions = added.over(self.results, Some(scalars))?;
+        overlays.extend(additions.overlays);
         let options = HeatOptions {
             title: self.title.clone(),
             walls: of.surfaces.clone(),
             overlays,
+            glyphs: additions.glyphs,
             cell_px: self.cell_px(scalar.grid()),
             masked: of.masked.clone(),
             style: self.style(),
             ..HeatOptions::default()
         };
-        gradient::picture(scalar, which, options)
+        Ok(gradient::picture(scalar, which, options))
     }
 }

@@ -45,7 +45,7 @@ impl PanelKind for Lines {
         let named = names.named_field(field);
         let following = Following { axes: self.axes.ordered(self.major, &named.field), cell: named.cell };
         let families = self.family.map_or(vec![Family::Major, Family::Minor], |f| vec![f.0]);
-        let coordinates = named.coordinates();
+        let place = named.place();
         let panel = PlannedPanel::new(&self.title, move |drawing| {
             let field = &drawing.results.field(field).field;
             let longest = following.longer_side(field.grid());
@@ -64,6 +64,6 @@ impl PanelKind for Lines {
             let options = PlainOptions { title, overlays, cell_px, style, ..PlainOptions::default() };
             Ok(found.picture(field, options))
         });
-        Some(panel.placed(coordinates))
+        Some(panel.placed(place))
     }
 }

@@ -1,11 +1,13 @@
 //! A scalar over the cells.
 
-use crate::form::{Placed, StyleSource};
+use crate::form::{Chosen, Placed, StyleSource};
 use crate::names::Names;
+use crate::panels::additions::{PlannedAdditions, Shown};
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use crate::scalars::{Map as Scalar, MapSource, Ridges};
 use serde::Deserialize;
 use tigereye_render::{Colours, HeatOptions, Rgba};
+use tigereye_views::added::{Added, Additions, Scalars};
 use tigereye_views::{ftle, gradient};
 use tigereye_views::ridges::line_overlay;
 
@@ -20,6 +22,9 @@ pub struct Map {
     ridges: bool,
     /// Heading of the panel.
     title: String,
+    /// What is drawn over it, as `--overlay` of commands.
+    #[serde(default)]
+    overlays: Option<Placed<Vec<Chosen<Added>>>>,
     /// How it looks.
     #[serde(default)]
     style: Option<Placed<StyleSource>>,
@@ -36,7 +41,9 @@ impl PanelKind for Map {
 
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let (scalar, ridges) = (self.map.resolve(names)?, self.ridges);
-        let coordinates = names.coordinates(scalar.run());
+        let of = names.field_of(scalar.run());
+        let added = PlannedAdditions::resolve(&self.overlays, of, Shown::Scalar, names)?;
+        let place = names.place(scalar.run());
         let panel = PlannedPanel::new(&self.title, move |drawing| {
             let results = drawing.results;
             let overlays = if ridges {
@@ -52,7 +59,11 @@ impl PanelKind for Map {
                     let cell_px = drawing.cell_px_of(outcome.at_cells().grid(), following.cell);
                     let title = drawing.title.clone();
                     let style = drawing.style();
-                    let options = HeatOptions { title, overlays, cell_px, style, ..HeatOptions::default() };
+                    let scalars = Scalars { values: &outcome.found.larger, samples: outcome.found.samples };
+                    let Additions { overlays: more, glyphs } = added.over(results, Some(scalars))?;
+                    let overlays = [overlays, more].concat();
+                    let options =
+                        HeatOptions { title, overlays, glyphs, cell_px, style, ..HeatOptions::default() };
                     let field = &results.field(outcome.field).field;
                     return Ok(ftle::picture(&outcome.found, field, following.axes, options));
                 }
@@ -60,8 +71,8 @@ impl PanelKind for Map {
                 Scalar::Mean(id) => (id, gradient::Scalar::Mean),
                 Scalar::Maximum(id) => (id, gradient::Scalar::Largest),
             };
-            Ok(drawing.gradient_map(&scalar.scalar(results)?, &results[id], which, overlays))
+            drawing.gradient_map(&scalar.scalar(results)?, &results[id], which, (overlays, &added))
         });
-        Some(panel.placed(coordinates))
+        Some(panel.placed(place))
     }
 }

@@ -3,6 +3,7 @@
 //!
 //! A panel is added by its file, which implements `PanelKind`, and its line in `panels!`.
 
+mod additions;
 mod kind;
 pub mod series;
 

@@ -30,7 +30,7 @@ impl PanelKind for Orientation {
 
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let field = names.field(&self.field)?;
-        let coordinates = names.named_field(field).coordinates();
+        let place = names.named_field(field).place();
         let panel = PlannedPanel::new(&self.title, move |drawing| {
             let named = drawing.results.field(field);
             let cell_px = drawing.cell_px_of(named.field.grid(), named.cell);
@@ -40,6 +40,6 @@ impl PanelKind for Orientation {
                 OrientationOptions { title, cell_px, cell, style, ..OrientationOptions::default() };
             Ok(orientation_map(&named.field, &options))
         });
-        Some(panel.placed(coordinates))
+        Some(panel.placed(place))
     }
 }

@@ -1,10 +1,12 @@
 //! Transmission and light of every cell as polar diagrams.
 
-use crate::form::{Placed, Positive, StyleSource};
+use crate::form::{Chosen, Placed, Positive, StyleSource};
 use crate::names::Names;
+use crate::panels::additions::{PlannedAdditions, Shown};
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_render::{IntensityScale, PolarOptions, TransmissionScale, polar_overlay};
+use tigereye_views::added::{Added, Additions, Scalars};
 
 /// Transmission (red) and light (blue) of every cell.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -23,6 +25,9 @@ pub struct Overlay {
     transmission: bool,
     /// Heading of the panel.
     title: String,
+    /// What is drawn over it, as `--overlay` of commands.
+    #[serde(default)]
+    overlays: Option<Placed<Vec<Chosen<Added>>>>,
     /// How it looks.
     #[serde(default)]
     style: Option<Placed<StyleSource>>,
@@ -63,10 +68,17 @@ impl PanelKind for Overlay {
             Scale::Decades(d) => IntensityScale::Logarithmic { decades: d.get() },
         };
         let shows_transmission = self.transmission;
-        let coordinates = names.coordinates(frame.light.0);
+        let of = names.field_of(frame.light.0);
+        let added = PlannedAdditions::resolve(&self.overlays, of, Shown::Diagrams, names)?;
+        let place = names.place(frame.light.0);
         let panel = PlannedPanel::new(&self.title, move |drawing| {
             let run = &drawing.results[frame.light];
+            let light = drawing.results.frame(frame)?;
+            let energy = light.energy();
+            let scalars = Scalars { values: &energy, samples: 1 };
+            let Additions { overlays, .. } = added.over(drawing.results, Some(scalars))?;
             let options = PolarOptions {
+                overlays,
                 title: drawing.title.clone(),
                 intensity,
                 transmission: TransmissionScale::Rate,
@@ -77,9 +89,8 @@ impl PanelKind for Overlay {
                 style: drawing.style(),
                 ..PolarOptions::default()
             };
-            let light = drawing.results.frame(frame)?;
             Ok(polar_overlay(shows_transmission.then_some(&run.transmission), Some(light), &options))
         });
-        Some(panel.placed(coordinates))
+        Some(panel.placed(place))
     }
 }

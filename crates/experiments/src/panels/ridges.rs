@@ -32,7 +32,7 @@ impl PanelKind for Ridges {
         let field = names.field(&self.field)?;
         let resolved = self.sources.iter().map(|(label, source)| Some((label.clone(), source.resolve(names)?)));
         let sources = resolved.collect::<Option<Vec<_>>>()?;
-        let coordinates = names.named_field(field).coordinates();
+        let place = names.named_field(field).place();
         let panel = PlannedPanel::new(&self.title, move |drawing| {
             let named = drawing.results.field(field);
             let overlays = sources.iter().zip(SERIES_PALETTE).map(|((label, source), colour)| {
@@ -49,6 +49,6 @@ impl PanelKind for Ridges {
             };
             Ok(plain_map(named.field.grid(), &options))
         });
-        Some(panel.placed(coordinates))
+        Some(panel.placed(place))
     }
 }

@@ -2,10 +2,12 @@
 
 use crate::form::{AxesChoice, Chosen, Placed, StyleSource};
 use crate::names::Names;
+use crate::panels::additions::{PlannedAdditions, Shown};
 use crate::panels::kind::{PANEL_PX, PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_lines::{ConvolutionOptions, Family, Following, Major};
 use tigereye_render::{Colours, TextureOptions};
+use tigereye_views::added::{Added, Additions};
 use tigereye_views::lic::{self, TextureRequest};
 
 /// Noise smeared along an axis (line integral convolution).
@@ -28,6 +30,9 @@ pub struct Texture {
     hyper: bool,
     /// Heading of the panel.
     title: String,
+    /// What is drawn over it, as `--overlay` of commands.
+    #[serde(default)]
+    overlays: Option<Placed<Vec<Chosen<Added>>>>,
     /// How it looks.
     #[serde(default)]
     style: Option<Placed<StyleSource>>,
@@ -47,7 +52,9 @@ impl PanelKind for Texture {
         let named = names.named_field(field);
         let following = Following { axes: self.axes.ordered(self.major, &named.field), cell: named.cell };
         let (family, hyper) = (self.family.0, self.hyper);
-        let coordinates = named.coordinates();
+        let of = Some(field);
+        let added = PlannedAdditions::resolve(&self.overlays, of, Shown::Texture, names)?;
+        let place = named.place();
         let panel = PlannedPanel::new(&self.title, move |drawing| {
             let field = &drawing.results.field(field).field;
             let longest = following.longer_side(field.grid()).ceil() as usize;
@@ -60,9 +67,11 @@ impl PanelKind for Texture {
             let found = lic::texture(field, &request)?;
             let (title, cell_px) = (drawing.title.clone(), Some(samples * pixels));
             let style = drawing.style();
-            let options = TextureOptions { title, cell_px, style, ..TextureOptions::default() };
+            let Additions { overlays, glyphs } = added.over(drawing.results, None)?;
+            let options =
+                TextureOptions { title, cell_px, style, overlays, glyphs, ..TextureOptions::default() };
             Ok(lic::picture(&found, field, &request, hyper, options)?)
         });
-        Some(panel.placed(coordinates))
+        Some(panel.placed(place))
     }
 }

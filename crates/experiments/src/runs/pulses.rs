@@ -368,6 +368,7 @@ mod tests {
             field: field.clone(),
             cell: CellShape::SQUARE,
             geometry: tigereye_io::volume::PlaneGeometry::UNPLACED,
+            unit: None,
         };
         let media = Media { fields: vec![named], scenes: Vec::new() };
         Plan { setup, pulses: pulses.to_vec() }.run("run", &media, 0, &no_file).expect("pulses").records

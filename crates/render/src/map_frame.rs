@@ -25,6 +25,8 @@ const NARROW_SIDE_HEIGHT_PX: f64 = 80.0;
 const HATCH_PX: f64 = 4.0;
 /// Least distance of the marks of an axis.
 const TICKS_APART_PX: f64 = 40.0;
+/// How often a map is laid out to fit a width.
+const FITTING_ROUNDS: usize = 8;
 /// Narrower maps cannot be read; a page that has no room for one becomes wider.
 const LEAST_MAP_PX: f64 = 40.0;
 
@@ -112,12 +114,20 @@ impl MapFrame {
         side_px: &dyn Fn(f64) -> f64,
     ) -> Self {
         let mut frame = Self::laid_out(grid, style, cell, side_px);
-        // The numbers beside the map depend on the height of it, which depends on the room that they leave.
-        for _ in 0..4 {
-            let Some(width_px) = style.width_px() else { break };
-            let around = frame.scene.width_px - frame.width();
-            let factor = (width_px - around).max(LEAST_MAP_PX) / frame.width();
-            frame = Self::laid_out(grid, style, frame.cell.map(|side| side * factor), side_px);
+        if let Some(width_px) = style.width_px() {
+            // The numbers beside the map depend on its size, which depends on the room that they leave. Where that goes
+            // back and forth, the smaller map has room.
+            let mut smallest = f64::INFINITY;
+            for round in 0..FITTING_ROUNDS {
+                let around = frame.scene.width_px - frame.width();
+                let wanted = (width_px - around).max(LEAST_MAP_PX) / grid.width() as f64;
+                if round >= FITTING_ROUNDS / 2 {
+                    smallest = smallest.min(wanted);
+                }
+                let factor = wanted.min(smallest) / frame.cell[0];
+                frame = Self::laid_out(grid, style, frame.cell.map(|side| side * factor), side_px);
+            }
+            frame.scene.width_px = frame.scene.width_px.max(width_px);
         }
         let least = if style.width.is_some() { 0.0 } else { LEAST_WIDTH_PX + frame.margin };
         frame.scene.width_px = frame.scene.width_px.max(least);
@@ -217,8 +227,8 @@ impl MapFrame {
         path
     }
 
-    /// Hatches `cells` with a line in each, or in each square of so many that a line can be seen. Whether there was room
-    /// for one.
+    /// Hatches `cells` with a line in each, or in each square of so many that a line can be seen. Whether there was
+    /// room for one.
     pub(crate) fn hatch(&mut self, cells: &[Cell]) -> bool {
         let block = (HATCH_PX / self.smaller_side()).ceil().max(1.0) as usize;
         // Blocks, row by row, with the number of their cells.

@@ -1,6 +1,7 @@
 //! How a picture looks, whatever it shows: heading, colours, range, axes and size.
 
 use crate::colour::ColourMap;
+use crate::error::RenderError;
 use crate::legend::SMALL_PX;
 use crate::scale::HeatScale;
 use crate::scene::Scene;
@@ -99,6 +100,8 @@ pub struct Coordinates {
     pub step: f64,
 }
 
+/// Relative difference of two widths that counts as rounding.
+const ROUNDING: f64 = 1e-9;
 /// Points per inch.
 const POINTS_AN_INCH: f64 = 72.0;
 /// Millimetres per inch.
@@ -145,6 +148,21 @@ impl Style {
         ]
         .into_iter()
         .find_map(|(is_useless, setting, expected)| is_useless.then_some((setting, expected)))
+    }
+
+    /// Refuses a picture that had to become wider than asked for.
+    ///
+    /// # Errors
+    /// [`RenderError::Narrow`].
+    pub fn check_width(&self, scene: &Scene) -> Result<(), RenderError> {
+        let mm = |pt: f64| pt * MM_AN_INCH / POINTS_AN_INCH;
+        let least_mm = mm(scene.width_px * scene.pt_per_px);
+        match self.width_pt().map(mm) {
+            Some(asked_mm) if least_mm > asked_mm * (1.0 + ROUNDING) => {
+                Err(RenderError::Narrow { asked_mm, least_mm })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// A finished picture in the size asked for, together with everything in it.

@@ -104,6 +104,7 @@ pub(super) fn is_picture(output: &Path) -> bool {
 
 /// A picture in the format of the output's ending.
 pub(super) fn encoded(scene: &Scene, output: &Path, style: &Style) -> Result<Vec<u8>, CliError> {
+    style.check_width(scene).map_err(|e| CliError::input("--width", e))?;
     let bytes = match files::extension(output).as_str() {
         "svg" => scene.to_svg().map(String::into_bytes),
         "pdf" => scene.to_pdf(),

@@ -116,6 +116,7 @@ fn settings_without_use_are_refused() {
     refused(&["field", "show", "plate.vti", "--unit", "mm"], &["--unit", "no effect", "--width"]);
     refused(&with(&LIGHT, &["--range", "2:1"]), &["--range", "A below B"]);
     refused(&with(&LIGHT, &["--width", "85"]), &["--width", "20mm to 2000mm"]);
+    refused(&with(&LIGHT, &["--width", "30mm"]), &["--width", "30.0 mm leaves no room"]);
     refused(&with(&LIGHT, &["--colour-map", "jet"]), &["jet", "viridis"]);
     refused(&["lic", "plate.vti", "--overlay", "ridges"], &["--overlay", "no scalar"]);
     refused(&["propagate", "plate.vti", "--light", "2,7", "--overlay", "glyphs"], &["--overlay", "energy"]);
@@ -131,8 +132,8 @@ fn style_files_serve_every_picture() {
     place.succeeds(&with(&["lines", "plate.vti", "-o", "l.svg"], &style));
     assert!(text(&place, "l.svg").contains(r#"width="60.000mm""#));
     // An option goes before the file.
-    place.succeeds(&with(&LIGHT, &["--style", "paper.ron", "--width", "50mm", "-o", "a.svg"]));
-    assert!(text(&place, "a.svg").contains(r#"width="50.000mm""#));
+    place.succeeds(&with(&LIGHT, &["--style", "paper.ron", "--width", "70mm", "-o", "a.svg"]));
+    assert!(text(&place, "a.svg").contains(r#"width="70.000mm""#));
     place.write("wrong.ron", "(\n    format: 1,\n    style: (\n        colour: Vik,\n    ),\n)");
     place.refuses(&with(&LIGHT, &["--style", "wrong.ron", "-o", "b.png"]), &["wrong.ron:4:9", "`colour`"]);
     place.refuses(&with(&LIGHT, &["--style", "none.ron", "-o", "b.png"]), &["none.ron"]);

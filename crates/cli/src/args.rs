@@ -5,6 +5,7 @@ pub(crate) mod experiments;
 pub(crate) mod fields;
 pub(crate) mod light;
 pub(crate) mod reading;
+pub(crate) mod style;
 pub(crate) mod values;
 
 use clap::{Parser, Subcommand};

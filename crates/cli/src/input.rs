@@ -83,6 +83,8 @@ pub(crate) struct Input {
     pub(crate) oblong: Option<String>,
     /// Where its cells lie.
     pub(crate) geometry: PlaneGeometry,
+    /// Unit of the coordinates, where the file states it.
+    pub(crate) unit: Option<&'static str>,
     /// What a field file calls it.
     pub(crate) title: Option<String>,
     /// Names of the files it was read from.
@@ -126,7 +128,7 @@ impl Input {
         blake3: String,
     ) -> Self {
         let oblong = plane.oblong();
-        let PlaneField { field, story, geometry, .. } = plane;
+        let PlaneField { field, story, geometry, unit, .. } = plane;
         Self {
             name,
             field,
@@ -134,6 +136,7 @@ impl Input {
             remarks,
             oblong,
             geometry,
+            unit,
             title: None,
             files: Vec::new(),
             kind,

@@ -14,6 +14,7 @@ use tigereye_experiments::scene::{PreparedScene, is_scene_file, light_fault, pre
 use tigereye_input::Reading;
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_transport::Light;
+use tigereye_views::Placement;
 use tigereye_views::total_anisotropy::ThinCells;
 
 /// The scene of a file, and the names of all files it was read from.
@@ -152,6 +153,29 @@ impl MediumInput {
         match self {
             Self::Tensors(input) => &input.geometry,
             Self::Scene(..) => &PlaneGeometry::UNPLACED,
+        }
+    }
+
+    /// The tensors, unless it is a scene.
+    pub(crate) fn tensors(&self) -> Option<&Field<Tensor2>> {
+        self.medium().tensors()
+    }
+
+    /// Cells without a tensor.
+    pub(crate) fn masked(&self) -> Vec<Cell> {
+        self.medium().masked()
+    }
+
+    /// Where its cells lie, for what is drawn.
+    pub(crate) fn placement(&self) -> Placement {
+        Placement::new(*self.geometry(), self.grid())
+    }
+
+    /// Unit of the coordinates, where the file states it.
+    pub(crate) const fn unit(&self) -> Option<&'static str> {
+        match self {
+            Self::Tensors(input) => input.unit,
+            Self::Scene(..) => None,
         }
     }
 

@@ -16,8 +16,8 @@ struct Instructions {
 }
 
 impl Instructions {
-    /// Commands are the lines of ```sh blocks that start with `tigereye `; files the ```ron blocks whose last line of
-    /// text before names a `NAME.ron`.
+    /// Commands are the lines of ```sh blocks that start with `tigereye `; files the ```ron and ```text blocks whose
+    /// last line of text before names a `NAME.ron` or `NAME.txt`.
     fn of(markdown: &str) -> Self {
         let mut found = Self::default();
         let (mut text_before, mut lines) = ("", markdown.lines());
@@ -36,8 +36,8 @@ impl Instructions {
                 .collect();
             match language.trim() {
                 "sh" => found.commands.extend(joined(&block).iter().filter_map(|l| command(l))),
-                "ron" => {
-                    if let Some(name) = ron_name(text_before) {
+                language @ ("ron" | "text") => {
+                    if let Some(name) = file_name(text_before, language) {
                         found.files.push((name, block.join("\n") + "\n"));
                     }
                 }
@@ -79,9 +79,10 @@ fn command(line: &str) -> Option<(Vec<String>, i32)> {
     Some((words, code))
 }
 
-/// `NAME.ron` in backticks.
-fn ron_name(line: &str) -> Option<String> {
-    let name = line.split('`').skip(1).step_by(2).find(|code| code.ends_with(".ron"))?;
+/// `NAME.ron` in backticks, or `NAME.txt` before a text.
+fn file_name(line: &str, language: &str) -> Option<String> {
+    let ending = if language == "ron" { ".ron" } else { ".txt" };
+    let name = line.split('`').skip(1).step_by(2).find(|code| code.ends_with(ending))?;
     Some(name.to_owned())
 }
 
@@ -162,9 +163,13 @@ fn commands_of_every_page_succeed_in_their_order() {
     });
     let problems: Vec<&String> = followed.iter().filter_map(|(_, result)| result.as_ref().err()).collect();
     assert!(problems.is_empty(), "{problems:#?}");
-    for page in
-        ["README.md", "docs/guide/tutorial.md", "docs/guide/classical-methods.md", "docs/guide/scenes.md"]
-    {
+    for page in [
+        "README.md",
+        "docs/guide/tutorial.md",
+        "docs/guide/classical-methods.md",
+        "docs/guide/pictures.md",
+        "docs/guide/scenes.md",
+    ] {
         let commands = followed.iter().find(|(name, _)| name == page).and_then(|(_, r)| r.as_ref().ok());
         assert!(commands.is_some_and(|n| *n > 0), "{page} has no line `tigereye ...` in a ```sh block");
     }

@@ -1,6 +1,6 @@
 //! What may stand in an experiment file.
 
-use crate::form::{FieldSource, Finite, Named, NonNegative, Placed, Positive, Scope};
+use crate::form::{FieldSource, Finite, Named, NonNegative, Placed, Positive, Scope, StyleSource};
 use crate::panels::Panel;
 use crate::quantities::Quantity;
 use crate::runs::Run;
@@ -79,6 +79,9 @@ pub struct Figure {
     /// Panels per row.
     #[serde(default = "three")]
     pub(crate) columns: usize,
+    /// How its panels look, where they do not say it themselves.
+    #[serde(default)]
+    pub(crate) style: Option<Placed<StyleSource>>,
     /// The steps of a light run, animated beside the picture.
     #[serde(default)]
     pub(crate) animation: Option<Animation>,

@@ -6,7 +6,7 @@ use crate::plan::{PlannedAnimation, PlannedFigure};
 use crate::results::Results;
 use crate::unavailable::Unavailable;
 use std::fmt::Write as _;
-use tigereye_render::{PageRect, RenderError, Scene, placed_multiples};
+use tigereye_render::{HeatOptions, PageRect, RenderError, Scene, Style, placed_multiples};
 use tigereye_report::{DataFile, Figure, PanelPlace};
 use tigereye_views::light;
 
@@ -24,7 +24,6 @@ pub(crate) fn draw(
     slug: &str,
     results: &Results<'_>,
 ) -> Result<Drawn, ExperimentError> {
-    let alone = figure.panels.len() == 1;
     let failed =
         |source| ExperimentError::Figure { slug: slug.to_owned(), figure: figure.name.clone(), source };
     let mut panels = Vec::new();
@@ -36,7 +35,7 @@ pub(crate) fn draw(
             panel: panel.title.clone(),
             source,
         };
-        panels.push((panel.title.clone(), scene(panel, alone, results).map_err(undrawn)?));
+        panels.push((panel.title.clone(), scene(panel, figure, results).map_err(undrawn)?));
         if let Some(curves) = &panel.curves {
             let name = match tables.len() {
                 0 => figure.name.clone(),
@@ -47,7 +46,7 @@ pub(crate) fn draw(
     }
     let alt: Vec<String> = panels.iter().map(|(t, s)| format!("{t}. {}", s.description)).collect();
     let mut frames = 0;
-    if let Some(encoded) = figure.animation.as_ref().and_then(|a| animation(a, results)) {
+    if let Some(encoded) = figure.animation.as_ref().and_then(|a| animation(a, &figure.style, results)) {
         let (bytes, count) = encoded.map_err(failed)?;
         tables.push(DataFile { name: format!("{}.apng", figure.name), bytes });
         frames = count;
@@ -79,27 +78,32 @@ pub(crate) fn draw(
 }
 
 /// A panel; among others its heading stands above it.
-fn scene(panel: &PlannedPanel, alone: bool, results: &Results<'_>) -> Result<Scene, Unavailable> {
+fn scene(panel: &PlannedPanel, figure: &PlannedFigure, results: &Results<'_>) -> Result<Scene, Unavailable> {
+    let alone = figure.panels.len() == 1;
     let title = if alone { panel.title.clone() } else { String::new() };
-    (panel.picture)(&Drawing { results, alone, title, styles: &panel.styles })
+    let style = panel.style.clone().or(figure.style.clone());
+    (panel.picture)(&Drawing::new(results, (alone, title), style, &panel.markings))
 }
 
 /// Frames of a run of light and their number; `None` where nothing was kept.
 fn animation(
     animation: &PlannedAnimation,
+    style: &Style,
     results: &Results<'_>,
 ) -> Option<Result<(Vec<u8>, usize), RenderError>> {
     let run = &results[animation.light];
     let reel = run.reel.as_ref()?;
     let grid = run.last.grid();
-    let request = light::Request {
+    let options = HeatOptions {
         sources: run.sources.clone(),
         walls: run.surfaces.clone(),
         cell_px: Some((PANEL_PX / grid.width().max(grid.height())).max(2)),
-        ..light::Request::default()
+        masked: run.masked.clone(),
+        style: style.clone(),
+        ..light::options(None)
     };
     let decades = animation.decades.unwrap_or(light::DECADES);
-    Some(reel.encoded(&request.into_options(), decades, animation.every))
+    Some(reel.encoded(&options, decades, animation.every))
 }
 
 /// The points of a chart as comma-separated values.

@@ -40,6 +40,7 @@ pub mod scalars;
 pub mod scene;
 pub mod sheet;
 pub mod sources;
+mod style;
 pub mod tables;
 mod unavailable;
 
@@ -54,4 +55,5 @@ pub use load::load;
 pub use medium::Medium;
 pub use plan::{Plan, plan, slug_of};
 pub use runs::RunError;
+pub use style::style_of_file;
 pub use unavailable::Unavailable;

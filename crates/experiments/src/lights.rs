@@ -8,7 +8,7 @@ use tigereye_fields::Expression;
 use tigereye_transport::{Light, TransportError, check_lights, emitter};
 
 /// The sample at an angle, which must be one.
-pub(crate) fn sample_of(degrees: f64, directions: Directions) -> Result<usize, String> {
+pub fn sample_of(degrees: f64, directions: Directions) -> Result<usize, String> {
     let t = directions.nearest(degrees);
     let off = (directions.angle_deg(t) - degrees).rem_euclid(360.0);
     if off.min(360.0 - off) < 1e-9 {

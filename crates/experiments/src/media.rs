@@ -4,6 +4,9 @@ use crate::ids::{FieldId, MediumId};
 use crate::medium::Medium;
 use crate::scene::PreparedScene;
 use tigereye_core::{CellShape, Field, Tensor2};
+use tigereye_io::volume::PlaneGeometry;
+use tigereye_render::Style;
+use tigereye_views::Placement;
 
 /// A field with its name.
 #[derive(Clone, Debug)]
@@ -14,6 +17,18 @@ pub(crate) struct NamedField {
     pub(crate) field: Field<Tensor2>,
     /// The shape of its cells.
     pub(crate) cell: CellShape,
+    /// Where they lie.
+    pub(crate) geometry: PlaneGeometry,
+    /// Unit of the coordinates, where the file states it.
+    pub(crate) unit: Option<&'static str>,
+}
+
+impl NamedField {
+    /// How pictures mark its axes, where its file has coordinates.
+    pub(crate) fn place(&self) -> Style {
+        let coordinates = Placement::new(self.geometry, self.field.grid()).coordinates();
+        Style { coordinates, unit: self.unit.map(str::to_owned), ..Style::default() }
+    }
 }
 
 /// All of them.

@@ -1,7 +1,7 @@
 //! What light runs through: tensors or a scene.
 
 use crate::scene::PreparedScene;
-use tigereye_core::{Directions, Field, Grid, ProfileRule, Tensor2, TransmissionField};
+use tigereye_core::{Cell, Directions, Field, Grid, ProfileRule, Tensor2, TransmissionField};
 use tigereye_input::provenance::hash_of_field;
 use tigereye_scenes::{Fault, SceneError};
 
@@ -40,6 +40,12 @@ impl<'a> Medium<'a> {
             Self::Tensors(_) => None,
             Self::Scene(scene) => Some(scene),
         }
+    }
+
+    /// Cells without a tensor, which pictures show in grey; the walls of a scene are drawn as such.
+    #[must_use]
+    pub fn masked(self) -> Vec<Cell> {
+        self.tensors().map_or_else(Vec::new, tigereye_views::masked)
     }
 
     /// What its cells do to light. A scene's crystals have a rule of their own.

@@ -13,6 +13,7 @@ use crate::runs::light::Kept;
 use std::collections::BTreeMap;
 use tigereye_core::{Cell, Directions, Grid};
 use tigereye_fields::Expression;
+use tigereye_render::Style;
 use tigereye_scenes::shortest_path;
 use tigereye_transport::StoppingRule;
 
@@ -224,6 +225,19 @@ impl<'a, 'f> Names<'a, 'f> {
     /// Cells of what a run goes through.
     pub(crate) fn grid(&self, run: RunId) -> Option<Grid> {
         self.medium_of(run).map(|id| self.media.medium(id).grid())
+    }
+
+    /// How pictures mark the axes of what a run goes through, where its file has coordinates.
+    pub(crate) fn place(&self, run: RunId) -> Style {
+        self.field_of(run).map_or_else(Style::default, |id| self.media.field(id).place())
+    }
+
+    /// The field that a run goes through; none where it is a scene.
+    pub(crate) fn field_of(&self, run: RunId) -> Option<FieldId> {
+        match self.medium_of(run)? {
+            MediumId::Field(id) => Some(id),
+            MediumId::Scene(_) => None,
+        }
     }
 
     /// A cell of a run.

@@ -8,13 +8,14 @@ use crate::host::Host;
 use crate::ids::LightId;
 use crate::media::{Media, NamedField};
 use crate::names::{KnownRun, Names};
-use crate::panels::{self, PlannedPanel};
+use crate::panels::{self, PlannedPanel, checked_style};
 use crate::quantities::Measure;
 use crate::runs::{RunPlan, RunResolver};
 use crate::scene::{self, PreparedScene, is_scene_file};
 use crate::sources::make_plane;
 use crate::tables::PlannedRow;
 use tigereye_core::CellShape;
+use tigereye_render::Style;
 use tigereye_report::{Column, Expected};
 
 /// An experiment, ready to run.
@@ -53,6 +54,8 @@ pub(crate) struct PlannedFigure {
     pub(crate) panels: Vec<PlannedPanel>,
     /// Panels per row.
     pub(crate) columns: usize,
+    /// What its panels leave open.
+    pub(crate) style: Style,
     pub(crate) animation: Option<PlannedAnimation>,
 }
 
@@ -189,8 +192,9 @@ pub fn slug_of(file: &str) -> String {
 fn fields(sources: &Named<FieldSource>, host: &dyn Host, faults: &mut Faults<'_>) -> Vec<NamedField> {
     let made = sources.iter().filter_map(|(name, source)| match make_plane(source, host) {
         Ok((plane, _)) => {
-            let cell = CellShape::of(plane.geometry.spacing());
-            Some(NamedField { name: name.to_string(), field: plane.field, cell })
+            let (geometry, cell) = (plane.geometry, CellShape::of(plane.geometry.spacing()));
+            let (field, unit) = (plane.field, plane.unit);
+            Some(NamedField { name: name.to_string(), field, cell, geometry, unit })
         }
         Err(fault) => {
             let place = fault.place.unwrap_or(name.place());
@@ -242,6 +246,8 @@ fn scene_of(path: &Placed<String>, host: &dyn Host, faults: &mut Faults<'_>) -> 
 }
 
 fn figure(figure: &Figure, names: &mut Names<'_, '_>) -> Option<PlannedFigure> {
+    let style =
+        names.item("figure", &figure.name, |names| checked_style(figure.style.as_ref(), None, names))?;
     let resolve =
         |panel: &crate::panels::Panel| names.item("figure", &figure.name, |names| panel.resolve(names));
     let panels: Vec<PlannedPanel> = figure.panels.iter().filter_map(resolve).collect();
@@ -257,6 +263,7 @@ fn figure(figure: &Figure, names: &mut Names<'_, '_>) -> Option<PlannedFigure> {
         caption,
         panels,
         columns: figure.columns,
+        style,
         animation,
     })
 }

@@ -19,7 +19,7 @@ use tigereye_transport::{
     SharedWeights, Stopping, StoppingRule, TransportError,
 };
 use tigereye_views::total_anisotropy::ThinCells;
-use tigereye_views::{gradient as gradient_view, light, line_overlay, point_overlays};
+use tigereye_views::{gradient as gradient_view, light, line_overlay, masked, point_overlays};
 
 /// What a sheet shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,7 +128,8 @@ pub fn sheet(
 
 fn anisotropy(field: &Field<Tensor2>, cell: CellShape) -> Picture {
     let quantity = "(s₁ − s₂) / (s₁ + s₂)".to_owned();
-    let options = HeatOptions { quantity, range: Some((0.0, 1.0)), cell, ..HeatOptions::default() };
+    let (range, masked) = (Some((0.0, 1.0)), masked(field));
+    let options = HeatOptions { quantity, range, cell, masked, ..HeatOptions::default() };
     heat_map(&field.map(|t| Anisotropy::of(t).linear), &options)
 }
 
@@ -146,7 +147,8 @@ fn determinant(field: &Field<Tensor2>, cell: CellShape) -> Picture {
     let is_negative = |t: &Tensor2| t.determinant() < -Eigenvalues::ROUNDING * t.max_abs() * t.max_abs();
     let negative = field.values().iter().any(is_negative);
     let scale = if negative { HeatScale::Diverging } else { HeatScale::Linear };
-    let options = HeatOptions { quantity: "determinant".to_owned(), scale, cell, ..HeatOptions::default() };
+    let (quantity, masked) = ("determinant".to_owned(), masked(field));
+    let options = HeatOptions { quantity, scale, cell, masked, ..HeatOptions::default() };
     heat_map(&field.map(Tensor2::determinant), &options)
 }
 
@@ -199,15 +201,15 @@ fn lit(
     let lights = [Light::continuous(source, PolarProfile::constant(directions, 1.0))];
     let problem = Problem { scheme: &scheme, transmission: &transmission, lights: &lights, stopping };
     let outcome = EightLobe.propagate(&problem)?;
-    let request = light::Request {
-        decades: Some(light::DECADES),
+    let options = HeatOptions {
         sources: vec![source],
         overlays: thin_overlays(field, options),
         cell: shape_after(options.cell, before, after),
-        ..light::Request::default()
+        masked: masked(field),
+        ..light::options(Some(light::DECADES))
     };
     let title = format!("light of cell ({}, {}){size}", at.x, at.y);
-    Ok((title, light::picture(&outcome.distribution.energy(), request)))
+    Ok((title, heat_map(&outcome.distribution.energy(), &options)))
 }
 
 /// The outline of the totally anisotropic cells of a field.
@@ -265,13 +267,14 @@ fn gradient(
         }
     };
     let slice = outcome.volume.slice(sample).unwrap_or_else(|| field.map(|_| 0.0));
-    let request = gradient_view::Request {
+    let title = format!("light transport gradient, {}°{size}", options.slice_deg);
+    let options = HeatOptions {
         cell,
         overlays: thin_overlays(field, options),
-        ..gradient_view::Request::default()
+        masked: masked(field),
+        ..HeatOptions::default()
     };
-    let title = format!("light transport gradient, {}°{size}", options.slice_deg);
-    Ok((title, gradient_view::picture(&slice, request)))
+    Ok((title, gradient_view::picture(&slice, gradient_view::Scalar::Slice, options)))
 }
 
 /// A sweep wants to know whom it talks to.
@@ -316,7 +319,7 @@ mod tests {
             line_overlays(&field(spec), CellShape::SQUARE).into_iter().map(|o| o.label).collect::<Vec<_>>()
         };
         assert_eq!(labels("wedge:size=13"), ["", "wedge (index 1/2)"]);
-        assert_eq!(labels("rings:size=13"), ["", "merged (other index)"]);
+        assert_eq!(labels("rings:size=13"), ["", "merged points (index other than ±1/2)"]);
         assert_eq!(labels("x:size=13"), [""]);
         assert_eq!(usual_light(&field("sink:size=7")), Cell::new(3, 2));
     }

@@ -3,6 +3,7 @@
 use thiserror::Error;
 use tigereye_lines::{ExtractionError, SamplingError};
 use tigereye_render::RenderError;
+use tigereye_views::added::AddedError;
 use tigereye_views::lines::TooManyPoints;
 
 /// Why something that the plan asks for could not be computed from the results of this run.
@@ -28,6 +29,9 @@ pub enum Unavailable {
     /// Ridges that cannot be extracted.
     #[error(transparent)]
     Extraction(#[from] ExtractionError),
+    /// What cannot be drawn over a picture.
+    #[error(transparent)]
+    Added(#[from] AddedError),
     /// A picture that cannot be drawn.
     #[error(transparent)]
     Render(#[from] RenderError),

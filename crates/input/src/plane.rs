@@ -17,6 +17,8 @@ pub struct PlaneField {
     pub story: Vec<String>,
     /// Where its cells lie.
     pub geometry: PlaneGeometry,
+    /// Unit of its coordinates, where the file states it.
+    pub unit: Option<&'static str>,
     /// What everybody must hear of it beside the story.
     pub remarks: Vec<String>,
 }
@@ -30,6 +32,10 @@ impl TensorFile {
     /// # Errors
     /// See [`InputError`].
     pub fn plane(&self, reading: &Reading) -> Result<PlaneField, InputError> {
+        let unit = match &self.content {
+            Content::Tensors(volume) => volume.lattice().unit,
+            Content::Numbers(lattice) => lattice.unit,
+        };
         let plane = match (&self.content, reading.derive) {
             (Content::Tensors(volume), _) => projected(volume, reading)?,
             (Content::Numbers(lattice), Some(derivation)) => derived(lattice, reading, derivation)?,
@@ -37,7 +43,7 @@ impl TensorFile {
                 return Err(InputError::NoTensors { components: "one number" });
             }
         };
-        plane.cropped(reading)?.finite(reading)?.resampled(reading)
+        PlaneField { unit, ..plane }.cropped(reading)?.finite(reading)?.resampled(reading)
     }
 }
 
@@ -172,7 +178,7 @@ impl Samples<()> {
 }
 
 fn placed(field: Field<Tensor2>, story: Vec<String>, cut: &Cut) -> PlaneField {
-    PlaneField { field, story, geometry: cut.geometry, remarks: Vec::new() }
+    PlaneField { field, story, geometry: cut.geometry, unit: None, remarks: Vec::new() }
 }
 
 /// What became of tensors that are not finite, in words.
@@ -186,7 +192,7 @@ impl PlaneField {
     /// A field that lies nowhere.
     #[must_use]
     pub const fn new(field: Field<Tensor2>, story: Vec<String>) -> Self {
-        Self { field, story, geometry: PlaneGeometry::UNPLACED, remarks: Vec::new() }
+        Self { field, story, geometry: PlaneGeometry::UNPLACED, unit: None, remarks: Vec::new() }
     }
 
     /// Words of warning where cells are not square, as light takes them.

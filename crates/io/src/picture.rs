@@ -90,6 +90,7 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
         scalar: format,
         axes: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]],
         origin: [0.0, (height - 1) as f64, 0.0],
+        unit: None,
         world: World::Absent,
         measurement: None,
         mask: (!is_opaque).then_some(opacity),

@@ -41,6 +41,16 @@ pub enum RenderError {
         /// Most pixels.
         most: u64,
     },
+    /// A width that leaves no room for the map.
+    #[error(
+        "a width of {asked_mm:.1} mm leaves no room for the map: expected {least_mm:.1} mm or more, or smaller text"
+    )]
+    Narrow {
+        /// Width asked for, millimetres.
+        asked_mm: f64,
+        /// Least width of such a picture, millimetres.
+        least_mm: f64,
+    },
     /// Two fields that should be compared have different grids.
     #[error("cannot compare a field of {a_width} x {a_height} cells with one of {b_width} x {b_height}")]
     GridMismatch {

@@ -3,16 +3,23 @@
 //! All pictures use one face, a subset of DejaVu Sans (see `assets/README.md`). Nothing is asked of the system.
 
 use crate::scene::{Anchor, PagePoint, PathBuilder, Segment, Text};
-use ab_glyph::{Font, FontRef, OutlineCurve, Point};
+use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, Point};
 use std::sync::OnceLock;
 
-const BYTES: &[u8] = include_bytes!("../assets/DejaVuSans-subset.ttf");
+/// The font file.
+pub(crate) const BYTES: &[u8] = include_bytes!("../assets/DejaVuSans-subset.ttf");
 
 /// Font units per em of the embedded face.
 pub(crate) const UNITS_PER_EM: f64 = 2048.0;
 
 /// Height of capitals and digits in em.
 pub(crate) const CAP_HEIGHT_EM: f64 = 0.729;
+
+/// Left, lower, right and upper end of all glyphs, font units (the font's table `head`).
+pub(crate) const BOUNDS: [f64; 4] = [-2090.0, -948.0, 3673.0, 2524.0];
+/// Ascent and descent, font units (the font's table `hhea`).
+pub(crate) const ASCENT: f64 = 1901.0;
+pub(crate) const DESCENT: f64 = -483.0;
 
 fn face() -> Option<&'static FontRef<'static>> {
     static FACE: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
@@ -42,6 +49,17 @@ pub(crate) fn anchor_shift(text: &Text) -> f64 {
 #[must_use]
 pub fn has_glyph(c: char) -> bool {
     face().is_some_and(|f| f.glyph_id(c).0 != 0)
+}
+
+/// The glyphs of `text` with the characters they stand for.
+pub(crate) fn glyphs(text: &str) -> Vec<(u16, char)> {
+    let Some(face) = face() else { return Vec::new() };
+    text.chars().map(|c| (face.glyph_id(c).0, c)).collect()
+}
+
+/// Width of a glyph, font units.
+pub(crate) fn glyph_width(glyph: u16) -> f64 {
+    face().map_or(0.0, |face| f64::from(face.h_advance_unscaled(GlyphId(glyph))))
 }
 
 /// Outline of `text` in font units, y up, starting at the origin on the baseline.

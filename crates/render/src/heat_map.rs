@@ -4,30 +4,19 @@ use crate::axis::Axis;
 use crate::colour::{ColourMap, Rgba};
 use crate::colour_bar::ColourBar;
 use crate::error::RenderError;
+use crate::glyphs::over;
 use crate::legend::{Entry, Mark};
 use crate::map_frame::MapFrame;
+use crate::mask;
 use crate::number;
 use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
 use crate::sampling::{Sampling, block_mean};
+use crate::scale::HeatScale;
 use crate::scene::Scene;
+use crate::style::{Style, ValueRange};
 use crate::walls;
-use tigereye_core::{Cell, CellShape, Field, Surface, math};
-
-/// How values become colours.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum HeatScale {
-    /// From the smallest to the largest value.
-    #[default]
-    Linear,
-    /// Powers of ten: `decades` below the maximum, and everything lower in [`Rgba::NO_LIGHT`].
-    Logarithmic {
-        /// Decades shown, positive.
-        decades: f64,
-    },
-    /// Symmetric about 0.
-    Diverging,
-}
+use tigereye_core::{Cell, CellShape, Field, Surface, Tensor2, math};
 
 /// Options of [`heat_map`].
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +45,8 @@ pub struct HeatOptions {
     pub source_name: &'static str,
     /// What cells below a logarithmic scale are called; `None` for "no light".
     pub dark_name: Option<&'static str>,
+    /// Tensors drawn as ellipses over the map, if there are as many as cells.
+    pub glyphs: Option<Field<Tensor2>>,
     /// Bands over the map.
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the map and its bands.
@@ -68,6 +59,10 @@ pub struct HeatOptions {
     pub note: Option<String>,
     /// Label in the legend for cells whose value is NaN; by default `not a finite number`.
     pub missing: Option<String>,
+    /// Cells without a tensor, drawn grey. Their values affect neither colours nor legend.
+    pub masked: Vec<Cell>,
+    /// What of all this is chosen otherwise.
+    pub style: Style,
 }
 
 impl Default for HeatOptions {
@@ -83,12 +78,15 @@ impl Default for HeatOptions {
             sources: Vec::new(),
             source_name: "light source",
             dark_name: None,
+            glyphs: None,
             ribbons: Vec::new(),
             overlays: Vec::new(),
             cell_px: None,
             cell: CellShape::SQUARE,
             note: None,
             missing: None,
+            masked: Vec::new(),
+            style: Style::default(),
         }
     }
 }
@@ -100,10 +98,15 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     let sampling = Sampling::of(field.grid(), [options.samples_a_cell; 2]);
     let grid = sampling.cells;
     let walls = options.walls.as_ref().filter(|walls| walls.grid() == field.grid());
-    let seen = seen_values(field, walls);
+    let masked = mask::within(&options.masked, grid);
+    let seen = seen_values(field, walls, &masked, sampling.per_cell);
     let summary = Summary::of(&seen);
-    let axis = chosen_axis(&summary, options);
-    let map = options.map.unwrap_or(match options.scale {
+    let scale = options.style.scale.unwrap_or(options.scale);
+    let chosen = options.style.range.or(options.range.map(|(low, high)| ValueRange::Values(low, high)));
+    let positive = matches!(scale, HeatScale::Logarithmic { .. });
+    let axis = chosen_axis(&summary, scale, chosen.and_then(|range| range.ends(&seen, positive)));
+    let quantity = options.style.quantity.as_ref().unwrap_or(&options.quantity);
+    let map = options.style.map.or(options.map).unwrap_or(match scale {
         HeatScale::Diverging => ColourMap::Vik,
         _ => ColourMap::Viridis,
     });
@@ -111,19 +114,21 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     let bar = ColourBar {
         axis,
         map,
-        label: &options.quantity,
+        label: quantity,
         below: summary.finite > 0 && !axis.logarithmic && axis.position(summary.low) < -1e-9,
         above: summary.finite > 0 && axis.position(summary.high) > 1.0 + 1e-9,
     };
     let cell = sampling.cell_px(options.cell, options.cell_px);
-    let side = bar.width((cell[1] * grid.height() as f64).max(150.0));
-    let mut page = MapFrame::begin(grid, &options.title, cell, side);
+    let titled = (&options.style, options.title.as_str());
+    let mut page = MapFrame::begin(grid, titled, cell, &|height| bar.width(height));
     let block = sampling.block(&page);
     let colour = |first| cell_colour(block_mean(field, first, block), &axis, map);
     page.scene.items.push(sampling.raster(&page, colour));
-    page.hatch(&sampling.cells_where(|sample| !field.at(sample).is_finite()));
+    let is_hatched = page.hatch(&sampling.cells_where(|sample| !field.at(sample).is_finite()));
+    mask::draw(&mut page, &masked);
     let names = [options.missing.as_deref(), options.dark_name];
-    let mut legend = value_legend(&seen, &summary, &axis, names, &sampling);
+    let mut legend = value_legend(&seen, &summary, &axis, (names, is_hatched), &sampling);
+    mask::explain(&masked, &options.style, &mut legend);
     if let Some(text) = sampling.mean_in_words(block) {
         legend.push(Entry::of(Mark::None, text));
     }
@@ -131,17 +136,27 @@ pub fn heat_map(field: &Field<f64>, options: &HeatOptions) -> Scene {
     if let Some(walls) = walls {
         walls::draw(&mut page, walls, &mut legend);
     }
+    over::draw(&mut page, options.glyphs.as_ref(), &mut legend);
     ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
     overlay::draw_sources(&mut page, &options.sources, options.source_name, &mut legend);
     let (edge, top, height) = (page.left + page.width(), page.top, page.side_height());
     bar.draw(&mut page.scene, edge, top, height);
-    page.finish(&options.title, description(&sampling, &summary, options), &legend)
+    page.finish(description(&sampling, &summary, scale, quantity), &legend)
 }
 
-/// The values that no wall hides.
-fn seen_values(field: &Field<f64>, walls: Option<&Field<Option<Surface>>>) -> Vec<f64> {
-    let hidden = |cell| walls.is_some_and(|w| w.at(cell).as_ref().is_some_and(Surface::is_wall));
+/// The values that neither a wall nor the mask hides.
+fn seen_values(
+    field: &Field<f64>,
+    walls: Option<&Field<Option<Surface>>>,
+    masked: &Field<bool>,
+    [m, n]: [usize; 2],
+) -> Vec<f64> {
+    let hidden = |c: Cell| {
+        let nearest = Cell::new((c.x + m / 2) / m, (c.y + n / 2) / n);
+        walls.is_some_and(|w| w.at(c).as_ref().is_some_and(Surface::is_wall))
+            || (masked.grid().contains(nearest) && *masked.at(nearest))
+    };
     field.iter().filter(|(cell, _)| !hidden(*cell)).map(|(_, v)| *v).collect()
 }
 
@@ -206,10 +221,9 @@ impl Summary {
     }
 }
 
-fn chosen_axis(summary: &Summary, options: &HeatOptions) -> Axis {
-    let fixed = options.range.filter(|(a, b)| a.is_finite() && b.is_finite() && a < b);
+fn chosen_axis(summary: &Summary, scale: HeatScale, fixed: Option<(f64, f64)>) -> Axis {
     let (low, high) = if summary.finite == 0 { (0.0, 1.0) } else { (summary.low, summary.high) };
-    match (options.scale, fixed) {
+    match (scale, fixed) {
         (HeatScale::Linear, _) => {
             let (low, high) = fixed.unwrap_or((low, high));
             Axis::linear(low, high)
@@ -243,7 +257,7 @@ fn value_legend(
     values: &[f64],
     summary: &Summary,
     axis: &Axis,
-    [missing, dark_name]: [Option<&str>; 2],
+    ([missing, dark_name], is_hatched): ([Option<&str>; 2], bool),
     sampling: &Sampling,
 ) -> Vec<Entry> {
     let dark_name = dark_name.unwrap_or("no light");
@@ -263,7 +277,7 @@ fn value_legend(
             || format!("not a finite number ({broken} of {} {})", values.len(), sampling.places()),
             ToOwned::to_owned,
         );
-        legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), text));
+        legend.push(Entry::of(Mark::broken(is_hatched), text));
     }
     if summary.finite == 0 {
         legend.push(Entry::of(Mark::None, "The field has no finite value."));
@@ -273,13 +287,13 @@ fn value_legend(
     legend
 }
 
-fn description(sampling: &Sampling, summary: &Summary, options: &HeatOptions) -> String {
-    let scale = match options.scale {
+fn description(sampling: &Sampling, summary: &Summary, scale: HeatScale, quantity: &str) -> String {
+    let scale = match scale {
         HeatScale::Linear => "linear",
         HeatScale::Logarithmic { .. } => "logarithmic",
         HeatScale::Diverging => "diverging",
     };
-    let quantity = if options.quantity.is_empty() { "values" } else { &options.quantity };
+    let quantity = if quantity.is_empty() { "values" } else { quantity };
     let range = if summary.finite == 0 {
         "no finite value".to_owned()
     } else {

@@ -40,6 +40,13 @@ pub(crate) struct Entry {
     pub(crate) label: String,
 }
 
+impl Mark {
+    /// That of values that are not finite: hatched where the map is.
+    pub(crate) const fn broken(is_hatched: bool) -> Self {
+        if is_hatched { Self::Hatched(Rgba::NOT_FINITE) } else { Self::Swatch(Rgba::NOT_FINITE) }
+    }
+}
+
 impl Entry {
     pub(crate) fn of(mark: Mark, label: impl Into<String>) -> Self {
         Self { mark, label: label.into() }

@@ -1,4 +1,4 @@
-//! Pictures of tensor fields, light distributions and gradients: data in, a [`Scene`] out, exported as PNG or SVG.
+//! Pictures of tensor fields, light distributions and gradients: data in, a [`Scene`] out, exported as PNG, SVG or PDF.
 //!
 //! Every function here is pure. Nothing is written, nothing is asked of the system, and the same data gives the same
 //! bytes. Values that cannot be drawn (not finite, or not positive on a logarithmic scale) are never silently turned
@@ -16,11 +16,13 @@ mod glyphs;
 mod heat_map;
 mod legend;
 mod map_frame;
+mod mask;
 mod multiples;
 pub mod number;
 mod orientation;
 mod outline;
 mod overlay;
+mod pdf;
 mod plain_map;
 mod png_export;
 mod polar_overlay;
@@ -28,8 +30,10 @@ mod polar_plot;
 mod ribbon;
 mod row_chart;
 mod sampling;
+mod scale;
 mod scene;
 mod shapes;
+mod style;
 mod svg;
 mod texture;
 mod walls;
@@ -42,7 +46,7 @@ pub use font::{has_glyph, text_width};
 pub use glyphs::{
     GlyphColour, GlyphKind, GlyphOptions, GlyphOutline, GlyphPart, GlyphScale, glyph_outlines, glyphs,
 };
-pub use heat_map::{Difference, HeatOptions, HeatScale, difference_map, heat_map};
+pub use heat_map::{Difference, HeatOptions, difference_map, heat_map};
 pub use multiples::{PageRect, placed_multiples, small_multiples};
 pub use orientation::{OrientationOptions, orientation_map};
 pub use outline::outline;
@@ -52,8 +56,10 @@ pub use polar_overlay::{IntensityScale, PolarOptions, TransmissionScale, polar_o
 pub use polar_plot::{PolarPlotOptions, PolarSeries, polar_plot};
 pub use ribbon::Ribbon;
 pub use row_chart::{RowChart, row_chart};
+pub use scale::HeatScale;
 pub use scene::{
     Anchor, Item, Page, PagePoint, PageVector, Path, PathBuilder, Raster, Scene, Segment, Stroke, Text,
 };
 pub use shapes::Marker;
+pub use style::{AxisNumbers, Colours, Coordinates, Length, Style, ValueRange};
 pub use texture::{TextureOptions, Tint, texture_map};

@@ -4,9 +4,11 @@ use crate::colour::{ColourMap, Rgba};
 use crate::font;
 use crate::legend::{Entry, Mark, SMALL_PX};
 use crate::map_frame::{self, MapFrame};
+use crate::mask;
 use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
 use crate::scene::{Anchor, Item, PagePoint, PathBuilder, Raster, Scene};
+use crate::style::Style;
 use tigereye_core::{Anisotropy, Cell, CellShape, Field, Svd, Tensor2, math};
 
 /// Options of [`orientation_map`].
@@ -22,6 +24,8 @@ pub struct OrientationOptions {
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the map and bands.
     pub overlays: Vec<Overlay>,
+    /// What of all this is chosen otherwise; the colour map should be cyclic.
+    pub style: Style,
 }
 
 /// The colour of isotropic tensors, which have no direction.
@@ -37,18 +41,19 @@ pub fn orientation_map(field: &Field<Tensor2>, options: &OrientationOptions) -> 
     let grid = field.grid();
     // Directions have no mean that pixels could show: large grids are sampled.
     let cell = map_frame::cell_px(grid, options.cell, options.cell_px, 480, 40);
-    let block = (1.0 / cell[0].min(cell[1])).round().max(1.0) as usize;
-    let mut page = MapFrame::begin(grid, &options.title, cell, SIDE_PX);
-    page.scene.items.push(raster(field, &page, block));
+    let mut page = MapFrame::begin(grid, (&options.style, &options.title), cell, &|_| SIDE_PX);
+    let block = (1.0 / page.smaller_side()).round().max(1.0) as usize;
+    let map = options.style.map.unwrap_or(ColourMap::RomaO);
+    page.scene.items.push(raster(field, &page, block, map));
     let broken: Vec<Cell> = field.iter().filter(|(_, t)| !t.is_finite()).map(|(c, _)| c).collect();
-    page.hatch(&broken);
-    draw_half_ring(&mut page);
+    let is_hatched = page.hatch(&broken);
+    draw_half_ring(&mut page, map);
     let mut legend = Vec::new();
     if field.values().iter().any(Tensor2::is_zero) {
-        legend.push(Entry::of(Mark::Swatch(Rgba::WHITE), "zero tensor"));
+        legend.push(Entry::of(Mark::Swatch(Rgba::MASKED), mask::name(&options.style)));
     }
     if !broken.is_empty() {
-        legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), "tensor not finite"));
+        legend.push(Entry::of(Mark::broken(is_hatched), "tensor not finite"));
     }
     ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
@@ -60,16 +65,18 @@ pub fn orientation_map(field: &Field<Tensor2>, options: &OrientationOptions) -> 
         grid.width(),
         grid.height()
     );
-    page.finish(&options.title, description, &legend)
+    page.finish(description, &legend)
 }
 
 /// One cell of each block of `block` x `block`, its upper left one.
-fn raster(field: &Field<Tensor2>, page: &MapFrame, block: usize) -> Item {
+fn raster(field: &Field<Tensor2>, page: &MapFrame, block: usize, map: ColourMap) -> Item {
     let grid = field.grid();
     let columns = grid.width().div_ceil(block);
     let cells = (0..grid.height())
         .step_by(block)
-        .flat_map(|y| (0..grid.width()).step_by(block).map(move |x| tensor_colour(field.at(Cell::new(x, y)))))
+        .flat_map(|y| {
+            (0..grid.width()).step_by(block).map(move |x| tensor_colour(field.at(Cell::new(x, y)), map))
+        })
         .collect();
     Item::Raster(Raster {
         x_px: page.left,
@@ -80,23 +87,23 @@ fn raster(field: &Field<Tensor2>, page: &MapFrame, block: usize) -> Item {
     })
 }
 
-fn tensor_colour(t: &Tensor2) -> Rgba {
+fn tensor_colour(t: &Tensor2, map: ColourMap) -> Rgba {
     if !t.is_finite() {
         return Rgba::NOT_FINITE;
     }
     if t.is_zero() {
-        return Rgba::WHITE;
+        return Rgba::MASKED;
     }
-    direction_colour(Svd::of(t).phi_rad(), Anisotropy::of(t).linear)
+    direction_colour(Svd::of(t).phi_rad(), Anisotropy::of(t).linear, map)
 }
 
-fn direction_colour(phi_rad: f64, anisotropy: f64) -> Rgba {
+fn direction_colour(phi_rad: f64, anisotropy: f64, map: ColourMap) -> Rgba {
     let turns = phi_rad / math::PI;
-    ISOTROPIC.mixed(ColourMap::RomaO.sample(turns - turns.floor()), anisotropy)
+    ISOTROPIC.mixed(map.sample(turns - turns.floor()), anisotropy)
 }
 
 /// Directions from 0 to 180 degrees, strong colours outside, isotropic grey in the middle.
-fn draw_half_ring(page: &mut MapFrame) {
+fn draw_half_ring(page: &mut MapFrame, map: ColourMap) {
     const SECTORS: usize = 60;
     const RINGS: usize = 10;
     let centre = PagePoint::new(page.left + page.width() + GAP_PX + RING_PX, page.top + RING_PX + 44.0);
@@ -113,7 +120,7 @@ fn draw_half_ring(page: &mut MapFrame) {
             let (from, to) = (middle - math::PI / 120.0, (middle + math::PI / 60.0).min(math::PI));
             let mut path = PathBuilder::default();
             path.polyline(&[centre, point(radius, from), point(radius, to)], true);
-            scene.fill(path.finish(), direction_colour(middle, (ring as f64 + 0.5) / RINGS as f64));
+            scene.fill(path.finish(), direction_colour(middle, (ring as f64 + 0.5) / RINGS as f64, map));
         }
     }
     for (degrees, anchor) in [

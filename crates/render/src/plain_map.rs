@@ -2,9 +2,11 @@
 
 use crate::legend::Entry;
 use crate::map_frame::{self, MapFrame};
+use crate::mask;
 use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
 use crate::scene::{PagePoint, PathBuilder, Scene};
+use crate::style::Style;
 use crate::{Rgba, legend::Mark};
 use tigereye_core::{Cell, CellShape, Grid};
 
@@ -23,14 +25,14 @@ pub struct PlainOptions {
     pub ribbons: Vec<Ribbon>,
     /// The lines and points, over the bands.
     pub overlays: Vec<Overlay>,
-    /// Cells that have nothing to show, hatched.
-    pub missing: Vec<Cell>,
-    /// Their name in the legend.
-    pub missing_label: String,
+    /// Cells without a tensor, drawn grey.
+    pub masked: Vec<Cell>,
     /// Cells with a light ground.
     pub shaded: Vec<Cell>,
     /// Their name in the legend.
     pub shaded_label: String,
+    /// What of all this is chosen otherwise.
+    pub style: Style,
 }
 
 /// Light enough for lines of every colour.
@@ -40,22 +42,19 @@ const SHADE: Rgba = Rgba::hex(0xe4ebf5);
 #[must_use]
 pub fn plain_map(grid: Grid, options: &PlainOptions) -> Scene {
     let cell = map_frame::cell_px(grid, options.cell, options.cell_px, 480, 40);
-    let mut page = MapFrame::begin(grid, &options.title, cell, 0.0);
+    let mut page = MapFrame::begin(grid, (&options.style, &options.title), cell, &|_| 0.0);
     let mut legend = Vec::new();
-    for (cells, colour) in [(&options.shaded, SHADE), (&options.missing, Rgba::NOT_FINITE)] {
-        let mut squares = PathBuilder::default();
-        for c in cells {
-            let (PagePoint { x, y, .. }, [width, height]) = (page.centre(*c), cell);
-            squares.rect(x - 0.5 * width, y - 0.5 * height, width, height);
-        }
-        if !squares.is_empty() {
-            page.scene.fill(squares.finish(), colour);
-        }
+    let mut squares = PathBuilder::default();
+    for c in &options.shaded {
+        let (PagePoint { x, y, .. }, [width, height]) = (page.centre(*c), page.cell);
+        squares.rect(x - 0.5 * width, y - 0.5 * height, width, height);
     }
-    page.hatch(&options.missing);
-    if !options.missing.is_empty() {
-        legend.push(Entry::of(Mark::Hatched(Rgba::NOT_FINITE), options.missing_label.clone()));
+    if !squares.is_empty() {
+        page.scene.fill(squares.finish(), SHADE);
     }
+    let masked = mask::within(&options.masked, grid);
+    mask::draw(&mut page, &masked);
+    mask::explain(&masked, &options.style, &mut legend);
     if !options.shaded.is_empty() {
         legend.push(Entry::of(Mark::Swatch(SHADE), options.shaded_label.clone()));
     }
@@ -63,7 +62,7 @@ pub fn plain_map(grid: Grid, options: &PlainOptions) -> Scene {
     overlay::draw(&mut page, &options.overlays, &mut legend);
     let description =
         format!("{} on {} x {} cells, row 0 on top.", options.description, grid.width(), grid.height());
-    page.finish(&options.title, description, &legend)
+    page.finish(description, &legend)
 }
 
 #[cfg(test)]
@@ -83,8 +82,7 @@ mod tests {
             title: "a field".to_owned(),
             description: "Lines".to_owned(),
             overlays: vec![overlay("a line", &[Point::new(0.0, 0.0), Point::new(3.0, 2.0)])],
-            missing: vec![Cell::new(1, 1)],
-            missing_label: "no tensor".to_owned(),
+            masked: vec![Cell::new(1, 1)],
             shaded: vec![Cell::new(2, 1)],
             shaded_label: "a part".to_owned(),
             ..PlainOptions::default()

@@ -18,6 +18,35 @@ impl Scene {
     /// [`RenderError::Scale`]; [`RenderError::PictureSize`] for a side outside 1 to [`Self::MAX_SIDE_PX`];
     /// [`RenderError::Encoding`].
     pub fn to_png(&self, scale: f64) -> Result<Vec<u8>, RenderError> {
+        encoded(&self.pixmap(scale)?)
+    }
+}
+
+impl Scene {
+    /// The scene as an opaque PNG that states its resolution, `dpi` pixels per inch of the page. The same scene gives
+    /// the same bytes.
+    ///
+    /// # Errors
+    /// As [`Self::to_png`].
+    pub fn to_png_at(&self, dpi: f64) -> Result<Vec<u8>, RenderError> {
+        let scale = dpi / 72.0 * self.pt_per_px;
+        let pixmap = self.pixmap(scale)?;
+        let rgb: Vec<u8> = pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
+        let failed = |e: png::EncodingError| RenderError::Encoding { reason: e.to_string() };
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        let per_metre = (dpi / 0.0254).round() as u32;
+        let (xppu, yppu, unit) = (per_metre, per_metre, png::Unit::Meter);
+        encoder.set_pixel_dims(Some(png::PixelDimensions { xppu, yppu, unit }));
+        let mut writer = encoder.write_header().map_err(failed)?;
+        writer.write_image_data(&rgb).map_err(failed)?;
+        writer.finish().map_err(failed)?;
+        Ok(bytes)
+    }
+
+    fn pixmap(&self, scale: f64) -> Result<Pixmap, RenderError> {
         if !(scale.is_finite() && scale > 0.0) {
             return Err(RenderError::Scale { scale });
         }
@@ -27,7 +56,7 @@ impl Scene {
         pixmap.fill(Color::WHITE);
         let scale = scale as f32;
         draw_items(&mut pixmap, &self.items, Transform::from_scale(scale, scale))?;
-        encoded(&pixmap)
+        Ok(pixmap)
     }
 }
 

@@ -3,9 +3,11 @@
 use crate::colour::Rgba;
 use crate::legend::{Entry, Mark};
 use crate::map_frame::{self, MapFrame};
+use crate::mask;
 use crate::overlay::{self, Overlay};
 use crate::scene::{PagePoint, PathBuilder, Scene};
 use crate::shapes;
+use crate::style::Style;
 use crate::walls;
 use tigereye_core::{
     Cell, CellShape, Directions, Field, Grid, LightDistribution, Surface, TransmissionField, math,
@@ -66,6 +68,10 @@ pub struct PolarOptions {
     pub cell: CellShape,
     /// Points and lines over the diagrams.
     pub overlays: Vec<Overlay>,
+    /// Cells without a tensor, drawn grey.
+    pub masked: Vec<Cell>,
+    /// What of all this is chosen otherwise.
+    pub style: Style,
 }
 
 impl Default for PolarOptions {
@@ -82,6 +88,8 @@ impl Default for PolarOptions {
             cell_px: None,
             cell: CellShape::SQUARE,
             overlays: Vec::new(),
+            masked: Vec::new(),
+            style: Style::default(),
         }
     }
 }
@@ -103,13 +111,13 @@ pub fn polar_overlay(
     options: &PolarOptions,
 ) -> Scene {
     let Some(grid) = light.map(LightDistribution::grid).or(transmission.map(TransmissionField::grid)) else {
-        return nothing(&options.title);
+        return nothing(options.style.title_or(&options.title));
     };
     let transmission = transmission.filter(|t| t.grid() == grid);
     let cell = map_frame::cell_px(grid, options.cell, options.cell_px, 720, 72);
-    let smaller = cell[0].min(cell[1]);
+    let mut page = MapFrame::begin(grid, (&options.style, &options.title), cell, &|_| 0.0);
+    let smaller = page.smaller_side();
     let every = options.every.unwrap_or_else(|| map_frame::stride(smaller, PITCH_PX)).max(1);
-    let mut page = MapFrame::begin(grid, &options.title, cell, 0.0);
     let mut legend = Vec::new();
     draw_grounds(&mut page, transmission, options, &mut legend);
     page.grid_lines(every, Rgba::HAIRLINE);
@@ -130,7 +138,7 @@ pub fn polar_overlay(
     if every > 1 {
         legend.push(Entry::of(Mark::None, format!("one diagram per {every} × {every} cells")));
     }
-    page.finish(&options.title, description(grid, transmission.is_some(), light.is_some()), &legend)
+    page.finish(description(grid, transmission.is_some(), light.is_some()), &legend)
 }
 
 fn nothing(title: &str) -> Scene {
@@ -167,7 +175,11 @@ fn draw_grounds(
             let walls = options.walls.as_ref().filter(|walls| walls.grid() == t.grid());
             walls.is_some_and(|w| w.at(cell).as_ref().is_some_and(Surface::is_wall))
         };
-        let dark = page.squares(t.grid().iter().filter(|c| t.rate(*c) == 0.0 && !hidden(*c)));
+        let masked = mask::within(&options.masked, t.grid());
+        mask::draw(page, &masked);
+        mask::explain(&masked, &options.style, legend);
+        let is_dark = |c: &Cell| t.rate(*c) == 0.0 && !*masked.at(*c) && !hidden(*c);
+        let dark = page.squares(t.grid().iter().filter(is_dark));
         if !dark.is_empty() {
             page.scene.fill(dark.finish(), ABSORBING);
             legend.push(Entry::of(Mark::Swatch(ABSORBING), "absorbs all light"));

@@ -188,13 +188,17 @@ fn cut_at(polygon: &[PagePoint], depth: impl Fn(PagePoint) -> f64) -> Vec<PagePo
 mod tests {
     use super::*;
     use crate::scene::{Item, Segment, Stroke};
+    use crate::style::Style;
     use tigereye_core::{Grid, math};
 
     const CELL_PX: f64 = 20.0;
 
     /// Polygons and edges of a ribbon on 10 x 10 cells, back in cells.
     fn drawn(points: Vec<Point>, half_widths: Vec<f64>) -> (Vec<Vec<Point>>, usize, usize) {
-        let mut page = MapFrame::begin(Grid::new(10, 10).expect("a grid"), "", [CELL_PX; 2], 0.0);
+        let mut page = {
+            let grid = Grid::new(10, 10).expect("a grid");
+            MapFrame::begin(grid, (&Style::default(), ""), [CELL_PX; 2], &|_| 0.0)
+        };
         let ribbon = Ribbon { label: "band".to_owned(), points, half_widths, ..Ribbon::default() };
         let mut legend = Vec::new();
         draw(&mut page, &[ribbon], &mut legend);

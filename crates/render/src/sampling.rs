@@ -57,7 +57,7 @@ impl Sampling {
 
     /// Samples along x and y that are combined into one cell of a raster: more than 1 if they are smaller than a pixel.
     pub(crate) fn block(&self, page: &MapFrame) -> [usize; 2] {
-        self.sample_px(page).map(|side| (1.0 / side).round().max(1.0) as usize)
+        self.sample_px(page).map(|side| (1.0 / (page.fineness * side)).round().max(1.0) as usize)
     }
 
     /// A remark on the mean that one cell of a raster shows, if it combines several samples.
@@ -131,9 +131,15 @@ pub(crate) fn block_mean(field: &Field<f64>, first: Cell, block: [usize; 2]) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::style::Style;
 
     fn grid(width: usize, height: usize) -> Grid {
         Grid::new(width, height).expect("a grid")
+    }
+
+    fn frame(sampling: &Sampling) -> MapFrame {
+        let cell = sampling.cell_px(CellShape::SQUARE, None);
+        MapFrame::begin(sampling.cells, (&Style::default(), ""), cell, &|_| 0.0)
     }
 
     #[test]
@@ -142,7 +148,7 @@ mod tests {
             let samples = grid(n * (cells.0 - 1) + 1, n * (cells.1 - 1) + 1);
             let sampling = Sampling::of(samples, [n; 2]);
             assert_eq!((sampling.cells, sampling.per_cell), (grid(cells.0, cells.1), [n; 2]));
-            let page = MapFrame::begin(sampling.cells, "", sampling.cell_px(CellShape::SQUARE, None), 0.0);
+            let page = frame(&sampling);
             let Item::Raster(raster) = sampling.raster(&page, |_| Rgba::INK) else { panic!("a raster") };
             assert_eq!((raster.columns, raster.rows()), (samples.width(), samples.height()));
             let first = [raster.x_px + 0.5 * raster.cell_px[0], raster.y_px + 0.5 * raster.cell_px[1]];
@@ -170,7 +176,7 @@ mod tests {
     fn fine_maps_have_whole_pixels_or_combine_samples() {
         let side = |samples: usize, n: usize| {
             let sampling = Sampling::of(grid(samples, samples), [n; 2]);
-            let page = MapFrame::begin(sampling.cells, "", sampling.cell_px(CellShape::SQUARE, None), 0.0);
+            let page = frame(&sampling);
             (page.cell[0] / n as f64, sampling.block(&page)[0], page.width())
         };
         assert_eq!(side(101, 4).0, 4.0);

@@ -15,6 +15,9 @@ pub type PagePoint = Point2D<f64, Page>;
 /// A displacement in a picture.
 pub type PageVector = Vector2D<f64, Page>;
 
+/// Points (1/72 inch) per pixel of a page, unless a picture says otherwise: 96 pixels an inch.
+pub(crate) const PT_PER_PX: f64 = 0.75;
+
 /// A picture before it is exported.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
@@ -22,6 +25,10 @@ pub struct Scene {
     pub width_px: f64,
     /// Height in pixels.
     pub height_px: f64,
+    /// Size of a pixel on paper, points (1/72 inch).
+    pub pt_per_px: f64,
+    /// Whether an SVG states its size in millimetres: that somebody asked for a size on paper.
+    pub on_paper: bool,
     /// Short name, the accessible title of an SVG.
     pub title: String,
     /// A description of the picture in words, for readers who cannot see it.
@@ -149,7 +156,15 @@ impl Scene {
     /// An empty scene.
     #[must_use]
     pub fn sized(width_px: f64, height_px: f64) -> Self {
-        Self { width_px, height_px, title: String::new(), description: String::new(), items: Vec::new() }
+        Self {
+            width_px,
+            height_px,
+            pt_per_px: PT_PER_PX,
+            on_paper: false,
+            title: String::new(),
+            description: String::new(),
+            items: Vec::new(),
+        }
     }
 
     /// Inserts the items of another scene, scaled by `scale`, with its upper left corner at (x, y) pixels.

@@ -1,10 +1,9 @@
-//! Scenes as SVG: text as outlines, rasters as embedded PNG, fixed number formatting, no reference to anything outside.
+//! Scenes as SVG: text as text, rasters as embedded PNG, fixed number formatting, no reference to anything outside.
 
 use crate::colour::Rgba;
 use crate::error::RenderError;
-use crate::font;
 use crate::png_export::raster_png;
-use crate::scene::{Item, PagePoint, Path, Raster, Scene, Segment, Text};
+use crate::scene::{Anchor, Item, PagePoint, Path, Raster, Scene, Segment, Text};
 use base64::Engine;
 use std::fmt::Write;
 
@@ -16,9 +15,16 @@ impl Scene {
     pub fn to_svg(&self) -> Result<String, RenderError> {
         let mut out = String::new();
         let (w, h) = (number(self.width_px), number(self.height_px));
+        // On paper a size has a unit.
+        let side = |px: f64| match self.on_paper {
+            true => format!("{:.3}mm", px * self.pt_per_px * 25.4 / 72.0),
+            false => number(px),
+        };
         let _ = writeln!(
             out,
-            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{w}" height="{h}" viewBox="0 0 {w} {h}" role="img">"#
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{}" height="{}" viewBox="0 0 {w} {h}" role="img" font-family="{FONTS}">"#,
+            side(self.width_px),
+            side(self.height_px)
         );
         let _ = writeln!(out, "<title>{}</title>", escaped(&self.title));
         let _ = writeln!(out, "<desc>{}</desc>", escaped(&self.description));
@@ -28,6 +34,9 @@ impl Scene {
         Ok(out)
     }
 }
+
+/// The font of the layout; Verdana, which systems without it have, is about as wide.
+const FONTS: &str = "'DejaVu Sans', Verdana, sans-serif";
 
 fn write_items(out: &mut String, items: &[Item]) -> Result<(), RenderError> {
     for item in items {
@@ -63,7 +72,7 @@ fn write_path(out: &mut String, path: &Path) {
     if path.segments.is_empty() {
         return;
     }
-    let _ = write!(out, r#"<path d="{}""#, path_data(&path.segments, 100.0));
+    let _ = write!(out, r#"<path d="{}""#, path_data(&path.segments));
     match path.fill {
         Some(colour) => write_paint(out, "fill", colour),
         None => out.push_str(r#" fill="none""#),
@@ -92,53 +101,54 @@ fn write_paint(out: &mut String, property: &str, colour: Rgba) {
 }
 
 fn write_text(out: &mut String, text: &Text) {
-    let segments = font::outline(&text.text);
-    if segments.is_empty() {
+    if text.text.trim().is_empty() {
         return;
     }
-    let mut placing = format!("translate({} {})", number(text.x_px), number(text.y_px));
+    let (x, y) = (number(text.x_px), number(text.y_px));
+    let _ = write!(out, r#"<text x="{x}" y="{y}" font-size="{}""#, number(text.size_px));
+    match text.anchor {
+        Anchor::Start => {}
+        Anchor::Middle => out.push_str(r#" text-anchor="middle""#),
+        Anchor::End => out.push_str(r#" text-anchor="end""#),
+    }
     if text.rotation_deg != 0.0 {
-        let _ = write!(placing, " rotate({})", number(-text.rotation_deg));
+        let _ = write!(out, r#" transform="rotate({} {x} {y})""#, number(-text.rotation_deg));
     }
-    let shift = font::anchor_shift(text);
-    if shift != 0.0 {
-        let _ = write!(placing, " translate({})", number(shift));
-    }
-    let scale = text.size_px / font::UNITS_PER_EM;
-    let _ = write!(out, r#"<path transform="{placing} scale({scale:.6} -{scale:.6})""#);
     write_paint(out, "fill", text.colour);
-    // Font units are whole numbers.
-    let _ = writeln!(out, r#" d="{}"/>"#, path_data(&segments, 1.0));
+    let _ = writeln!(out, ">{}</text>", escaped(&text.text));
 }
 
-/// Steps with coordinates rounded to whole `1/unit` pixels. Positions are rounded before differences are taken, so
+/// Coordinates are kept in parts of a pixel.
+const UNIT: f64 = 100.0;
+
+/// Steps with coordinates rounded to hundredths of a pixel. Positions are rounded before differences are taken, so
 /// errors do not add up along relative steps.
-fn path_data(segments: &[Segment], unit: f64) -> String {
+fn path_data(segments: &[Segment]) -> String {
     let mut out = String::new();
     let mut pen = [0_i64; 2];
     let mut start = pen;
     let rounded =
-        |p: PagePoint| p.to_array().map(|v| if v.is_finite() { (v * unit).round() as i64 } else { 0 });
+        |p: PagePoint| p.to_array().map(|v| if v.is_finite() { (v * UNIT).round() as i64 } else { 0 });
     for segment in segments {
         match *segment {
             Segment::Move(p) => {
                 pen = rounded(p);
                 start = pen;
-                write_points(&mut out, 'M', &[pen], [0, 0], unit);
+                write_points(&mut out, 'M', &[pen], [0, 0]);
             }
             Segment::Line(p) => {
                 let to = rounded(p);
-                write_points(&mut out, 'l', &[to], pen, unit);
+                write_points(&mut out, 'l', &[to], pen);
                 pen = to;
             }
             Segment::Quad(c, p) => {
                 let to = rounded(p);
-                write_points(&mut out, 'q', &[rounded(c), to], pen, unit);
+                write_points(&mut out, 'q', &[rounded(c), to], pen);
                 pen = to;
             }
             Segment::Cubic(c, d, p) => {
                 let to = rounded(p);
-                write_points(&mut out, 'c', &[rounded(c), rounded(d), to], pen, unit);
+                write_points(&mut out, 'c', &[rounded(c), rounded(d), to], pen);
                 pen = to;
             }
             Segment::Close => {
@@ -150,11 +160,11 @@ fn path_data(segments: &[Segment], unit: f64) -> String {
     out
 }
 
-fn write_points(out: &mut String, letter: char, points: &[[i64; 2]], origin: [i64; 2], unit: f64) {
+fn write_points(out: &mut String, letter: char, points: &[[i64; 2]], origin: [i64; 2]) {
     out.push(letter);
     for (i, p) in points.iter().enumerate() {
         for axis in 0..2 {
-            let text = number((p[axis] - origin[axis]) as f64 / unit);
+            let text = number((p[axis] - origin[axis]) as f64 / UNIT);
             if (i > 0 || axis > 0) && !text.starts_with('-') {
                 out.push(' ');
             }

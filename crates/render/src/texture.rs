@@ -4,6 +4,7 @@ use crate::axis::Axis;
 use crate::colour::{ColourMap, Rgba};
 use crate::colour_bar::ColourBar;
 use crate::error::RenderError;
+use crate::glyphs::over;
 use crate::heat_map::Summary;
 use crate::legend::{Entry, Mark};
 use crate::map_frame::MapFrame;
@@ -11,7 +12,8 @@ use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
 use crate::sampling::{Sampling, block_mean};
 use crate::scene::Scene;
-use tigereye_core::{CellShape, Field};
+use crate::style::{Style, ValueRange};
+use tigereye_core::{CellShape, Field, Tensor2};
 
 /// A quantity shown as the colour of a texture.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,12 +44,16 @@ pub struct TextureOptions {
     pub cell: CellShape,
     /// A remark for the legend.
     pub note: Option<String>,
+    /// Tensors drawn as ellipses over the map, if there are as many as cells.
+    pub glyphs: Option<Field<Tensor2>>,
     /// Bands over the map.
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the map and its bands.
     pub overlays: Vec<Overlay>,
     /// Label in the legend for samples whose value is NaN; by default `no texture`.
     pub missing: Option<String>,
+    /// What of all this is chosen otherwise; colours are those of the tint.
+    pub style: Style,
 }
 
 impl Default for TextureOptions {
@@ -59,9 +65,11 @@ impl Default for TextureOptions {
             cell_px: None,
             cell: CellShape::SQUARE,
             note: None,
+            glyphs: None,
             ribbons: Vec::new(),
             overlays: Vec::new(),
             missing: None,
+            style: Style::default(),
         }
     }
 }
@@ -72,28 +80,28 @@ const TINT_CONTRAST: f64 = 0.75;
 const MIDDLE_GREY: Rgba = Rgba::hex(0x808080);
 
 /// A texture with values from 0 (dark) to 1 (light), clamped to this range, with axes in cells. A tint shows
-/// its own colour at 0.5. Samples that are not finite are white and named in the legend.
+/// its own colour at 0.5. Samples that are not finite are grey and named in the legend.
 ///
 /// # Errors
 /// [`RenderError::GridMismatch`] if a tint has other samples than the texture.
 pub fn texture_map(texture: &Field<f64>, options: &TextureOptions) -> Result<Scene, RenderError> {
     let sampling = Sampling::of(texture.grid(), options.samples_a_cell);
-    let tint = options.tint.as_ref().map(|tint| Tinting::of(tint, texture)).transpose()?;
+    let tint = options.tint.as_ref().map(|tint| Tinting::of(tint, texture, &options.style)).transpose()?;
     let cell = sampling.cell_px(options.cell, options.cell_px);
-    let side =
-        tint.as_ref().map_or(0.0, |t| t.bar.width((cell[1] * sampling.cells.height() as f64).max(150.0)));
-    let mut page = MapFrame::begin(sampling.cells, &options.title, cell, side);
+    let side = |height: f64| tint.as_ref().map_or(0.0, |t| t.bar.width(height));
+    let mut page = MapFrame::begin(sampling.cells, (&options.style, &options.title), cell, &side);
     let block = sampling.block(&page);
     let raster = sampling.raster(&page, |first| {
         let value = block_mean(texture, first, block);
         match &tint {
-            _ if !value.is_finite() => Rgba::WHITE,
+            _ if !value.is_finite() => Rgba::MASKED,
             Some(tint) => tinted(tint.colour(block_mean(tint.values, first, block)), value),
             None => grey(value),
         }
     });
     page.scene.items.push(raster);
     let mut legend = legend(texture, tint.as_ref(), options);
+    over::draw(&mut page, options.glyphs.as_ref(), &mut legend);
     ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
     if let Some(text) = sampling.mean_in_words(block) {
@@ -105,7 +113,7 @@ pub fn texture_map(texture: &Field<f64>, options: &TextureOptions) -> Result<Sce
         tint.bar.draw(&mut page.scene, edge, top, height);
     }
     let description = format!("Texture of {}, row 0 on top{}.", sampling.in_words(), tint_in_words(options));
-    Ok(page.finish(&options.title, description, &legend))
+    Ok(page.finish(description, &legend))
 }
 
 /// A tint that fits its texture.
@@ -115,7 +123,7 @@ struct Tinting<'a> {
 }
 
 impl<'a> Tinting<'a> {
-    fn of(tint: &'a Tint, texture: &Field<f64>) -> Result<Self, RenderError> {
+    fn of(tint: &'a Tint, texture: &Field<f64>, style: &'a Style) -> Result<Self, RenderError> {
         let (a, b) = (texture.grid(), tint.values.grid());
         if a != b {
             return Err(RenderError::GridMismatch {
@@ -126,14 +134,15 @@ impl<'a> Tinting<'a> {
             });
         }
         let summary = Summary::of(tint.values.values());
-        let fixed = tint.range.filter(|(a, b)| a.is_finite() && b.is_finite() && a < b);
+        let chosen = style.range.or(tint.range.map(|(low, high)| ValueRange::Values(low, high)));
+        let fixed = chosen.and_then(|range| range.ends(tint.values.values(), false));
         let own = if summary.finite == 0 { (0.0, 1.0) } else { (summary.low, summary.high) };
         let (low, high) = fixed.unwrap_or(own);
         let axis = Axis::linear(low, high);
         let bar = ColourBar {
             axis,
-            map: tint.map,
-            label: &tint.quantity,
+            map: style.map.unwrap_or(tint.map),
+            label: style.quantity.as_ref().unwrap_or(&tint.quantity),
             below: summary.finite > 0 && axis.position(summary.low) < -1e-9,
             above: summary.finite > 0 && axis.position(summary.high) > 1.0 + 1e-9,
         };
@@ -158,8 +167,8 @@ fn tinted(colour: Rgba, value: f64) -> Rgba {
 fn legend(texture: &Field<f64>, tint: Option<&Tinting>, options: &TextureOptions) -> Vec<Entry> {
     let mut legend = Vec::new();
     if texture.values().iter().any(|v| !v.is_finite()) {
-        let text = options.missing.as_deref().unwrap_or("no texture");
-        legend.push(Entry::of(Mark::Swatch(Rgba::WHITE), text));
+        let text = options.style.masked.as_deref().or(options.missing.as_deref()).unwrap_or("no texture");
+        legend.push(Entry::of(Mark::Swatch(Rgba::MASKED), text));
     }
     let both = |tint: &Tinting| {
         texture.values().iter().zip(tint.values.values()).any(|(v, t)| v.is_finite() && !t.is_finite())
@@ -220,7 +229,7 @@ mod tests {
         let scene = texture_map(&texture, &options).expect("a map");
         let cells = &raster(&scene).cells;
         assert_eq!([cells[0], cells[8]], [Rgba::hex(0), Rgba::WHITE]);
-        assert_eq!([cells[9], cells[10]], [Rgba::hex(0), Rgba::WHITE]);
+        assert_eq!([cells[9], cells[10]], [Rgba::hex(0), Rgba::MASKED]);
         assert!(scene.description.contains("3 x 2 cells with 4 samples"), "{}", scene.description);
         assert!(legend_of(&scene).contains("no texture"));
         let whole = texture_map(&ramp(), &options).expect("a map");

@@ -1,8 +1,9 @@
 //! Finite-time Lyapunov exponents of tensor lines.
 
+use crate::masked;
 use tigereye_core::{CellShape, Field, Tensor2};
 use tigereye_lines::{Family, Followed, Following, Ftle, FtleOptions, OrderedAxes, SamplingError, ftle};
-use tigereye_render::{HeatOptions, Overlay, Scene, heat_map};
+use tigereye_render::{HeatOptions, Scene, heat_map};
 
 /// FTLE on the lines of a field.
 ///
@@ -19,25 +20,17 @@ pub fn exponents(
 
 /// The larger exponents in colours.
 #[must_use]
-pub fn picture(
-    found: &Ftle,
-    axes: OrderedAxes,
-    title: &str,
-    overlays: Vec<Overlay>,
-    cell_px: Option<usize>,
-) -> Scene {
+pub fn picture(found: &Ftle, field: &Field<Tensor2>, axes: OrderedAxes, options: HeatOptions) -> Scene {
     let is_square = found.cell == CellShape::SQUARE;
     let unit = if is_square { "1/cell" } else { "1/smaller cell side" };
     let options = HeatOptions {
-        title: title.to_owned(),
         quantity: format!("FTLE on tensor lines / ({unit})"),
         note: Some(format!("lines along {}", axes.words())),
         samples_a_cell: found.samples,
         cell: found.cell,
-        overlays,
-        cell_px,
-        missing: Some("no line, or one that leaves the field".to_owned()),
-        ..HeatOptions::default()
+        missing: Some("no value (line too short)".to_owned()),
+        masked: masked(field),
+        ..options
     };
     heat_map(&found.larger, &options)
 }

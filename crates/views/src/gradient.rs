@@ -1,7 +1,7 @@
 //! Scalars of a light transport gradient in colours.
 
-use tigereye_core::{Cell, CellShape, Field, Surface};
-use tigereye_render::{HeatOptions, Overlay, Scene, heat_map};
+use tigereye_core::{Cell, Field, Surface};
+use tigereye_render::{HeatOptions, Scene, heat_map};
 
 /// Which scalar of a gradient.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,39 +33,13 @@ impl Scalar {
     }
 }
 
-/// Which picture of a gradient.
-#[derive(Clone, Debug, Default)]
-pub struct Request {
-    /// Heading.
-    pub title: String,
-    /// Which scalar it is.
-    pub scalar: Scalar,
-    /// The surfaces of a scene.
-    pub walls: Option<Field<Option<Surface>>>,
-    /// Lines and points drawn on top.
-    pub overlays: Vec<Overlay>,
-    /// Pixels per cell; `None` for the default of the picture.
-    pub cell_px: Option<usize>,
-    /// The shape of a cell.
-    pub cell: CellShape,
-}
-
-/// A scalar at all cells, W/rad. Cells without a result are drawn as missing, so that they do not affect the scale.
+/// A scalar of a gradient at all cells, W/rad. Cells without a result are drawn as missing, so that they do not affect
+/// the scale.
 #[must_use]
-pub fn picture(scalar: &Field<f64>, request: Request) -> Scene {
-    let inner = where_result(scalar, request.walls.as_ref());
-    let missing = missing_label(request.walls.as_ref()).to_owned();
-    let options = HeatOptions {
-        title: request.title,
-        quantity: request.scalar.label(),
-        missing: Some(missing),
-        walls: request.walls,
-        overlays: request.overlays,
-        cell_px: request.cell_px,
-        cell: request.cell,
-        ..HeatOptions::default()
-    };
-    heat_map(&inner, &options)
+pub fn picture(values: &Field<f64>, scalar: Scalar, options: HeatOptions) -> Scene {
+    let inner = where_result(values, options.walls.as_ref());
+    let missing = Some(missing_label(options.walls.as_ref()).to_owned());
+    heat_map(&inner, &HeatOptions { quantity: scalar.label(), missing, ..options })
 }
 
 /// Label in the legend for the cells that [`where_result`] leaves out.

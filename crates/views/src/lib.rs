@@ -1,6 +1,7 @@
 //! Views of tensor fields, one file each: from a request to what is found, with its picture, its data for VTK and its
 //! parameters.
 
+pub mod added;
 pub mod ftle;
 pub mod glyphs;
 pub mod gradient;
@@ -17,11 +18,11 @@ pub use overlays::{line_overlay, point_overlays};
 pub use reel::Reel;
 
 use std::ops::Range;
-use tigereye_core::{CellShape, Field, Grid, Point, Tensor2};
+use tigereye_core::{Cell, CellShape, Field, Grid, Point, Tensor2};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{DataArray, FieldEntry, FieldValues, ImageData, PROVENANCE, PolyData, Rows};
 use tigereye_lines::{Axes, Following, is_complex};
-use tigereye_render::{Overlay, PlainOptions};
+use tigereye_render::{Coordinates, PlainOptions};
 
 /// The position of the cells of a field in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,10 +44,44 @@ impl Placement {
         self.geometry.place([p.x, (self.height - 1) as f64 - p.y])
     }
 
+    /// The point of the grid at a position in the world, or nearest to it in the plane.
+    #[must_use]
+    pub fn cells_of(&self, place: [f64; 3]) -> Point {
+        let (corner, [dx, dy]) = (self.geometry.corner(), self.geometry.spacing());
+        let along = |direction: [f64; 3]| (0..3).map(|i| (place[i] - corner[i]) * direction[i]).sum::<f64>();
+        let (right, up) = (along(self.geometry.right()) / dx, along(self.geometry.up()) / dy);
+        Point::new(right, (self.height - 1) as f64 - up)
+    }
+
     /// The shape of a cell.
     #[must_use]
     pub fn cell(&self) -> CellShape {
         CellShape::of(self.geometry.spacing())
+    }
+
+    /// The coordinates of columns and rows; `None` where the input says nothing about its place. Along the axes of the
+    /// world they are the world's, otherwise distances along the rows and columns.
+    #[must_use]
+    pub fn coordinates(&self) -> Option<[Coordinates; 2]> {
+        const NAMES: [&str; 3] = ["x", "y", "z"];
+        let geometry = self.geometry;
+        if !geometry.is_placed() {
+            return None;
+        }
+        let (corner, flat, [dx, dy]) = (geometry.corner(), geometry.flat().corner(), geometry.spacing());
+        let along =
+            |direction: [f64; 3]| (0..3).max_by(|&a, &b| direction[a].abs().total_cmp(&direction[b].abs()));
+        let on_axes = |direction: [f64; 3], other: usize, words: &str, step: f64| match along(direction) {
+            Some(axis) if !geometry.is_oblique() => {
+                (NAMES[axis].to_owned(), corner[axis], step * direction[axis])
+            }
+            _ => (words.to_owned(), flat[other], step),
+        };
+        let (name, first, step) = on_axes(geometry.right(), 0, "along the rows", dx);
+        let x = Coordinates { name, first, step };
+        let (name, lowest, up) = on_axes(geometry.up(), 1, "along the columns", dy);
+        let first = lowest + up * self.height.saturating_sub(1) as f64;
+        Some([x, Coordinates { name, first, step: -up }])
     }
 
     /// The geometry of the plane of cells.
@@ -108,28 +143,29 @@ fn push_story(data: &mut PolyData, story: &str) {
     data.field_data.push(FieldEntry { name: PROVENANCE.to_owned(), values });
 }
 
-/// Options of a map of lines and points: zero and non-finite tensors are hatched and, if lines follow eigenvectors,
-/// tensors with complex eigenvalues are shaded.
+/// Options of a map of lines and points: tensors that lines cannot follow are grey and, if lines follow eigenvectors,
+/// those with complex eigenvalues are shaded.
 fn plain_options(
     field: &Field<Tensor2>,
     following: Following,
-    title: &str,
     description: &str,
-    overlays: Vec<Overlay>,
+    options: PlainOptions,
 ) -> PlainOptions {
-    let missing = field.iter().filter(|(_, t)| t.is_zero() || !t.is_finite()).map(|(cell, _)| cell);
     let has_eigenvectors = following.axes.axes() != Axes::HalfAxes;
     let plain = field.without_rounding();
     let complex = plain.iter().filter(|(_, t)| has_eigenvectors && is_complex(t)).map(|(cell, _)| cell);
     PlainOptions {
         cell: following.cell,
-        title: title.to_owned(),
         description: description.to_owned(),
-        overlays,
-        missing: missing.collect(),
-        missing_label: "no tensor".to_owned(),
+        masked: masked(field),
         shaded: complex.collect(),
         shaded_label: "complex eigenvalues".to_owned(),
-        ..PlainOptions::default()
+        ..options
     }
+}
+
+/// Cells without a tensor, which every picture shows in grey: no material, a zero tensor, or one that is not finite.
+#[must_use]
+pub fn masked(field: &Field<Tensor2>) -> Vec<Cell> {
+    field.iter().filter(|(_, t)| t.is_zero() || !t.is_finite()).map(|(cell, _)| cell).collect()
 }

@@ -42,7 +42,7 @@ pub fn texture(field: &Field<Tensor2>, request: &TextureRequest) -> Result<Field
     }
 }
 
-/// A texture in grey, or in the colours of the anisotropy; with the default cell size of [`texture_map`].
+/// A texture in grey, or in the colours of the anisotropy.
 ///
 /// # Errors
 /// [`RenderError`] for a texture of another field.
@@ -51,8 +51,7 @@ pub fn picture(
     field: &Field<Tensor2>,
     request: &TextureRequest,
     tinted: bool,
-    title: &str,
-    cell_px: Option<usize>,
+    options: TextureOptions,
 ) -> Result<Scene, RenderError> {
     let samples = request.samples_a_cell();
     let tint = tinted.then(|| {
@@ -66,19 +65,16 @@ pub fn picture(
             range: Some((0.0, 1.0)),
         }
     });
-    let title = title.to_owned();
     let missing = Some("no tensor".to_owned());
     texture_map(
         texture,
         &TextureOptions {
-            title,
             samples_a_cell: samples,
             note: Some(smeared_words(request)),
             cell: request.following.cell,
             tint,
-            cell_px,
             missing,
-            ..TextureOptions::default()
+            ..options
         },
     )
 }

@@ -8,7 +8,7 @@ use tigereye_lines::{
     Family, LineEnd, LineOptions, MAX_POINTS, TensorLine, evenly_spaced, half_widths, tensor_line,
 };
 use tigereye_lines::{Followed, Following};
-use tigereye_render::{Overlay, PlainOptions, Rgba, Ribbon, Scene, plain_map};
+use tigereye_render::{PlainOptions, Rgba, Ribbon, Scene, plain_map};
 
 /// Colours of major and minor bands.
 const RIBBONS: [Rgba; 2] = [Rgba::hex(0x0072b2), Rgba::hex(0xd55e00)];
@@ -102,25 +102,18 @@ pub fn lines(field: &Field<Tensor2>, request: &LinesRequest) -> Result<FieldLine
 }
 
 impl FieldLines {
-    /// The lines on white, below `more`; cells without a tensor are hatched. The cell size defaults to that
-    /// of [`plain_map`].
+    /// The lines on white, below the overlays of `options`; cells without a tensor are grey.
     #[must_use]
-    pub fn picture(
-        &self,
-        field: &Field<Tensor2>,
-        title: &str,
-        more: Vec<Overlay>,
-        cell_px: Option<usize>,
-    ) -> Scene {
+    pub fn picture(&self, field: &Field<Tensor2>, options: PlainOptions) -> Scene {
         let overlays = [Family::Major, Family::Minor].into_iter().filter_map(|family| {
             let lines: Vec<&TensorLine> =
                 self.lines.iter().filter(|l| l.family == family).map(|l| &l.line).collect();
             let label = format!("{} lines: {}", family.name(), self.following().axes.words());
             (!lines.is_empty()).then(|| line_overlay(lines, family, &label))
         });
-        let overlays = overlays.chain(more).collect();
-        let options = plain_options(field, self.following(), title, "Tensor lines", overlays);
-        plain_map(field.grid(), &PlainOptions { ribbons: self.ribbons(), cell_px, ..options })
+        let overlays = overlays.chain(options.overlays.iter().cloned()).collect();
+        let options = PlainOptions { overlays, ribbons: self.ribbons(), ..options };
+        plain_map(field.grid(), &plain_options(field, self.following(), "Tensor lines", options))
     }
 
     fn ribbons(&self) -> Vec<Ribbon> {

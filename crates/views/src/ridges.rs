@@ -1,9 +1,10 @@
 //! Height ridges and contours of scalar images.
 
-use super::{push_line, push_story};
+use super::{Placement, gradient, push_line, push_story};
 use serde_json::Value;
 use thiserror::Error;
 use tigereye_core::{Cell, CellShape, Field, Grid, Point, math};
+use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{DataArray, ImageData, IoError, LTG_ARRAY, PROVENANCE, PolyData, Rows};
 use tigereye_lines::{
     ExtractionError, Polyline, Polylines, RidgeOptions, Surface, Volume, isolines, isosurface, ridge_lines,
@@ -59,6 +60,8 @@ pub struct ScalarImage {
     periodic: bool,
     /// Whether it is a gradient, whose third axis is a direction.
     is_gradient: bool,
+    /// Whether it is the mean of several layers.
+    is_mean: bool,
     /// The direction in which the rows of the file run.
     rows: Rows,
     /// Samples per side of a cell; more than 1 in images that this program sampled more finely.
@@ -111,11 +114,22 @@ impl ScalarImage {
             size: image.dimensions,
             periodic: is_gradient && whole && depth > 1,
             is_gradient,
+            is_mean: false,
             rows,
             samples_a_cell: if is_gradient { 1 } else { samples_a_cell(image) },
             origin: image.origin,
             axes,
         })
+    }
+
+    /// The mean over the layers: of a gradient, over its directions.
+    #[must_use]
+    pub fn mean(self) -> Self {
+        let [width, height, depth] = self.size;
+        let cells = width * height;
+        let sum = |i: usize| (0..depth).map(|layer| self.values[layer * cells + i]).sum::<f64>();
+        let values = (0..cells).map(|i| sum(i) / depth as f64).collect();
+        Self { values, size: [width, height, 1], periodic: false, is_mean: depth > 1, ..self }
     }
 
     /// Layers along the third axis.
@@ -161,6 +175,36 @@ impl ScalarImage {
         let grid = Grid::new(width, height).map_err(IoError::from)?;
         let first = layer * grid.cells();
         Ok(Field::from_fn(grid, |c: Cell| self.values[first + grid.index(c)]))
+    }
+
+    /// Where the cells of a layer lie; nowhere in images of cells without a place.
+    #[must_use]
+    pub fn placement(&self) -> Option<Placement> {
+        let [width, height, _] = self.size;
+        let samples = self.samples_a_cell;
+        let cells = Grid::new((width - 1).div_ceil(samples) + 1, (height - 1).div_ceil(samples) + 1).ok()?;
+        let length = |v: [f64; 3]| math::hypot(math::hypot(v[0], v[1]), v[2]);
+        let [[right, dx], [up, dy]] = [0, 1].map(|axis| {
+            let side = length(self.axes[axis]);
+            [self.axes[axis].map(|v| v / side), [side * samples as f64; 3]]
+        });
+        let lower = match self.rows {
+            Rows::Upwards => self.origin,
+            Rows::Downwards => return None,
+        };
+        let geometry = PlaneGeometry::new(lower, right, up, [dx[0], dy[0]]);
+        let is_plain = geometry == PlaneGeometry::new([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0; 2]);
+        (!is_plain).then(|| Placement::new(geometry, cells))
+    }
+
+    /// The quantity with its unit, as far as the array is one of this program's.
+    fn quantity(&self) -> String {
+        match self.array.as_str() {
+            _ if self.is_gradient && self.is_mean => gradient::Scalar::Mean.label(),
+            _ if self.is_gradient => gradient::Scalar::Slice.label(),
+            "FTLE" | "FTLE_smaller" if self.samples_a_cell > 1 => format!("{} / (1/cell)", self.array),
+            name => name.to_owned(),
+        }
     }
 
     fn volume(&self) -> Result<Volume<'_>, ExtractionError> {
@@ -311,21 +355,20 @@ impl Found {
     pub fn picture(
         &self,
         image: &ScalarImage,
-        title: &str,
         label: &str,
+        options: HeatOptions,
     ) -> Result<Option<Scene>, RidgesError> {
         let Self::Lines { layer, lines, .. } = self else { return Ok(None) };
         // In cells, as the field's other pictures.
         let mut overlay = line_overlay(lines, label, Rgba::hex(0xd62728));
         overlay.points.iter_mut().for_each(|p| *p /= image.samples_a_cell as f64);
         let options = HeatOptions {
-            title: title.to_owned(),
-            quantity: image.array.clone(),
+            quantity: image.quantity(),
             samples_a_cell: image.samples_a_cell,
             overlays: vec![overlay],
             missing: Some("no value".to_owned()),
             cell: image.shape(),
-            ..HeatOptions::default()
+            ..options
         };
         Ok(Some(heat_map(&image.layer(*layer)?, &options)))
     }

@@ -6,7 +6,7 @@ use tigereye_core::{Field, Tensor2};
 use tigereye_io::PolyData;
 use tigereye_lines::{DegeneratePoint, Family, LineEnd, LineOptions, TensorLine, Topology, evenly_spaced};
 use tigereye_lines::{Followed, Following};
-use tigereye_render::{Overlay, Rgba, Scene, plain_map};
+use tigereye_render::{Overlay, PlainOptions, Rgba, Scene, plain_map};
 
 /// The skeleton of a field.
 #[must_use]
@@ -27,17 +27,17 @@ pub fn picture(
     field: &Field<Tensor2>,
     following: Following,
     families: &[Family],
-    title: &str,
+    options: PlainOptions,
 ) -> Scene {
     let longest = following.longer_side(field.grid());
     let mut overlays = Vec::new();
     for &family in families {
         let lines: Vec<&TensorLine> =
             topology.separatrices.iter().filter(|s| s.family == family).map(|s| &s.line).collect();
-        let options = LineOptions { step: 0.2, length: longest, ..LineOptions::default() };
+        let line_options = LineOptions { step: 0.2, length: longest, ..LineOptions::default() };
         let followed = Followed::new(field, following);
         let around =
-            evenly_spaced(&followed.interpolated(), family, (longest / LINES_A_SIDE).max(0.5), &options);
+            evenly_spaced(&followed.interpolated(), family, (longest / LINES_A_SIDE).max(0.5), &line_options);
         let label = format!("{} lines: {}", family.name(), following.axes.words());
         overlays.push(Overlay { colour: CONTEXT, width_px: 0.8, ..line_overlay(&around, family, &label) });
         if !lines.is_empty() {
@@ -46,10 +46,10 @@ pub fn picture(
         }
     }
     overlays.extend(point_overlays(&topology.points));
-    plain_map(
-        field.grid(),
-        &plain_options(field, following, title, "Degenerate points and separatrices", overlays),
-    )
+    overlays.extend(options.overlays.iter().cloned());
+    let options = PlainOptions { overlays, ..options };
+    let description = "Degenerate points and separatrices";
+    plain_map(field.grid(), &plain_options(field, following, description, options))
 }
 
 /// Distance of the thin lines in parts of the longer side.

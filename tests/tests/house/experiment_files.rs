@@ -7,8 +7,9 @@ use std::fmt::Write as _;
 use syn::Type;
 use tigereye_core::Choice;
 use tigereye_lines::{Axes, Family, Major};
-use tigereye_render::GlyphColour;
+use tigereye_render::{AxisNumbers, ColourMap, GlyphColour};
 use tigereye_transport::{ENGINES, ScatteringRule, SharedWeights};
+use tigereye_views::added::Added;
 
 const PAGE: &str = "docs/reference/experiment-files.md";
 
@@ -24,10 +25,11 @@ writes an experiment to start from.
 ";
 
 /// The roots: heading, module and name of the type.
-const ROOTS: [(&str, &str, &str); 3] = [
+const ROOTS: [(&str, &str, &str); 4] = [
     ("The experiment", "experiment", "Experiment"),
     ("Field files, `NAME.field.ron`", "form::field_source", "FieldFile"),
     ("Scene files, `NAME.scene.ron`", "form::scene_file", "SceneFile"),
+    ("Style files, for `--style`", "form::style", "StyleFile"),
 ];
 
 /// Results of the forms' default functions, as written in a file.
@@ -62,7 +64,10 @@ fn names<T: Choice>() -> String {
 /// The names of a choice, as written in a file.
 fn names_of_choice(choice: &str) -> String {
     match choice {
+        "Added" => names::<Added>(),
         "Axes" => names::<Axes>(),
+        "AxisNumbers" => names::<AxisNumbers>(),
+        "ColourMap" => names::<ColourMap>(),
         "Family" => names::<Family>(),
         "GlyphColour" => names::<GlyphColour>(),
         "Major" => names::<Major>(),

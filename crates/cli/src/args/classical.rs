@@ -1,6 +1,7 @@
 //! The command line of the classical methods.
 
 use super::reading::ReadingArgs;
+use super::style::{OverlayArgs, StyleArgs};
 use super::values::{choice, families, input_help};
 use crate::error::CliError;
 use crate::input::Input;
@@ -52,7 +53,7 @@ impl AxesArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct LinesArgs {
-    /// Outputs by their extensions: .vtp, .png, .svg.
+    /// Outputs by their extensions: .vtp, .png, .svg, .pdf.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Which lines.
@@ -91,11 +92,13 @@ pub(crate) struct LinesArgs {
     pub(crate) ribbon: Option<f64>,
     #[command(flatten)]
     pub(crate) of: AxesArgs,
+    #[command(flatten)]
+    pub(crate) style: StyleArgs,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct TopologyArgs {
-    /// Outputs by their extensions: .vtp, .png, .svg.
+    /// Outputs by their extensions: .vtp, .png, .svg, .pdf.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Whose separatrices.
@@ -109,11 +112,13 @@ pub(crate) struct TopologyArgs {
     pub(crate) length: Option<f64>,
     #[command(flatten)]
     pub(crate) of: AxesArgs,
+    #[command(flatten)]
+    pub(crate) style: StyleArgs,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct LicArgs {
-    /// Outputs by their extensions: .png, .svg, .vti.
+    /// Outputs by their extensions: .png, .svg, .pdf, .vti.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Smear along both axes, along each as far as it is long (HyperLIC).
@@ -136,11 +141,15 @@ pub(crate) struct LicArgs {
     pub(crate) tint: bool,
     #[command(flatten)]
     pub(crate) of: AxesArgs,
+    #[command(flatten)]
+    pub(crate) overlay: OverlayArgs,
+    #[command(flatten)]
+    pub(crate) style: StyleArgs,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct FtleArgs {
-    /// Outputs by their extensions: .vti, .png, .svg.
+    /// Outputs by their extensions: .vti, .png, .svg, .pdf.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Which lines.
@@ -157,13 +166,17 @@ pub(crate) struct FtleArgs {
     pub(crate) step: f64,
     #[command(flatten)]
     pub(crate) of: AxesArgs,
+    #[command(flatten)]
+    pub(crate) overlay: OverlayArgs,
+    #[command(flatten)]
+    pub(crate) style: StyleArgs,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct GlyphsArgs {
     #[arg(help = input_help())]
     pub(crate) input: String,
-    /// Outputs by their extensions: .vtp, .png, .svg.
+    /// Outputs by their extensions: .vtp, .png, .svg, .pdf.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// What stands for a tensor.
@@ -184,13 +197,15 @@ pub(crate) struct GlyphsArgs {
     pub(crate) every: Option<usize>,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) style: StyleArgs,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct RidgesArgs {
     /// Image data with one number a point: a gradient of `ltg`, exponents of `ftle`, or any other .vti.
     pub(crate) input: String,
-    /// Outputs by their extensions: .vtp; .png and .svg show one layer.
+    /// Outputs by their extensions: .vtp; .png, .svg and .pdf show one layer.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// The array, where there are several.
@@ -199,6 +214,9 @@ pub(crate) struct RidgesArgs {
     /// Lines in one layer (from 0) instead of a surface in all of them.
     #[arg(long, value_name = "N")]
     pub(crate) layer: Option<usize>,
+    /// The mean over all layers instead of one: of a gradient, over its directions.
+    #[arg(long, conflicts_with = "layer")]
+    pub(crate) mean: bool,
     /// The contour of a value instead of ridges.
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, value_parser = parse_level,
           conflicts_with_all = ["least_value", "least_strength", "least_length", "direction_length", "samples"])]
@@ -223,6 +241,8 @@ pub(crate) struct RidgesArgs {
     /// Summary as JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) style: StyleArgs,
 }
 
 /// Shortest and longest step, cells.

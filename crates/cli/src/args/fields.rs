@@ -2,6 +2,7 @@
 
 use super::light::ProfileArgs;
 use super::reading::ReadingArgs;
+use super::style::StyleArgs;
 use super::values::{choice, input_help, parse_cell};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
@@ -43,7 +44,7 @@ pub(crate) struct FieldNewArgs {
 pub(crate) struct FieldShowArgs {
     #[arg(help = input_help())]
     pub(crate) input: String,
-    /// The sheet, .png or .svg.
+    /// The sheet, .png, .svg or .pdf.
     #[arg(short, long = "output", value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// Cell that shines, column and row; by default the one nearest to the middle whose tensor is not zero.
@@ -59,6 +60,8 @@ pub(crate) struct FieldShowArgs {
     pub(crate) profiles: ProfileArgs,
     #[command(flatten)]
     pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) style: StyleArgs,
 }
 
 #[derive(Debug, Args)]

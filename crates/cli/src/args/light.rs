@@ -1,6 +1,7 @@
 //! The command line of propagations and gradients.
 
 use super::reading::ReadingArgs;
+use super::style::{OverlayArgs, StyleArgs};
 use super::values::{
     choice, medium_help, parse_bytes, parse_count, parse_directions, parse_normalization, parse_percentage,
     parse_seconds, parse_seed, parse_shard, parse_side, parse_sketches, parse_threads, parse_threshold,
@@ -102,6 +103,10 @@ pub(crate) struct PropagateArgs {
     /// has lights of its own where none is given.
     #[arg(long = "light", value_name = "X,Y[,PROFILE]", allow_hyphen_values = true)]
     pub(crate) lights: Vec<String>,
+    /// A file of lights, one per line as for --light; `#` begins a comment. Each makes results of its own, whose names
+    /// have its number in the list before the extension: NAME-1.png.
+    #[arg(long = "lights", value_name = "FILE", conflicts_with_all = ["lights", "towards"])]
+    pub(crate) light_list: Option<PathBuf>,
     /// The lights flash once instead of shining all the time.
     #[arg(long)]
     pub(crate) impulse: bool,
@@ -112,8 +117,8 @@ pub(crate) struct PropagateArgs {
     /// receiver: column, row and, after a further comma, its sensitivity as an expression in `theta` (default 1).
     #[arg(long, value_name = "X,Y[,PROFILE]", allow_hyphen_values = true, conflicts_with_all = ["lights", "impulse", "steps"])]
     pub(crate) towards: Option<String>,
-    /// Outputs by their extensions: .vti, .npy, .png, .svg; .pvd has a frame for every step, in the folder NAME beside
-    /// NAME.pvd; .apng is an animation of the energy, a frame for every step or every n-th.
+    /// Outputs by their extensions: .vti, .npy, .png, .svg, .pdf; .pvd has a frame for every step, in the folder NAME
+    /// beside NAME.pvd; .apng is an animation of the energy, a frame for every step or every n-th.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// What pictures show.
@@ -124,6 +129,10 @@ pub(crate) struct PropagateArgs {
     /// Summary as JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) overlay: OverlayArgs,
+    #[command(flatten)]
+    pub(crate) style: StyleArgs,
 }
 
 /// What a picture of a light distribution shows.
@@ -139,7 +148,7 @@ pub(crate) enum Picture {
 pub(crate) struct LtgArgs {
     #[arg(help = medium_help())]
     pub(crate) input: String,
-    /// Outputs by their extensions: .vti, .npy; .png, .svg show the only slice, or the mean over the slices. With
+    /// Outputs by their extensions: .vti, .npy; .png, .svg, .pdf show the only slice, or the mean over the slices. With
     /// --shard one .part.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
@@ -151,6 +160,15 @@ pub(crate) struct LtgArgs {
     /// Only these angular slices (sample indices: 90 degrees are S/4); the output then holds just them, ascending.
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', value_parser = parse_count, allow_hyphen_values = true)]
     pub(crate) slices: Option<Vec<usize>>,
+    /// The same slices by their directions, degrees.
+    #[arg(
+        long,
+        value_name = "A,B,C",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        conflicts_with = "slices"
+    )]
+    pub(crate) slices_deg: Option<Vec<f64>>,
     /// Precision of the computation; f64 by default, f32 for an estimate.
     #[arg(long, value_parser = choice::<Precision>())]
     pub(crate) precision: Option<Precision>,
@@ -164,8 +182,8 @@ pub(crate) struct LtgArgs {
     /// Seed of the sketches; 0 by default.
     #[arg(long, value_name = "K", value_parser = parse_seed, allow_hyphen_values = true)]
     pub(crate) seed: Option<u64>,
-    /// Write what there is of an estimate to FILE (.vti, .npy, .png, .svg) as soon as there is some, and again each
-    /// time the error has halved.
+    /// Write what there is of an estimate to FILE (.vti, .npy, .png, .svg, .pdf) as soon as there is some, and again
+    /// each time the error has halved.
     #[arg(long, value_name = "FILE")]
     pub(crate) preview: Option<PathBuf>,
     #[command(flatten)]
@@ -182,6 +200,10 @@ pub(crate) struct LtgArgs {
     /// Summary as JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) overlay: OverlayArgs,
+    #[command(flatten)]
+    pub(crate) style: StyleArgs,
 }
 
 #[derive(Debug, Args)]
@@ -189,12 +211,14 @@ pub(crate) struct MergeArgs {
     /// What `ltg --shard` wrote, every shard once, in any order.
     #[arg(required = true, value_name = "PART")]
     pub(crate) parts: Vec<PathBuf>,
-    /// Outputs by their extensions, as those of `ltg`: .vti, .npy, .png, .svg.
+    /// Outputs by their extensions, as those of `ltg`: .vti, .npy, .png, .svg, .pdf.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     /// Summary as JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) style: StyleArgs,
 }
 
 #[derive(Debug, Args)]

@@ -1,7 +1,7 @@
 //! `tigereye field`: the generators, and work on a field of one's own.
 
 use crate::args::fields::{FieldLintArgs, FieldListArgs, FieldNewArgs, FieldShowArgs};
-use crate::commands::PNG_SCALE;
+use crate::commands::drawing;
 use crate::commands::propagate::check_outputs;
 use crate::commands::{counted, print_json, print_text, quoted};
 use crate::error::CliError;
@@ -17,6 +17,7 @@ use tigereye_experiments::sheet::{SheetOptions, sheet};
 use tigereye_fields::{Generator, Parameter, ParameterKind, generators};
 use tigereye_input::lint::{self, Oddity};
 use tigereye_ltg::SweepObserver;
+use tigereye_render::Colours;
 
 pub(crate) fn list(args: &FieldListArgs) -> Result<u8, CliError> {
     if args.json {
@@ -73,11 +74,13 @@ pub(crate) fn new(args: &FieldNewArgs) -> Result<u8, CliError> {
 }
 
 pub(crate) fn show(args: &FieldShowArgs) -> Result<u8, CliError> {
-    check_outputs(std::slice::from_ref(&args.output), &["png", "svg"])?;
+    check_outputs(std::slice::from_ref(&args.output), &drawing::PICTURES)?;
+    let style = drawing::style(&args.style, Colours::Kinds)?;
+    drawing::check_whole_page(&args.style)?;
     let input = Input::open_for_squares(&args.input, &args.reading)?;
     input.check_apart(std::slice::from_ref(&args.output))?;
     let options = SheetOptions {
-        title: input.title.clone().unwrap_or_else(|| input.name.clone()),
+        title: style.title.clone().or(input.title.clone()).unwrap_or_else(|| input.name.clone()),
         rule: args.profiles.rule(),
         scattering: args.scattering,
         light: args.light.map(|[x, y]| Cell::new(x, y)),
@@ -88,14 +91,9 @@ pub(crate) fn show(args: &FieldShowArgs) -> Result<u8, CliError> {
     let picture = sheet(&input.field, &options, &Interruption);
     interrupt::check()?;
     let picture = picture.map_err(|e| CliError::input(&input.name, e))?;
-    let name = args.output.display().to_string();
-    let bytes = if files::extension(&args.output) == "png" {
-        picture.to_png(PNG_SCALE)
-    } else {
-        picture.to_svg().map(String::into_bytes)
-    };
-    files::write(&args.output, &bytes.map_err(|e| CliError::input(&name, e))?)?;
-    let grid = input.field.grid();
+    let picture = style.fitted(picture);
+    files::write(&args.output, &drawing::encoded(&picture, &args.output, &style)?)?;
+    let (grid, name) = (input.field.grid(), args.output.display());
     print_text(&format!("sheet of {} x {} tensors written to {name}\n", grid.width(), grid.height()))?;
     Ok(0)
 }

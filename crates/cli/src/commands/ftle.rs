@@ -1,17 +1,24 @@
 //! `tigereye ftle`: the finite-time Lyapunov exponent on tensor lines.
 
 use crate::args::classical::FtleArgs;
+use crate::commands::overlaid::Overlaid;
 use crate::commands::{drawing, print_json, print_text};
 use crate::error::CliError;
 use serde_json::json;
 use tigereye_input::provenance::with_rows;
 use tigereye_io::{Rows, vti};
 use tigereye_lines::FtleOptions;
+use tigereye_render::{Colours, HeatOptions};
+use tigereye_views::added::{Additions, Scalars};
 use tigereye_views::{ftle, image};
 
 pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
-    drawing::check_outputs(&args.outputs, &["vti", "png", "svg"])?;
+    drawing::check_outputs(&args.outputs, &["vti", "png", "svg", "pdf"])?;
     let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
+    let style = drawing::style(&args.style, Colours::Values)?;
+    let style = drawing::placed(style, &drawing::placement(&input), input.unit);
+    let overlaid = Overlaid::read(&args.overlay)?;
+    overlaid.check(&drawing::placement(&input), true, true, false)?;
     let following = args.of.following(&input)?;
     let axes = following.axes;
     let family = args.family;
@@ -31,7 +38,16 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     let story = drawing::story(&input, parameters, &args.of.reading);
     drawing::write(
         &args.outputs,
-        &|| Ok(ftle::picture(&found, axes, &args.of.input, Vec::new(), None)),
+        &style,
+        &|| {
+            let (title, style) = (args.of.input.clone(), style.clone());
+            let scalars = Scalars { values: &found.larger, samples };
+            let placement = drawing::placement(&input);
+            let Additions { overlays, glyphs } =
+                overlaid.additions(Some(&input.field), &placement, Some(scalars))?;
+            let options = HeatOptions { title, style, overlays, glyphs, ..HeatOptions::default() };
+            Ok(ftle::picture(&found, &input.field, axes, options))
+        },
         &|| {
             let arrays = [("FTLE", &found.larger), ("FTLE_smaller", &found.smaller)];
             vti::write(&image(&arrays, [samples; 2], &drawing::placement(&input), &story))

@@ -7,11 +7,11 @@ use crate::files;
 use serde_json::json;
 use tigereye_core::{CellShape, Choice, Symmetry};
 use tigereye_io::vtp;
-use tigereye_render::{GlyphColour, GlyphKind, GlyphOptions, glyphs};
+use tigereye_render::{Colours, GlyphColour, GlyphKind, GlyphOptions, glyphs};
 use tigereye_views::glyphs::{check, poly_data};
 
 pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
-    drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
+    drawing::check_outputs(&args.outputs, &["vtp", "png", "svg", "pdf"])?;
     let input = drawing::open_input(&args.input, &args.reading, &args.outputs)?;
     let kind = match (args.kind, args.gamma) {
         (GlyphKind::Superquadric { .. }, Some(gamma)) => GlyphKind::Superquadric { gamma },
@@ -29,6 +29,9 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
             "is the sharpness of superquadrics: expected --kind superquadric",
         ));
     }
+    let colours = if colour == GlyphColour::Anisotropy { Colours::Quantity } else { Colours::Kinds };
+    let style =
+        drawing::placed(drawing::style(&args.style, colours)?, &drawing::placement(&input), input.unit);
     let cell = CellShape::of(input.geometry.spacing());
     let options = GlyphOptions {
         title,
@@ -37,6 +40,7 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
         colour,
         every: args.every,
         cell,
+        style: style.clone(),
         ..GlyphOptions::default()
     };
     let parameters = json!({ "kind": args.kind.word(), "scale": args.scale.word(), "every": args.every });
@@ -44,7 +48,7 @@ pub(crate) fn run(args: &GlyphsArgs) -> Result<u8, CliError> {
     if args.outputs.iter().any(|o| files::extension(o) == "vtp") {
         check(input.field.grid(), args.every).map_err(|e| CliError::input(&args.input, e))?;
     }
-    drawing::write(&args.outputs, &|| Ok(glyphs(&input.field, &options)), &|| {
+    drawing::write(&args.outputs, &style, &|| Ok(glyphs(&input.field, &options)), &|| {
         vtp::write(&poly_data(&input.field, &options, &drawing::placement(&input), &story))
     })?;
     let grid = input.field.grid();

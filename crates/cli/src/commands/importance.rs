@@ -1,8 +1,10 @@
 //! `tigereye propagate --towards`: where the light at a receiver comes from.
 
 use crate::args::light::{Picture, PropagateArgs};
+use crate::commands::drawing::{self, is_picture};
 use crate::commands::light_options::{cell_and_profile, parameters};
-use crate::commands::{PNG_SCALE, advice, command_line, print_json, print_text};
+use crate::commands::overlaid::Overlaid;
+use crate::commands::{advice, command_line, print_json, print_text};
 use crate::error::CliError;
 use crate::medium::MediumInput;
 use crate::{files, interrupt, system};
@@ -13,8 +15,9 @@ use std::time::Instant;
 use tigereye_core::{Cell, CellShape, LightDistribution, TransmissionField};
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::{Rows, npy, vti};
-use tigereye_render::{PolarOptions, Scene, TransmissionScale, polar_overlay};
+use tigereye_render::{HeatOptions, PolarOptions, Scene, Style, TransmissionScale, heat_map, polar_overlay};
 use tigereye_transport::{LinearScattering, Scattering, ScatteringRule, StoppingRule, TransportError};
+use tigereye_views::added::{Additions, Scalars};
 use tigereye_views::light;
 use tigereye_views::total_anisotropy::ThinCells;
 
@@ -28,6 +31,7 @@ pub(super) fn importance(
     args: &PropagateArgs,
     input: &MediumInput,
     receiver: &str,
+    (style, overlaid): (&Style, &Overlaid),
     start: Instant,
 ) -> Result<u8, CliError> {
     if args.scheme.scattering == ScatteringRule::Joint {
@@ -42,7 +46,7 @@ pub(super) fn importance(
         ));
     }
     if let Some(output) = args.outputs.iter().find(|o| matches!(&*files::extension(o), "pvd" | "apng")) {
-        let problem = "importance has no steps to show: expected .vti, .npy, .png or .svg";
+        let problem = "importance has no steps to show: expected .vti, .npy, .png, .svg or .pdf";
         return Err(CliError::input(&output.display().to_string(), problem));
     }
     let directions = args.scheme.directions;
@@ -64,20 +68,20 @@ pub(super) fn importance(
         TransportError::Unsettled { .. } => CliError::input(input.name(), e),
         e => CliError::input("--towards", e),
     })?;
-    let parameters = parameters(args, &stopping, input, rule);
+    let parameters = parameters(args, &[], &stopping, input, rule);
     let rows = Rows::of_results(input.geometry());
     let story = provenance(&command_line(), &with_rows(parameters, rows), input.blake3());
     for output in &args.outputs {
-        let drawn = || picture(args, input, &transmission, &importance, (cell, thin.as_ref()));
+        let drawn =
+            || picture(args, input, &transmission, &importance, (cell, thin.as_ref()), (style, overlaid));
         let fault = |e: &dyn std::fmt::Display| CliError::input(&output.display().to_string(), e);
         let bytes = match files::extension(Path::new(output)).as_str() {
+            _ if is_picture(output) => drawing::encoded(&drawn()?, output, style)?,
             "npy" => npy::write_light(&importance),
-            "vti" => {
+            _ => {
                 let image = tigereye_io::image_from_light(&importance, input.geometry(), &story);
                 vti::write(&image).map_err(|e| fault(&e))?
             }
-            "png" => drawn().to_png(PNG_SCALE).map_err(|e| fault(&e))?,
-            _ => drawn().to_svg().map_err(|e| fault(&e))?.into_bytes(),
         };
         files::write(output, &bytes)?;
     }
@@ -113,40 +117,47 @@ fn picture(
     transmission: &TransmissionField,
     importance: &LightDistribution,
     (receiver, thin): (Cell, Option<&ThinCells>),
-) -> Scene {
-    let overlays = thin.map(ThinCells::overlay).into_iter().collect();
+    (style, overlaid): (&Style, &Overlaid),
+) -> Result<Scene, CliError> {
+    let mean = importance.energy().map(|e| e / tigereye_core::math::TAU);
+    let scalars = Scalars { values: &mean, samples: 1 };
+    let Additions { mut overlays, glyphs } =
+        overlaid.additions(input.tensors(), &input.placement(), Some(scalars))?;
+    // Beneath the others.
+    overlays.splice(0..0, thin.map(ThinCells::overlay));
     let (title, walls) =
         (format!("importance for ({}, {}): {}", receiver.x, receiver.y, input.title()), input.surfaces());
     let cell = CellShape::of(input.geometry().spacing());
-    match args.picture {
+    Ok(match args.picture {
         Picture::Overlay => {
             let options = PolarOptions {
+                overlays,
                 title,
                 sources: vec![receiver],
                 source_name: "receiver",
                 quantity: "importance",
                 walls: walls.cloned(),
                 transmission: TransmissionScale::Rate,
-                overlays,
                 cell,
+                masked: input.masked(),
+                style: style.clone(),
                 ..PolarOptions::default()
             };
             polar_overlay(Some(transmission), Some(importance), &options)
         }
         Picture::Energy => {
-            let request = light::Request {
-                title,
-                quantity: Some("mean importance over direction".to_owned()),
-                decades: Some(DECADES),
-                sources: vec![receiver],
-                source_name: Some("receiver"),
-                dark_name: Some("unimportant"),
-                walls: walls.cloned(),
+            let options = HeatOptions {
                 overlays,
+                glyphs,
+                title,
+                sources: vec![receiver],
+                walls: walls.cloned(),
                 cell,
-                ..light::Request::default()
+                masked: input.masked(),
+                style: style.clone(),
+                ..light::importance_options(Some(DECADES))
             };
-            light::picture(&importance.energy().map(|e| e / tigereye_core::math::TAU), request)
+            heat_map(&mean, &options)
         }
-    }
+    })
 }

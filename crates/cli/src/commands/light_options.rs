@@ -33,13 +33,14 @@ pub(super) fn cell_and_profile(
 /// The parameters of a propagation, for its provenance.
 pub(super) fn parameters(
     args: &PropagateArgs,
+    lights: &[String],
     stopping: &Stopping,
     input: &MediumInput,
     rule: ProfileRule,
 ) -> Value {
     let mut parameters = json!({
         "input": args.input,
-        "light": args.lights,
+        "light": lights,
         "impulse": args.impulse,
         "steps": args.steps,
         "directions": args.scheme.directions.count(),

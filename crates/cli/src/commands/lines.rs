@@ -8,6 +8,7 @@ use serde_json::json;
 use tigereye_core::{Point, Tensor2};
 use tigereye_io::vtp;
 use tigereye_lines::{Inertia, LineOptions, Method};
+use tigereye_render::{Colours, PlainOptions};
 use tigereye_views::lines::{LinesRequest, Seeds, lines, parameters};
 
 /// Distance of lines in parts of the longer side.
@@ -18,11 +19,16 @@ const TOLERANCE: f64 = 1e-6;
 const SIDES: f64 = 4.0;
 
 pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
-    drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
+    drawing::check_outputs(&args.outputs, &["vtp", "png", "svg", "pdf"])?;
     let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
     if args.tolerance.is_some() && args.method != MethodName::Rk45 {
         return Err(CliError::input("--tolerance", "is that of adaptive steps: expected --method rk45"));
     }
+    let style = drawing::placed(
+        drawing::style(&args.style, Colours::Kinds)?,
+        &drawing::placement(&input),
+        input.unit,
+    );
     let request = request(args, &input)?;
     drawing::check_steps(request.options.length, request.options.step)?;
     check_seeds(args, &input)?;
@@ -30,7 +36,11 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
     let story = drawing::story(&input, parameters(&request), &args.of.reading);
     drawing::write(
         &args.outputs,
-        &|| Ok(found.picture(&input.field, &args.of.input, Vec::new(), None)),
+        &style,
+        &|| {
+            let (title, style) = (args.of.input.clone(), style.clone());
+            Ok(found.picture(&input.field, PlainOptions { title, style, ..PlainOptions::default() }))
+        },
         &|| vtp::write(&found.poly_data(&drawing::placement(&input), &story)),
     )?;
     let (axes, length) = (request.following.axes, found.length());

@@ -2,7 +2,10 @@
 
 use crate::args::light::LtgArgs;
 use crate::checkpoint::Checkpoint;
+use crate::commands::drawing;
+use crate::commands::overlaid::Overlaid;
 use crate::commands::propagate::check_outputs;
+use crate::commands::volume::Look;
 use crate::commands::{advice, command_line, print_json, print_text, volume};
 use crate::error::CliError;
 use crate::input::insert_reading;
@@ -14,19 +17,25 @@ use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Instant;
 use tigereye_core::{Choice, ProfileRule};
+use tigereye_experiments::lights::sample_of;
 use tigereye_ltg::{
     LtgError, LtgSettings, Precision, Shard, SketchSettings, SketchSums, SketchedGradient, check_fit,
     check_linear_fit, linear_sweep_part, omega_step_of_volumes, sweep_part,
 };
+use tigereye_render::{Colours, Style};
 use tigereye_transport::{LinearScattering, Scattering, ScatteringRule, StopMeasure, TransportError};
 
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     check_method(args)?;
     check_places(args)?;
+    let style = drawing::style(&args.style, Colours::Values)?;
     let start = Instant::now();
     let input = MediumInput::open(&args.input, &args.scheme.reading)?;
     input.check_apart(&args.outputs)?;
     input.check_apart(args.preview.as_slice())?;
+    let overlaid = Overlaid::read(&args.overlay)?;
+    overlaid.check(&input.placement(), input.tensors().is_some(), true, false)?;
+    let look = look(&input, &style, &overlaid);
     let settings = settings_of(args)?;
     let rule = input.rule(&args.scheme.profiles)?;
     let thin = input.thin_cells(rule);
@@ -34,7 +43,7 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     let parameters = parameters(args, &settings, &input, rule);
     let identity = Identity::new(&parameters, input.blake3(), *input.geometry(), thin);
     let (computed, costs) = system::on_threads(args.resources.threads, || {
-        compute(args, &settings, rule, &input, &identity, start)
+        compute(args, &settings, rule, (&input, &look), &identity, start)
     })?;
     interrupt::check()?;
     let summary = computed.kept().summary(&identity, &costs);
@@ -45,7 +54,7 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
         }
         _ => {
             let gradient = computed.into_gradient().map_err(fault)?;
-            volume::write(&args.outputs, &gradient, input.surfaces(), input.title(), &identity)?;
+            volume::write(&args.outputs, &gradient, &look, &identity)?;
             if args.view {
                 volume::write_scripts(&args.outputs, input.geometry())?;
             }
@@ -110,7 +119,7 @@ fn check_places(args: &LtgArgs) -> Result<(), CliError> {
     }
     if args.shard.is_none() {
         if let Some(output) = args.outputs.iter().find(|output| is_part(output)) {
-            let problem = "a part needs --shard K/N: expected .vti, .npy, .png or .svg";
+            let problem = "a part needs --shard K/N: expected .vti, .npy, .png, .svg or .pdf";
             return Err(CliError::input(&output.display().to_string(), problem));
         }
         check_outputs(&args.outputs, &volume::ENDINGS)?;
@@ -132,7 +141,7 @@ fn compute(
     args: &LtgArgs,
     settings: &LtgSettings,
     rule: ProfileRule,
-    input: &MediumInput,
+    (input, look): (&MediumInput, &Look<'_>),
     identity: &Identity,
     start: Instant,
 ) -> Result<(Content, Costs), CliError> {
@@ -154,7 +163,7 @@ fn compute(
     };
     let (before, found) = found.map_or((Costs::default(), None), |f| (f.costs, Some(f.content)));
     let threads = rayon::current_num_threads();
-    let preview = |sums: &SketchSums| preview(args, input, identity, sums);
+    let preview = |sums: &SketchSums| preview(args, look, identity, sums);
     let watch = Watch::new(&args.input, start, checkpoint, before, threads, settings.level.name());
     let watch = if args.preview.is_some() { watch.with_preview(&preview) } else { watch };
     let computed = match found {
@@ -227,14 +236,23 @@ fn sketches(
 const PILOT_SKETCHES: u32 = 128;
 
 /// Writes the estimate so far.
-fn preview(
-    args: &LtgArgs,
-    input: &MediumInput,
-    identity: &Identity,
-    sums: &SketchSums,
-) -> Result<(), CliError> {
+fn preview(args: &LtgArgs, look: &Look<'_>, identity: &Identity, sums: &SketchSums) -> Result<(), CliError> {
     let gradient = Content::Sketched(sums.clone()).into_gradient().map_err(fault)?;
-    volume::write(args.preview.as_slice(), &gradient, input.surfaces(), input.title(), identity)
+    volume::write(args.preview.as_slice(), &gradient, look, identity)
+}
+
+/// What pictures of the gradient show beside it.
+fn look<'a>(input: &'a MediumInput, style: &Style, overlaid: &'a Overlaid) -> Look<'a> {
+    let (title, walls, masked) = (input.title(), input.surfaces(), input.masked());
+    Look {
+        title,
+        walls,
+        masked,
+        style: style.clone(),
+        unit: input.unit(),
+        tensors: input.tensors(),
+        overlaid,
+    }
 }
 
 /// Names the option behind a refusal.
@@ -278,11 +296,19 @@ fn of_program(args: &LtgArgs, error: LtgError) -> LtgError {
     }
 }
 
+/// The angular slices asked for, as sample indices.
+fn slices(args: &LtgArgs) -> Result<Option<Vec<usize>>, CliError> {
+    let Some(degrees) = &args.slices_deg else { return Ok(args.slices.clone()) };
+    let sample = |deg: &f64| sample_of(*deg, args.scheme.directions);
+    let samples = degrees.iter().map(sample).collect::<Result<Vec<_>, _>>();
+    samples.map(Some).map_err(|problem| CliError::input("--slices-deg", problem))
+}
+
 fn settings_of(args: &LtgArgs) -> Result<LtgSettings, CliError> {
     let mut settings = LtgSettings {
         stopping: args.scheme.stopping(),
         omega_step: args.omega_step.unwrap_or_else(|| omega_step_of_volumes(args.scheme.directions)),
-        slices: args.slices.clone(),
+        slices: slices(args)?,
         memory_bytes: memory_bound(args).saturating_sub(PROGRAM_BYTES),
         level: system::level()?,
         precision: args.precision.unwrap_or(if args.estimate.is_some() || args.error.is_some() {

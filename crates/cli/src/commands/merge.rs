@@ -1,7 +1,10 @@
 //! `tigereye merge`: the gradient volume of shards computed apart.
 
 use crate::args::light::MergeArgs;
+use crate::commands::drawing;
+use crate::commands::overlaid::Overlaid;
 use crate::commands::propagate::check_outputs;
+use crate::commands::volume::Look;
 use crate::commands::{print_json, print_text, volume};
 use crate::error::CliError;
 use crate::medium::read_scene;
@@ -10,6 +13,7 @@ use crate::{files, interrupt};
 use std::path::{Path, PathBuf};
 use tigereye_experiments::scene::{PreparedScene, is_scene_file};
 use tigereye_ltg::Shard;
+use tigereye_render::Colours;
 
 /// Names listed in a message.
 const LISTED: usize = 8;
@@ -25,6 +29,7 @@ struct Taken {
 
 pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     check_outputs(&args.outputs, &volume::ENDINGS)?;
+    let style = drawing::style(&args.style, Colours::Values)?;
     let mut taken: Vec<Taken> = Vec::new();
     let mut sum = None;
     for path in &args.parts {
@@ -43,12 +48,16 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     let identity = taken[0].identity.clone();
     let summary = sum.kept().summary(&identity, &costs(&taken));
     let gradient = sum.into_gradient().map_err(|e| CliError::input(&names(&taken), e))?;
-    let drawn = args.outputs.iter().any(|output| volume::is_picture(output));
+    let drawn = args.outputs.iter().any(|output| drawing::is_picture(output));
     let scene = if drawn { scene_of(&identity, &args.outputs)? } else { None };
     let walls = scene.as_ref().map(|scene| &scene.layout.surfaces);
     let input = identity.parameters["input"].as_str().unwrap_or_default();
     let title = scene.as_ref().map_or(input, |scene| &scene.title);
-    volume::write(&args.outputs, &gradient, walls, title, &identity)?;
+    // Parts do not say which cells have no tensor.
+    let overlaid = Overlaid::default();
+    let look =
+        Look { title, walls, masked: Vec::new(), style, unit: None, tensors: None, overlaid: &overlaid };
+    volume::write(&args.outputs, &gradient, &look, &identity)?;
     if args.json {
         print_json(&summary)?
     } else {

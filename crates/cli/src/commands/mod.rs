@@ -17,6 +17,7 @@ pub(crate) mod light_options;
 pub(crate) mod lines;
 pub(crate) mod ltg;
 pub(crate) mod merge;
+pub(crate) mod overlaid;
 pub(crate) mod propagate;
 pub(crate) mod reproduce;
 pub(crate) mod review;
@@ -27,9 +28,6 @@ pub(crate) mod volume;
 use crate::error::CliError;
 use serde_json::Value;
 use std::io::{ErrorKind, Write};
-
-/// Resolution of PNG pictures.
-const PNG_SCALE: f64 = 2.0;
 
 /// Prints JSON to standard output.
 pub(crate) fn print_json(value: &Value) -> Result<(), CliError> {

@@ -9,11 +9,11 @@ use std::path::Path;
 use tigereye_input::provenance::{hash_of_bytes, provenance};
 use tigereye_io::{vti, vtp};
 use tigereye_lines::{RidgeOptions, Threshold};
-use tigereye_render::Scene;
+use tigereye_render::{Colours, HeatOptions, Scene};
 use tigereye_views::ridges::{Feature, Found, ScalarImage, find};
 
 pub(crate) fn run(args: &RidgesArgs) -> Result<u8, CliError> {
-    drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
+    drawing::check_outputs(&args.outputs, &["vtp", "png", "svg", "pdf"])?;
     files::check_apart(std::slice::from_ref(&args.input), &args.outputs)?;
     let fault = |problem: String| CliError::input(&args.input, problem);
     let path = Path::new(&args.input);
@@ -23,12 +23,14 @@ pub(crate) fn run(args: &RidgesArgs) -> Result<u8, CliError> {
     let bytes = files::read(path)?;
     let image = vti::read(&bytes).map_err(|e| fault(e.to_string()))?;
     let image = ScalarImage::of(&image, args.array.as_deref()).map_err(|e| fault(e.to_string()))?;
-    let is_picture = |output: &std::path::PathBuf| files::extension(output) != "vtp";
-    if let Some(output) = args.outputs.iter().find(|o| is_picture(o))
+    let image = if args.mean { image.mean() } else { image };
+    let style = drawing::style(&args.style, Colours::Values)?;
+    let style = image.placement().map_or(style.clone(), |place| drawing::placed(style, &place, None));
+    if let Some(output) = args.outputs.iter().find(|o| drawing::is_picture(o))
         && image.layers() > 1
         && args.layer.is_none()
     {
-        let problem = "shows one layer: expected --layer, or .vtp for the surface of all of them";
+        let problem = "shows one layer: expected --layer, --mean, or .vtp for the surface of all of them";
         return Err(CliError::input(&output.display().to_string(), problem));
     }
     let is_flat = image.layers() == 1 || args.layer.is_some();
@@ -47,6 +49,7 @@ pub(crate) fn run(args: &RidgesArgs) -> Result<u8, CliError> {
         "input": args.input,
         "array": image.array,
         "layer": args.layer,
+        "mean": args.mean,
         "contour": args.contour,
         "least_value": args.least_value,
         "least_strength": args.least_strength,
@@ -57,9 +60,12 @@ pub(crate) fn run(args: &RidgesArgs) -> Result<u8, CliError> {
     });
     let story = provenance(&command_line(), &parameters, &hash_of_bytes(&bytes));
     let label = if args.contour.is_some() { "contour" } else { "height ridges" };
-    let picture = found.picture(&image, &args.input, label).map_err(|e| fault(e.to_string()))?;
+    let title = args.input.clone();
+    let options = HeatOptions { title, style: style.clone(), ..HeatOptions::default() };
+    let picture = found.picture(&image, label, options).map_err(|e| fault(e.to_string()))?;
     drawing::write(
         &args.outputs,
+        &style,
         &|| Ok(picture.clone().unwrap_or_else(|| Scene::sized(1.0, 1.0))),
         &|| vtp::write(&found.poly_data(&image, &story)),
     )?;

@@ -6,12 +6,18 @@ use crate::error::CliError;
 use serde_json::json;
 use tigereye_io::vtp;
 use tigereye_lines::LineOptions;
+use tigereye_render::{Colours, PlainOptions};
 use tigereye_views::topology;
 
 pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
-    drawing::check_outputs(&args.outputs, &["vtp", "png", "svg"])?;
+    drawing::check_outputs(&args.outputs, &["vtp", "png", "svg", "pdf"])?;
     let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
     let following = args.of.following(&input)?;
+    let style = drawing::placed(
+        drawing::style(&args.style, Colours::Kinds)?,
+        &drawing::placement(&input),
+        input.unit,
+    );
     let axes = following.axes;
     let length = args.length.unwrap_or(4.0 * following.longer_side(input.field.grid()));
     let options = LineOptions { step: args.step, length, ..LineOptions::default() };
@@ -29,7 +35,12 @@ pub(crate) fn run(args: &TopologyArgs) -> Result<u8, CliError> {
     let story = drawing::story(&input, parameters, &args.of.reading);
     drawing::write(
         &args.outputs,
-        &|| Ok(topology::picture(&found, &input.field, following, families, &args.of.input)),
+        &style,
+        &|| {
+            let (title, style) = (args.of.input.clone(), style.clone());
+            let options = PlainOptions { title, style, ..PlainOptions::default() };
+            Ok(topology::picture(&found, &input.field, following, families, options))
+        },
         &|| vtp::write(&topology::poly_data(&found, &drawing::placement(&input), &story)),
     )?;
     let summary = topology::summary(&found, following);

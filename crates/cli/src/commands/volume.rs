@@ -1,23 +1,25 @@
 //! Finished gradient volumes: files, pictures, and what is said about them.
 
-use crate::commands::PNG_SCALE;
 use crate::commands::command_line;
+use crate::commands::drawing::{self, is_picture};
+use crate::commands::overlaid::Overlaid;
 use crate::error::CliError;
 use crate::files;
 use crate::part_file::{Gradient, Identity};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use tigereye_core::{CellShape, Choice, Field, LtgVolume, Surface};
+use tigereye_core::{Cell, Choice, Field, LtgVolume, Surface, Tensor2};
 use tigereye_input::provenance::{provenance, with_rows};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{Rows, npy, vti};
-use tigereye_render::{Overlay, Scene};
+use tigereye_render::{HeatOptions, Scene, Style};
 use tigereye_transport::{StopMeasure, Stopping};
-use tigereye_views::gradient;
+use tigereye_views::added::{Additions, Scalars};
 use tigereye_views::total_anisotropy::ThinCells;
+use tigereye_views::{Placement, gradient};
 
 /// Endings of files that hold volumes, or pictures of them.
-pub(super) const ENDINGS: [&str; 4] = ["vti", "npy", "png", "svg"];
+pub(super) const ENDINGS: [&str; 5] = ["vti", "npy", "png", "svg", "pdf"];
 
 /// The script beside an image file.
 fn script_of(output: &Path) -> PathBuf {
@@ -26,11 +28,6 @@ fn script_of(output: &Path) -> PathBuf {
 
 fn images(outputs: &[PathBuf]) -> impl Iterator<Item = &PathBuf> {
     outputs.iter().filter(|o| files::extension(o) == "vti")
-}
-
-/// Whether an output is a picture rather than the volume itself.
-pub(super) fn is_picture(output: &Path) -> bool {
-    matches!(files::extension(output).as_str(), "png" | "svg")
 }
 
 /// Whether the scripts can be written, before anything is computed.
@@ -59,31 +56,47 @@ pub(super) fn write_scripts(outputs: &[PathBuf], geometry: &PlaneGeometry) -> Re
     Ok(())
 }
 
-/// Writes a volume to every output. `title` heads pictures; the identity says what made it and where it lies.
+/// What pictures of a volume show beside it.
+#[derive(Debug)]
+pub(super) struct Look<'a> {
+    /// Heading.
+    pub(super) title: &'a str,
+    /// The walls of a scene.
+    pub(super) walls: Option<&'a Field<Option<Surface>>>,
+    /// Cells without a tensor.
+    pub(super) masked: Vec<Cell>,
+    /// What is chosen otherwise.
+    pub(super) style: Style,
+    /// Unit of the coordinates, where the file states it.
+    pub(super) unit: Option<&'static str>,
+    /// The tensors, unless it is a scene.
+    pub(super) tensors: Option<&'a Field<Tensor2>>,
+    /// What is drawn over them.
+    pub(super) overlaid: &'a Overlaid,
+}
+
+/// Writes a volume to every output. The identity says what made it and where it lies.
 pub(super) fn write(
     outputs: &[PathBuf],
     gradient: &Gradient,
-    walls: Option<&Field<Option<Surface>>>,
-    title: &str,
+    look: &Look<'_>,
     identity: &Identity,
 ) -> Result<(), CliError> {
-    let cell = CellShape::of(identity.geometry.spacing());
-    let overlays = || identity.thin.iter().map(ThinCells::overlay).collect();
-    let drawn = || picture(title, &gradient.volume, walls, cell, overlays());
-    outputs.iter().try_for_each(|output| files::write(output, &encoded(output, gradient, &drawn, identity)?))
+    outputs.iter().try_for_each(|output| {
+        let bytes = match is_picture(output) {
+            true => drawing::encoded(&picture(&gradient.volume, look, identity)?, output, &look.style)?,
+            false => encoded(output, gradient, identity)?,
+        };
+        files::write(output, &bytes)
+    })
 }
 
 /// A volume in the format of the output's ending.
-fn encoded(
-    output: &Path,
-    gradient: &Gradient,
-    drawn: &dyn Fn() -> Scene,
-    identity: &Identity,
-) -> Result<Vec<u8>, CliError> {
+fn encoded(output: &Path, gradient: &Gradient, identity: &Identity) -> Result<Vec<u8>, CliError> {
     let name = output.display().to_string();
     match files::extension(output).as_str() {
         "npy" => Ok(npy::write_ltg(&gradient.volume)),
-        "vti" => {
+        _ => {
             let geometry = &identity.geometry;
             let parameters = with_rows(identity.parameters.clone(), Rows::of_results(geometry));
             let story = provenance(&command_line(), &parameters, &identity.input_blake3);
@@ -93,29 +106,35 @@ fn encoded(
             }
             vti::write(&image).map_err(|e| CliError::input(&name, e))
         }
-        "png" => drawn().to_png(PNG_SCALE).map_err(|e| CliError::input(&name, e)),
-        _ => drawn().to_svg().map(String::into_bytes).map_err(|e| CliError::input(&name, e)),
     }
 }
 
 /// The only slice, or the mean over the slices.
-fn picture(
-    title: &str,
-    volume: &LtgVolume,
-    walls: Option<&Field<Option<Surface>>>,
-    cell: CellShape,
-    overlays: Vec<Overlay>,
-) -> Scene {
+fn picture(volume: &LtgVolume, look: &Look<'_>, identity: &Identity) -> Result<Scene, CliError> {
     let (slice, scalar) = match volume.slices() {
         [t] => (volume.slice(*t), gradient::Scalar::SliceAt(volume.directions().angle_deg(*t))),
         _ => (None, gradient::Scalar::Mean),
     };
     let field = slice.unwrap_or_else(|| volume.mean_over_directions());
-    let (title, walls) = (title.to_owned(), walls.cloned());
-    gradient::picture(
-        &field,
-        gradient::Request { title, scalar, walls, cell, overlays, ..gradient::Request::default() },
-    )
+    let placement = Placement::new(identity.geometry, field.grid());
+    let mut shown = gradient::where_result(&field, look.walls);
+    look.masked.iter().for_each(|cell| shown.values_mut()[field.grid().index(*cell)] = f64::NAN);
+    let scalars = Scalars { values: &shown, samples: 1 };
+    let Additions { mut overlays, glyphs } =
+        look.overlaid.additions(look.tensors, &placement, Some(scalars))?;
+    // Beneath the others.
+    overlays.splice(0..0, identity.thin.iter().map(ThinCells::overlay));
+    let options = HeatOptions {
+        overlays,
+        glyphs,
+        title: look.title.to_owned(),
+        walls: look.walls.cloned(),
+        cell: placement.cell(),
+        masked: look.masked.clone(),
+        style: drawing::placed(look.style.clone(), &placement, look.unit),
+        ..HeatOptions::default()
+    };
+    Ok(gradient::picture(&field, scalar, options))
 }
 
 /// Plain steps of a pulse that has no stationary state.

@@ -202,7 +202,8 @@ fn gradients_and_their_ridges_lie_on_the_slice() {
     }
 }
 
-/// The same field with and without a place: the same numbers for `compare`, the same pictures of ridges.
+/// The same field with and without a place: the same numbers for `compare`, the same pictures of ridges on axes in
+/// cells.
 #[test]
 fn a_place_changes_no_number_and_no_picture() {
     let (placed, plain) = (Place::new(), Place::new());
@@ -225,8 +226,9 @@ fn a_place_changes_no_number_and_no_picture() {
         placed.succeeds(&["compare", file, &other, "--tolerance", "0"]);
     }
     for place in [&placed, &plain] {
-        place.succeeds(&["ridges", "g.vti", "--layer", "2", "-o", "g.svg"]);
-        place.succeeds(&["ridges", "e.vti", "--array", "FTLE", "-o", "e.svg"]);
+        let cells = ["--coordinates", "cells"];
+        place.succeeds(&[&["ridges", "g.vti", "--layer", "2", "-o", "g.svg"][..], &cells].concat());
+        place.succeeds(&[&["ridges", "e.vti", "--array", "FTLE", "-o", "e.svg"][..], &cells].concat());
     }
     for picture in ["g.svg", "e.svg"] {
         assert_eq!(placed.read(picture), plain.read(picture), "{picture}");

@@ -18,6 +18,7 @@ mod odd_fields;
 mod own_fields;
 #[cfg(unix)]
 mod parts;
+mod pictures;
 mod reading;
 mod reports;
 mod results;

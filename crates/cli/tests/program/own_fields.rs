@@ -184,7 +184,7 @@ fn sheets_and_oddities_are_told_of_anything_readable() {
     );
     assert!(place.succeeds(&["field", "lint", "sink:size=9", "--all"]).stdout.contains("zero"));
     place.succeeds(&["field", "show", "x:width=1,height=1", "-o", "one.png"]);
-    place.refuses(&["field", "show", "small.field.ron", "-o", "s.gif"], &["s.gif", ".png or .svg"]);
+    place.refuses(&["field", "show", "small.field.ron", "-o", "s.gif"], &["s.gif", ".png, .svg or .pdf"]);
     place.refuses(
         &["field", "show", "small.field.ron", "-o", "n.png", "--light", "9,0"],
         &["cell (9, 0)", "column to 8"],

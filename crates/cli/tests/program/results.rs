@@ -355,7 +355,7 @@ fn steps_become_frames_of_a_collection() {
     let frames = place.files().into_keys().filter(|name| name.starts_with(place.path("pulse"))).count();
     assert_eq!((frames, place.read("pulse/notes.txt")), (4, b"mine".to_vec()));
     assert_eq!(String::from_utf8(place.read("pulse.pvd")).unwrap().matches("timestep").count(), 3);
-    place.refuses(&["ltg", "inverse:size=5", "-o", "g.pvd"], &["g.pvd", ".vti, .npy, .png or .svg"]);
+    place.refuses(&["ltg", "inverse:size=5", "-o", "g.pvd"], &["g.pvd", ".vti, .npy, .png, .svg or .pdf"]);
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod named;
 mod numbers;
 mod placed;
 mod scene_file;
+mod style;
 mod words;
 
 pub use choices::{NormalizationRule, OmegaStep, Scope, Stop, TotalAnisotropyRule};
@@ -25,6 +26,7 @@ pub use numbers::{DirectionCount, Finite, Fraction, NonNegative, Positive, Ratio
 pub(crate) use placed::nested;
 pub use placed::{Place, Placed};
 pub use scene_file::{MaterialSource, Point, SceneFile, ScenePart, ShapeSource};
+pub use style::{ColourRange, ColourScale, StyleFile, StyleSource};
 pub(crate) use words::{key_and_value, options, words_of_fault};
 
 /// The format this version reads.

@@ -56,7 +56,7 @@ impl PanelKind for Chart {
                 let Curve { label, points, look } = curve;
                 let line = look != Look::Marks;
                 let markers = !line || (look == Look::Joined && points.len() <= MARKED);
-                let style = drawing.styles.get(i).copied();
+                let style = drawing.markings.get(i).copied();
                 Series { label, points, line, markers, style, ..Series::default() }
             });
             let series = drawn.collect();

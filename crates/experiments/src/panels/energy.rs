@@ -1,13 +1,15 @@
 //! The energy of every cell in colours.
 
-use crate::form::{Placed, Positive};
+use crate::form::{Chosen, Placed, Positive, StyleSource};
 use crate::names::Names;
 use crate::numerics::paths::Paths;
+use crate::panels::additions::{PlannedAdditions, Shown};
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_core::Cell;
-use tigereye_render::{Overlay, Rgba};
-use tigereye_views::light::{self, Request};
+use tigereye_render::{Colours, HeatOptions, Overlay, Rgba, heat_map};
+use tigereye_views::added::{Added, Additions, Scalars};
+use tigereye_views::light;
 use tigereye_views::total_anisotropy::ThinCells;
 
 /// The energy of every cell in colours.
@@ -27,9 +29,23 @@ pub struct Energy {
     way_to: Option<Placed<(usize, usize)>>,
     /// Heading of the panel.
     title: String,
+    /// What is drawn over it, as `--overlay` of commands.
+    #[serde(default)]
+    overlays: Option<Placed<Vec<Chosen<Added>>>>,
+    /// How it looks.
+    #[serde(default)]
+    style: Option<Placed<StyleSource>>,
 }
 
 impl PanelKind for Energy {
+    fn style(&self) -> Option<&Placed<StyleSource>> {
+        self.style.as_ref()
+    }
+
+    fn colours(&self) -> Colours {
+        Colours::Values
+    }
+
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let frame = names.frame(&self.run, self.step.as_ref())?;
         let to = match &self.way_to {
@@ -37,28 +53,38 @@ impl PanelKind for Energy {
             None => None,
         };
         let decades = self.decades.map(Positive::get);
-        Some(PlannedPanel::new(&self.title, move |drawing| {
+        let of = names.field_of(frame.light.0);
+        let added = PlannedAdditions::resolve(&self.overlays, of, Shown::Scalar, names)?;
+        let place = names.place(frame.light.0);
+        let panel = PlannedPanel::new(&self.title, move |drawing| {
             let run = &drawing.results[frame.light];
-            let mut overlays: Vec<Overlay> = run.thin.iter().map(ThinCells::overlay).collect();
+            let energy = drawing.results.frame(frame)?.energy();
+            let scalars = Scalars { values: &energy, samples: 1 };
+            let Additions { mut overlays, glyphs } = added.over(drawing.results, Some(scalars))?;
+            // Beneath the others.
+            overlays.splice(0..0, run.thin.iter().map(ThinCells::overlay));
             if let Some(to) = to {
-                overlays.extend(paths(&Paths::of(run, to)?));
+                overlays.extend(ways(&Paths::of(run, to)?));
             }
-            let request = Request {
+            let options = HeatOptions {
                 title: drawing.title.clone(),
-                decades,
                 sources: run.sources.clone(),
                 walls: run.surfaces.clone(),
                 overlays,
+                glyphs,
                 cell_px: drawing.cell_px(run.last.grid()),
-                ..Request::default()
+                masked: run.masked.clone(),
+                style: drawing.style(),
+                ..light::options(decades)
             };
-            Ok(light::picture(&drawing.results.frame(frame)?.energy(), request))
-        }))
+            Ok(heat_map(&energy, &options))
+        });
+        Some(panel.placed(place))
     }
 }
 
 /// The shortest path, and the brightest one over it.
-fn paths(paths: &Paths) -> Vec<Overlay> {
+fn ways(paths: &Paths) -> Vec<Overlay> {
     let line = |path: &[Cell], label: &str, colour, width_px| Overlay {
         label: label.to_owned(),
         points: path.iter().map(|c| c.centre()).collect(),

@@ -1,11 +1,11 @@
 //! The tensors as ellipses.
 
-use crate::form::{Chosen, Placed};
+use crate::form::{Chosen, Placed, StyleSource};
 use crate::names::Names;
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_core::{Field, Tensor2};
-use tigereye_render::{GlyphColour, GlyphOptions, GlyphScale, glyphs};
+use tigereye_render::{Colours, GlyphColour, GlyphOptions, GlyphScale, glyphs};
 
 /// The tensors as ellipses.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -18,6 +18,9 @@ pub struct Glyphs {
     colour: Chosen<GlyphColour>,
     /// Heading of the panel.
     title: String,
+    /// How it looks.
+    #[serde(default)]
+    style: Option<Placed<StyleSource>>,
 }
 
 /// Signs mean something in stresses, but nothing in the rotated diagonal tensors of generators.
@@ -26,18 +29,30 @@ const fn anisotropy() -> Chosen<GlyphColour> {
 }
 
 impl PanelKind for Glyphs {
+    fn style(&self) -> Option<&Placed<StyleSource>> {
+        self.style.as_ref()
+    }
+
+    fn colours(&self) -> Colours {
+        if self.colour.0 == GlyphColour::Anisotropy { Colours::Quantity } else { Colours::Kinds }
+    }
+
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let field = names.field(&self.field)?;
         let Chosen(colour) = self.colour;
-        Some(PlannedPanel::new(&self.title, move |drawing| {
+        let place = names.named_field(field).place();
+        let panel = PlannedPanel::new(&self.title, move |drawing| {
             let named = drawing.results.field(field);
             let (field, cell) = (&named.field, named.cell);
             let scale = if same_size(field) { GlyphScale::Field } else { GlyphScale::SquareRoot };
             let cell_px = drawing.cell_px_of(field.grid(), cell);
             let title = drawing.title.clone();
-            let options = GlyphOptions { title, scale, colour, cell_px, cell, ..GlyphOptions::default() };
+            let style = drawing.style();
+            let options =
+                GlyphOptions { title, scale, colour, cell_px, cell, style, ..GlyphOptions::default() };
             Ok(glyphs(field, &options))
-        }))
+        });
+        Some(panel.placed(place))
     }
 }
 

@@ -1,11 +1,14 @@
 //! What a panel is.
 
+use crate::form::{Placed, StyleSource};
 use crate::names::Names;
+use crate::panels::additions::PlannedAdditions;
 use crate::results::Results;
-use crate::runs::gradient as gradient_run;
+use crate::runs::gradient::Outcome;
 use crate::unavailable::Unavailable;
 use tigereye_core::{CellShape, Field, Grid};
-use tigereye_render::{Overlay, Scene};
+use tigereye_render::{AxisNumbers, Colours, HeatOptions, Overlay, Scene, Style};
+use tigereye_views::added::Scalars;
 use tigereye_views::gradient;
 use tigereye_views::total_anisotropy::ThinCells;
 
@@ -19,6 +22,49 @@ pub(crate) trait PanelKind {
     /// Looks up names, checks cells and steps, and parses expressions; `None` where something is wrong, which is
     /// reported.
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel>;
+
+    /// How it is to look.
+    fn style(&self) -> Option<&Placed<StyleSource>> {
+        None
+    }
+
+    /// What its colours show.
+    fn colours(&self) -> Colours {
+        Colours::Kinds
+    }
+
+    /// [`Self::resolve`] with the style.
+    fn planned(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
+        let style = checked_style(self.style(), Some(self.colours()), names);
+        let panel = self.resolve(names)?;
+        let place = panel.style.clone();
+        Some(PlannedPanel { style: style?.or(place), ..panel })
+    }
+}
+
+/// The style of a panel, or of a figure, whose panels show different things; `None` where something is wrong, which is
+/// reported.
+pub(crate) fn checked_style(
+    source: Option<&Placed<StyleSource>>,
+    colours: Option<Colours>,
+    names: &mut Names<'_, '_>,
+) -> Option<Style> {
+    let Some(source) = source else { return Some(Style::default()) };
+    let useless = |style: &Style| {
+        let (key, expected) = colours.and_then(|colours| style.useless(colours))?;
+        Some(format!("`{key}` has no effect here: expected {expected}"))
+    };
+    let single = source
+        .of_single_pictures()
+        .map(|key| format!("`{key}` has no effect in experiments: expected it in a style file"));
+    match source.style() {
+        Err(problem) => names.fault(source.place(), &problem),
+        Ok(style) => match single.or_else(|| useless(&style)) {
+            None => return Some(style),
+            Some(problem) => names.fault(source.place(), &problem),
+        },
+    }
+    None
 }
 
 /// A panel, ready to be drawn.
@@ -33,7 +79,9 @@ pub(crate) struct PlannedPanel {
     /// Names of the curves in the legend, if it is a chart.
     pub(crate) series: Vec<String>,
     /// For each curve, which colour and marker it has: the same for one name in all charts of an experiment.
-    pub(crate) styles: Vec<usize>,
+    pub(crate) markings: Vec<usize>,
+    /// How it is to look, and where what it shows lies.
+    pub(crate) style: Style,
 }
 
 impl PlannedPanel {
@@ -48,8 +96,14 @@ impl PlannedPanel {
             curves: None,
             is_timed: false,
             series: Vec::new(),
-            styles: Vec::new(),
+            markings: Vec::new(),
+            style: Style::default(),
         }
+    }
+
+    /// The panel where what it shows lies.
+    pub(crate) fn placed(self, place: Style) -> Self {
+        Self { style: place, ..self }
     }
 }
 
@@ -85,10 +139,27 @@ pub(crate) struct Drawing<'a> {
     /// Heading within the picture: empty among others, where it stands above.
     pub(crate) title: String,
     /// For each curve of a chart, which colour and marker it has.
-    pub(crate) styles: &'a [usize],
+    pub(crate) markings: &'a [usize],
+    style: Style,
 }
 
-impl Drawing<'_> {
+impl<'a> Drawing<'a> {
+    /// Of a panel of a figure, in its style; axes are marked with cells unless it says otherwise.
+    pub(crate) fn new(
+        results: &'a Results<'a>,
+        (alone, title): (bool, String),
+        style: Style,
+        markings: &'a [usize],
+    ) -> Self {
+        let cells = Style { numbers: Some(AxisNumbers::Cells), ..Style::default() };
+        Self { results, alone, title, markings, style: style.or(cells) }
+    }
+
+    /// How the panel looks.
+    pub(crate) fn style(&self) -> Style {
+        self.style.clone()
+    }
+
     /// Pixels per cell: chosen by the picture where it stands alone, fitting a panel otherwise.
     pub(crate) fn cell_px(&self, grid: Grid) -> Option<usize> {
         self.cell_px_of(grid, CellShape::SQUARE)
@@ -104,21 +175,27 @@ impl Drawing<'_> {
     pub(crate) fn gradient_map(
         &self,
         scalar: &Field<f64>,
-        run: &gradient_run::Outcome,
+        of: &Outcome,
         which: gradient::Scalar,
-        mut overlays: Vec<Overlay>,
-    ) -> Scene {
-        // Beneath the others.
-        overlays.splice(0..0, run.thin.iter().map(ThinCells::overlay));
-        let request = gradient::Request {
+        (above, added): (Vec<Overlay>, &PlannedAdditions),
+    ) -> Result<Scene, Unavailable> {
+        let mut shown = gradient::where_result(scalar, of.surfaces.as_ref());
+        of.masked.iter().for_each(|cell| shown.values_mut()[scalar.grid().index(*cell)] = f64::NAN);
+        let scalars = Scalars { values: &shown, samples: 1 };
+        let additions = added.over(self.results, Some(scalars))?;
+        let thin = of.thin.iter().map(ThinCells::overlay);
+        let overlays = thin.chain(above).chain(additions.overlays).collect();
+        let options = HeatOptions {
             title: self.title.clone(),
-            scalar: which,
-            walls: run.surfaces.clone(),
+            walls: of.surfaces.clone(),
             overlays,
+            glyphs: additions.glyphs,
             cell_px: self.cell_px(scalar.grid()),
-            ..gradient::Request::default()
+            masked: of.masked.clone(),
+            style: self.style(),
+            ..HeatOptions::default()
         };
-        gradient::picture(scalar, request)
+        Ok(gradient::picture(scalar, which, options))
     }
 }
 
@@ -142,7 +219,7 @@ pub(crate) fn series_styles<'a>(panels: impl Iterator<Item = &'a mut PlannedPane
             if is_shared(name) && style_of(&known, name).is_none() {
                 known.push((name.clone(), style));
             }
-            chart.styles.push(style);
+            chart.markings.push(style);
         }
     }
 }
@@ -158,7 +235,7 @@ mod tests {
         };
         let mut panels: Vec<PlannedPanel> = charts.iter().map(panel).collect();
         series_styles(panels.iter_mut());
-        panels.into_iter().map(|p| p.styles).collect()
+        panels.into_iter().map(|p| p.markings).collect()
     }
 
     #[test]

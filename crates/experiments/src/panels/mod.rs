@@ -3,11 +3,12 @@
 //!
 //! A panel is added by its file, which implements `PanelKind`, and its line in `panels!`.
 
+mod additions;
 mod kind;
 pub mod series;
 
 use kind::PanelKind;
-pub(crate) use kind::{Curve, Drawing, PANEL_PX, PlannedPanel, series_styles};
+pub(crate) use kind::{Curve, Drawing, PANEL_PX, PlannedPanel, checked_style, series_styles};
 
 use crate::names::Names;
 use serde::Deserialize;
@@ -27,7 +28,7 @@ macro_rules! panels {
             /// How the panel is drawn; `None` where something is wrong, which is reported.
             pub(crate) fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
                 match self {
-                    $(Self::$kind(form) => form.resolve(names),)+
+                    $(Self::$kind(form) => form.planned(names),)+
                 }
             }
         }

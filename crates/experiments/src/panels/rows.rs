@@ -33,7 +33,7 @@ impl PanelKind for Rows {
         let picture = PlannedPanel::new(&self.title, move |drawing| {
             let drawn = curves(&of_picture, drawing.results)?.into_iter().enumerate();
             let series = drawn.map(|(i, Curve { label, points, .. })| {
-                let style = drawing.styles.get(i).copied();
+                let style = drawing.markings.get(i).copied();
                 Series { label, points, line: false, markers: true, style, ..Series::default() }
             });
             let (title, rows, value) = (drawing.title.clone(), rows.clone(), value.clone());

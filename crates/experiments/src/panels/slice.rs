@@ -1,12 +1,14 @@
 //! One direction of a gradient.
 
-use crate::form::{Finite, Placed};
+use crate::form::{Chosen, Finite, Placed, StyleSource};
 use crate::names::Names;
 use crate::numerics::gradient::ridge_columns;
+use crate::panels::additions::{PlannedAdditions, Shown};
 use crate::panels::kind::{PanelKind, PlannedPanel};
 use serde::Deserialize;
 use tigereye_core::{Field, Point};
-use tigereye_render::Overlay;
+use tigereye_render::{Colours, Overlay};
+use tigereye_views::added::Added;
 use tigereye_views::gradient::Scalar;
 
 /// Columns between neighbouring rows beyond which a ridge line is broken.
@@ -28,18 +30,36 @@ pub struct Slice {
     ridge: bool,
     /// Heading of the panel.
     title: String,
+    /// What is drawn over it, as `--overlay` of commands.
+    #[serde(default)]
+    overlays: Option<Placed<Vec<Chosen<Added>>>>,
+    /// How it looks.
+    #[serde(default)]
+    style: Option<Placed<StyleSource>>,
 }
 
 impl PanelKind for Slice {
+    fn style(&self) -> Option<&Placed<StyleSource>> {
+        self.style.as_ref()
+    }
+
+    fn colours(&self) -> Colours {
+        Colours::Values
+    }
+
     fn resolve(&self, names: &mut Names<'_, '_>) -> Option<PlannedPanel> {
         let slice = names.slice(&self.run, &self.deg)?;
         let marks_ridge = self.ridge;
-        Some(PlannedPanel::new(&self.title, move |drawing| {
+        let of = names.field_of(slice.gradient.0);
+        let added = PlannedAdditions::resolve(&self.overlays, of, Shown::Scalar, names)?;
+        let place = names.place(slice.gradient.0);
+        let panel = PlannedPanel::new(&self.title, move |drawing| {
             let scalar = drawing.results.slice(slice)?;
             let overlays = if marks_ridge { vec![ridge_line(&scalar)] } else { Vec::new() };
             let gradient = &drawing.results[slice.gradient];
-            Ok(drawing.gradient_map(&scalar, gradient, Scalar::Slice, overlays))
-        }))
+            drawing.gradient_map(&scalar, gradient, Scalar::Slice, (overlays, &added))
+        });
+        Some(panel.placed(place))
     }
 }
 

@@ -79,9 +79,10 @@ impl Ftle {
     }
 }
 
-/// The exponents, with the axes that lines followed.
+/// The exponents, with their field and the axes that lines followed.
 #[derive(Debug)]
 pub(crate) struct Outcome {
+    pub(crate) field: FieldId,
     pub(crate) found: tigereye_lines::Ftle,
     pub(crate) following: Following,
 }
@@ -105,7 +106,7 @@ impl Plan {
         let field = &media.field(self.field).field;
         let found = ftle::exponents(field, self.following, self.family, &options)
             .map_err(|source| RunError::Ftle { run: name.to_owned(), source })?;
-        Ok(Outcome { found, following: self.following })
+        Ok(Outcome { field: self.field, found, following: self.following })
     }
 }
 

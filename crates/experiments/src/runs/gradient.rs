@@ -14,7 +14,7 @@ use crate::runs::setup::{RunResolver, Setup};
 use serde::Deserialize;
 use serde_json::json;
 use std::ops::ControlFlow;
-use tigereye_core::{Field, LtgVolume, Surface, SweepWork};
+use tigereye_core::{Cell, Field, LtgVolume, Surface, SweepWork};
 use tigereye_io::volume::PlaneGeometry;
 use tigereye_io::{IoError, image_from_ltg, vti};
 use tigereye_ltg::{
@@ -154,6 +154,8 @@ pub(crate) struct Outcome {
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
     /// The totally anisotropic cells of a field.
     pub(crate) thin: Option<ThinCells>,
+    /// Cells without a tensor.
+    pub(crate) masked: Vec<Cell>,
 }
 
 impl Plan {
@@ -202,7 +204,7 @@ impl Plan {
         })?;
         let surfaces = medium.scene().map(|scene| scene.layout.surfaces.clone());
         let thin = self.setup.thin_cells(medium).filter(|_| self.outlined);
-        Ok(Outcome { outcome, relative_error, surfaces, thin })
+        Ok(Outcome { outcome, relative_error, surfaces, thin, masked: medium.masked() })
     }
 
     /// The gradient of linear scattering, exact or estimated.

@@ -108,6 +108,8 @@ pub(crate) struct Outcome {
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
     /// The totally anisotropic cells of a field.
     pub(crate) thin: Option<ThinCells>,
+    /// Cells without a tensor.
+    pub(crate) masked: Vec<Cell>,
 }
 
 impl Plan {
@@ -147,6 +149,7 @@ impl Plan {
             work,
             surfaces: medium.scene().map(|scene| scene.layout.surfaces.clone()),
             thin: self.setup.thin_cells(medium),
+            masked: medium.masked(),
         })
     }
 }

@@ -173,6 +173,8 @@ pub(crate) struct Outcome {
     pub(crate) surfaces: Option<Field<Option<Surface>>>,
     /// The totally anisotropic cells of a field.
     pub(crate) thin: Option<ThinCells>,
+    /// Cells without a tensor.
+    pub(crate) masked: Vec<Cell>,
     /// Cells that pass light on, in a scene.
     pub(crate) open: Option<Field<bool>>,
 }
@@ -260,6 +262,7 @@ impl Plan {
             transmission,
             surfaces: scene.map(|scene| scene.layout.surfaces.clone()),
             thin: self.setup.thin_cells(medium).filter(|_| self.outlined),
+            masked: medium.masked(),
             open: scene.map(PreparedScene::open),
         })
     }

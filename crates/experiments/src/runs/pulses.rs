@@ -368,7 +368,13 @@ mod tests {
             scattering: ScatteringRule::Joint,
             stopping: Stopping::REFERENCE,
         };
-        let named = NamedField { name: String::new(), field: field.clone(), cell: CellShape::SQUARE };
+        let named = NamedField {
+            name: String::new(),
+            field: field.clone(),
+            cell: CellShape::SQUARE,
+            geometry: tigereye_io::volume::PlaneGeometry::UNPLACED,
+            unit: None,
+        };
         let media = Media { fields: vec![named], scenes: Vec::new() };
         Plan { setup, pulses: pulses.to_vec() }.run("run", &media, 0, &no_file).expect("pulses").records
     }

@@ -4,7 +4,7 @@ use crate::form::Placed;
 use crate::ids::{GradientId, RunId};
 use crate::names::Names;
 use crate::results::Results;
-use crate::tables::entries::{NOTHING, grouped, hundredths, seconds, significant};
+use crate::tables::entries::{NOTHING, grouped, hundredths, seconds, tenths};
 use crate::tables::kind::{PlannedRow, TableKind, columns};
 use serde::Deserialize;
 use tigereye_core::math;
@@ -81,7 +81,7 @@ fn entries(results: &Results<'_>, (gradient, run): Timed, smaller: Option<Timed>
         format!("{}\u{a0}\u{d7}\u{a0}{}", grid.width(), grid.height()),
         grouped(&directions.to_string()),
         taken.map_or(NOTHING.to_owned(), seconds),
-        taken.map_or(NOTHING.to_owned(), |s| significant(1e6 * s / (grid.cells() * directions) as f64)),
+        taken.map_or(NOTHING.to_owned(), |s| tenths(1e6 * s / (grid.cells() * directions) as f64)),
         power.unwrap_or_else(|| NOTHING.to_owned()),
     ]
 }

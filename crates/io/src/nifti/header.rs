@@ -62,6 +62,8 @@ pub(super) struct Header {
     pub(super) content: Content,
     /// The step along the fourth axis, where that is the components' and the header calls it time, in words.
     pub(super) time_step: Option<String>,
+    /// Unit of the positions.
+    pub(super) unit: Option<&'static str>,
     pub(super) kind: &'static str,
     /// Slope and intercept, where they do something.
     pub(super) scaling: Option<(f64, f64)>,
@@ -143,6 +145,7 @@ impl Header {
             components,
             content,
             time_step,
+            unit: unit(&fields),
             kind,
             scaling: (scales && (slope, intercept) != (1.0, 0.0)).then_some((slope, intercept)),
             position: position(&fields)?,
@@ -272,6 +275,16 @@ fn meaning(
 /// The unit of time in `xyzt_units`, and the codes it may have (nifti1.h).
 const TIME_BITS: u8 = 0x38;
 const TIME_UNITS: [(u8, &str); 3] = [(8, "s"), (16, "ms"), (24, "us")];
+
+/// The unit of space in `xyzt_units`, and the codes it may have (nifti1.h).
+const SPACE_BITS: u8 = 0x07;
+const SPACE_UNITS: [(u8, &str); 3] = [(1, "m"), (2, "mm"), (3, "µm")];
+
+/// The unit of positions, where the header states it.
+fn unit(fields: &Bytes) -> Option<&'static str> {
+    let [units] = fields.get(123);
+    SPACE_UNITS.into_iter().find(|(code, _)| *code == units & SPACE_BITS).map(|(_, unit)| unit)
+}
 
 /// The step of time along the fourth axis. A step of 1 s is what programs leave there that write tensors (dipy, FSL,
 /// MRtrix3), and says nothing.

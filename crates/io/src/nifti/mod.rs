@@ -73,6 +73,7 @@ pub fn read_with_limits(bytes: &[u8], limits: Limits) -> Result<Lattice, IoError
         scalar: header.scalar,
         axes,
         origin,
+        unit: header.unit,
         world: World::Scanner(header.world().to_owned()),
         measurement: None,
         mask: None,

@@ -128,6 +128,7 @@ fn laid_out(array: NpyArray, layout: Layout, warnings: Vec<String>) -> Lattice {
         axes: [[1.0, 0.0, 0.0], [0.0, down, 0.0], [0.0, 0.0, 1.0]],
         // The lower left cell is at 0.
         origin: [0.0, if down < 0.0 { (size[1] - 1) as f64 } else { 0.0 }, 0.0],
+        unit: None,
         world: World::Absent,
         measurement: None,
         mask: None,

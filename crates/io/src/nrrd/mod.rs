@@ -82,6 +82,7 @@ pub fn read_with_limits(
         scalar: header.scalar,
         axes,
         origin,
+        unit: None,
         world: World::Scanner(world),
         measurement: header.measurement,
         mask,

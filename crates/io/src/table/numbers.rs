@@ -35,6 +35,7 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
         scalar: ScalarType::Float64,
         axes: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]],
         origin: [0.0, (grid.height() - 1) as f64, 0.0],
+        unit: None,
         world: World::Absent,
         measurement: None,
         mask: None,

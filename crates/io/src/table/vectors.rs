@@ -310,6 +310,7 @@ fn lattice(rows: &[Row], mut notes: Vec<String>) -> Result<Lattice, IoError> {
         scalar: ScalarType::Float64,
         axes: [[axes[0].step, 0.0, 0.0], [0.0, axes[1].step, 0.0], [0.0, 0.0, 1.0]],
         origin: [axes[0].first, axes[1].first, 0.0],
+        unit: None,
         world: World::Viewer,
         measurement: None,
         mask: any.then_some(mask),

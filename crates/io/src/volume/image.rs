@@ -116,6 +116,7 @@ pub fn lattice_from_image<'a>(
         scalar: array.scalar,
         axes,
         origin,
+        unit: None,
         world,
         measurement: None,
         mask,

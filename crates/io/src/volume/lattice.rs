@@ -25,6 +25,8 @@ pub struct Lattice {
     pub axes: [[f64; 3]; 3],
     /// Position of the first voxel in the world.
     pub origin: [f64; 3],
+    /// Unit of the positions, where the file states it.
+    pub unit: Option<&'static str>,
     /// What the world is.
     pub world: World,
     /// Columns: axes of the measurement frame in the world, row by row.

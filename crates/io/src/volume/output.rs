@@ -28,6 +28,7 @@ impl Lattice {
             scalar: ScalarType::Float64,
             axes: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]],
             origin: [0.0, (grid.height() - 1) as f64, 0.0],
+            unit: None,
             world: World::Absent,
             measurement: None,
             mask: None,
@@ -55,6 +56,7 @@ impl TensorVolume {
             values: rows.flatten().flat_map(Tensor2::components).collect(),
             axes: [[dx, 0.0, 0.0], [0.0, dy, 0.0], [0.0, 0.0, 1.0]],
             origin: upright.corner(),
+            unit: None,
             world: World::Viewer,
             ..Lattice::from_field(field)
         };

@@ -1,9 +1,22 @@
 //! Colours, colour maps and the palette of series.
 
+mod bam;
+mod bam_o;
 mod batlow;
+mod berlin;
+mod cork_o;
+mod imola;
+mod inferno;
+mod lajolla;
+mod magma;
+mod plasma;
+mod roma;
 mod roma_o;
+mod vanimo;
 mod vik;
 mod viridis;
+
+use tigereye_core::choice;
 
 /// An sRGB colour with opacity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -33,6 +46,8 @@ impl Rgba {
     pub const LIGHT: Self = Self::hex(0x1f5fbf);
     /// Cells without light, and values at or below the bottom of a logarithmic scale.
     pub const NO_LIGHT: Self = Self::hex(0xefece6);
+    /// Cells without a tensor: no material, or a zero tensor.
+    pub const MASKED: Self = Self::hex(0xbdbdbd);
     /// Cells whose value is not finite; hatched if cells are large enough.
     pub const NOT_FINITE: Self = Self::hex(0xa8a8a8);
 
@@ -74,27 +89,59 @@ pub enum ColourMap {
     /// Sequential, dark purple to yellow.
     #[default]
     Viridis,
+    /// Sequential, black over purple to pale yellow.
+    Magma,
+    /// Sequential, black over red to pale yellow.
+    Inferno,
+    /// Sequential, dark blue over pink to yellow.
+    Plasma,
     /// Sequential, dark blue over green to pink.
     Batlow,
+    /// Sequential, black over orange to pale yellow.
+    Lajolla,
+    /// Sequential, blue over green to yellow.
+    Imola,
     /// Diverging, blue over near-white to red-brown; for values around 0.
     Vik,
+    /// Diverging, red-brown over pale yellow to blue.
+    Roma,
+    /// Diverging, magenta over near-white to green.
+    Bam,
+    /// Diverging, light blue over black to light red.
+    Berlin,
+    /// Diverging, pink over black to light green.
+    Vanimo,
     /// Cyclic; for directions.
     RomaO,
+    /// Cyclic, magenta over grey to green and back.
+    BamO,
+    /// Cyclic, blue over grey to green and back.
+    CorkO,
 }
 
-impl ColourMap {
-    /// Every map.
-    pub const ALL: [Self; 4] = [Self::Viridis, Self::Batlow, Self::Vik, Self::RomaO];
+choice!(ColourMap {
+    Viridis = "viridis": "Sequential, dark purple to yellow.",
+    Magma = "magma": "Sequential, black over purple to pale yellow.",
+    Inferno = "inferno": "Sequential, black over red to pale yellow.",
+    Plasma = "plasma": "Sequential, dark blue over pink to yellow.",
+    Batlow = "batlow": "Sequential, dark blue over green to pink.",
+    Lajolla = "lajolla": "Sequential, black over orange to pale yellow.",
+    Imola = "imola": "Sequential, blue over green to yellow.",
+    Vik = "vik": "Diverging, blue over near-white to red-brown.",
+    Roma = "roma": "Diverging, red-brown over pale yellow to blue.",
+    Bam = "bam": "Diverging, magenta over near-white to green.",
+    Berlin = "berlin": "Diverging, light blue over black to light red.",
+    Vanimo = "vanimo": "Diverging, pink over black to light green.",
+    RomaO = "romaO": "Cyclic, for directions.",
+    BamO = "bamO": "Cyclic, magenta over grey to green and back.",
+    CorkO = "corkO": "Cyclic, blue over grey to green and back.",
+});
 
-    /// Name as in the literature.
+impl ColourMap {
+    /// Whether the ends have the same colour.
     #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Viridis => "viridis",
-            Self::Batlow => "batlow",
-            Self::Vik => "vik",
-            Self::RomaO => "romaO",
-        }
+    pub const fn is_cyclic(self) -> bool {
+        matches!(self, Self::RomaO | Self::BamO | Self::CorkO)
     }
 
     /// The 256 entries.
@@ -102,9 +149,20 @@ impl ColourMap {
     pub const fn entries(self) -> &'static [[u8; 3]; 256] {
         match self {
             Self::Viridis => &VIRIDIS,
+            Self::Magma => &MAGMA,
+            Self::Inferno => &INFERNO,
+            Self::Plasma => &PLASMA,
             Self::Batlow => &BATLOW,
+            Self::Lajolla => &LAJOLLA,
+            Self::Imola => &IMOLA,
             Self::Vik => &VIK,
+            Self::Roma => &ROMA,
+            Self::Bam => &BAM,
+            Self::Berlin => &BERLIN,
+            Self::Vanimo => &VANIMO,
             Self::RomaO => &ROMA_O,
+            Self::BamO => &BAM_O,
+            Self::CorkO => &CORK_O,
         }
     }
 
@@ -118,9 +176,20 @@ impl ColourMap {
 }
 
 static VIRIDIS: [[u8; 3]; 256] = decoded(viridis::TABLE);
+static MAGMA: [[u8; 3]; 256] = decoded(magma::TABLE);
+static INFERNO: [[u8; 3]; 256] = decoded(inferno::TABLE);
+static PLASMA: [[u8; 3]; 256] = decoded(plasma::TABLE);
 static BATLOW: [[u8; 3]; 256] = decoded(batlow::TABLE);
+static LAJOLLA: [[u8; 3]; 256] = decoded(lajolla::TABLE);
+static IMOLA: [[u8; 3]; 256] = decoded(imola::TABLE);
 static VIK: [[u8; 3]; 256] = decoded(vik::TABLE);
+static ROMA: [[u8; 3]; 256] = decoded(roma::TABLE);
+static BAM: [[u8; 3]; 256] = decoded(bam::TABLE);
+static BERLIN: [[u8; 3]; 256] = decoded(berlin::TABLE);
+static VANIMO: [[u8; 3]; 256] = decoded(vanimo::TABLE);
 static ROMA_O: [[u8; 3]; 256] = decoded(roma_o::TABLE);
+static BAM_O: [[u8; 3]; 256] = decoded(bam_o::TABLE);
+static CORK_O: [[u8; 3]; 256] = decoded(cork_o::TABLE);
 
 const fn decoded(table: &str) -> [[u8; 3]; 256] {
     let bytes = table.as_bytes();

@@ -5,7 +5,7 @@ use super::layers::{ANISOTROPY_STEPS, COMPRESSION, DASH_PX, Layers, MIXED, PLAIN
 use super::note::Note;
 use super::scaling::Scaling;
 use super::{arrows, quadric, signed, turned};
-use crate::colour::{ColourMap, Rgba};
+use crate::colour::Rgba;
 use crate::legend::Entry;
 use crate::scene::{PagePoint, PageVector, Scene};
 use crate::shapes;
@@ -58,8 +58,7 @@ impl Layers {
             }
         }
         for (i, layer) in self.anisotropy.into_iter().enumerate() {
-            let colour = ColourMap::Batlow.sample(i as f64 / (ANISOTROPY_STEPS - 1) as f64);
-            layer.draw(scene, legible(colour));
+            layer.draw(scene, legible(self.map.sample(i as f64 / (ANISOTROPY_STEPS - 1) as f64)));
         }
         let [left, right] = self.sectors;
         if !left.is_empty() {

@@ -2,7 +2,7 @@
 
 use super::kind::{GlyphColour, GlyphKind};
 use super::note::Note;
-use crate::colour::Rgba;
+use crate::colour::{ColourMap, Rgba};
 use crate::scene::{PathBuilder, Scene};
 use std::collections::BTreeSet;
 use tigereye_core::{Anisotropy, Tensor2};
@@ -44,6 +44,8 @@ pub(super) enum Tone {
 pub(super) struct Layers {
     pub(super) kind: GlyphKind,
     pub(super) colour: GlyphColour,
+    /// Colours of the anisotropy.
+    pub(super) map: ColourMap,
     /// By [`Tone`].
     pub(super) tones: [Layer; 4],
     pub(super) anisotropy: [Layer; ANISOTROPY_STEPS],
@@ -60,10 +62,11 @@ pub(super) struct Layers {
 }
 
 impl Layers {
-    pub(super) fn of(kind: GlyphKind, colour: GlyphColour) -> Self {
+    pub(super) fn of(kind: GlyphKind, colour: GlyphColour, map: ColourMap) -> Self {
         Self {
             kind,
             colour,
+            map,
             tones: Default::default(),
             anisotropy: Default::default(),
             signed_lines: Default::default(),

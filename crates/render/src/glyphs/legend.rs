@@ -18,9 +18,7 @@ impl Note {
         match self {
             Self::Tension => Entry::of(filled(TENSION), "tension (both axes ≥ 0)"),
             Self::Compression => Entry::of(filled(COMPRESSION), "compression (both axes ≤ 0)"),
-            Self::Mixed => {
-                Entry::of(filled(MIXED), "axes of opposite or no sign (line: sign of the major one)")
-            }
+            Self::Mixed => Entry::of(filled(MIXED), "mixed signs (line colour: major axis)"),
             Self::PositiveLobe => {
                 Entry::of(filled(signed(TENSION)), "filled: n·T n > 0 (tension), its size towards n")
             }

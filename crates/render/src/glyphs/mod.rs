@@ -7,6 +7,7 @@ mod layers;
 mod legend;
 mod note;
 mod outlines;
+pub(crate) mod over;
 mod quadric;
 mod scaling;
 mod signed;
@@ -19,9 +20,11 @@ use crate::colour::{ColourMap, Rgba};
 use crate::colour_bar::ColourBar;
 use crate::legend::{Entry, Mark};
 use crate::map_frame::{self, MapFrame};
+use crate::mask;
 use crate::overlay::{self, Overlay};
 use crate::ribbon::{self, Ribbon};
 use crate::scene::Scene;
+use crate::style::Style;
 pub use kind::{GlyphColour, GlyphKind, GlyphScale};
 use layers::Layers;
 pub use outlines::{GlyphOutline, GlyphPart, glyph_outlines};
@@ -49,6 +52,8 @@ pub struct GlyphOptions {
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the glyphs and bands, such as tensor lines.
     pub overlays: Vec<Overlay>,
+    /// What of all this is chosen otherwise; a colour map or a quantity is that of the anisotropy.
+    pub style: Style,
 }
 
 /// Each tensor as a glyph of the chosen kind, within its cell. The legend explains the marks that occur.
@@ -57,25 +62,30 @@ pub fn glyphs(field: &Field<Tensor2>, options: &GlyphOptions) -> Scene {
     let grid = field.grid();
     let kind = options.kind;
     let cell = map_frame::cell_px(grid, options.cell, options.cell_px, 640, 48);
-    let smaller = cell[0].min(cell[1]);
-    let every = options.every.unwrap_or_else(|| map_frame::stride(smaller, kind.pitch_px())).max(1);
+    let map = options.style.map.unwrap_or(ColourMap::Batlow);
     let bar = (options.colour == GlyphColour::Anisotropy).then(|| ColourBar {
         axis: Axis::linear(0.0, 1.0),
-        map: ColourMap::Batlow,
-        label: "linear anisotropy (s₁ − s₂) / (s₁ + s₂)",
+        map,
+        label: options.style.quantity.as_deref().unwrap_or("linear anisotropy (s₁ − s₂) / (s₁ + s₂)"),
         below: false,
         above: false,
     });
+    // The room is that of a short bar, whatever the height.
     let side = bar.as_ref().map_or(0.0, |b| b.width(200.0));
-    let mut page = MapFrame::begin(grid, &options.title, cell, side);
+    let mut page = MapFrame::begin(grid, (&options.style, &options.title), cell, &|_| side);
+    let smaller = page.smaller_side();
+    let every = options.every.unwrap_or_else(|| map_frame::stride(smaller, kind.pitch_px())).max(1);
     page.grid_lines(every, Rgba::hex(0xececec));
     let largest = largest(field, kind);
     let scaling = Scaling { kind: options.scale, largest, radius: kind.radius() * (smaller * every as f64) };
-    let mut layers = Layers::of(kind, options.colour);
-    for cell in map_frame::sampled_cells(grid, every) {
+    let masked = Field::from_fn(grid, |cell| field.at(cell).is_zero());
+    mask::draw(&mut page, &masked);
+    let mut layers = Layers::of(kind, options.colour, map);
+    for cell in map_frame::sampled_cells(grid, every).filter(|cell| !*masked.at(*cell)) {
         layers.add(page.centre(cell), field.at(cell), &scaling);
     }
     let mut legend = layers.draw(&mut page.scene);
+    mask::explain(&masked, &options.style, &mut legend);
     ribbon::draw(&mut page, &options.ribbons, &mut legend);
     overlay::draw(&mut page, &options.overlays, &mut legend);
     legend.extend(remarks(options, every, largest));
@@ -89,7 +99,7 @@ pub fn glyphs(field: &Field<Tensor2>, options: &GlyphOptions) -> Scene {
         grid.width(),
         grid.height()
     );
-    page.finish(&options.title, description, &legend)
+    page.finish(description, &legend)
 }
 
 /// The largest semi-axis of a field that can be drawn.

@@ -2,6 +2,7 @@
 
 use super::layers::{Layer, Layers, Tone};
 use super::{GlyphColour, GlyphOptions, Scaling};
+use crate::colour::ColourMap;
 use crate::map_frame;
 use crate::scene::{PagePoint, PathBuilder, Segment};
 use tigereye_core::{Cell, Field, Point, Tensor2};
@@ -52,7 +53,7 @@ pub fn glyph_outlines(field: &Field<Tensor2>, options: &GlyphOptions) -> Vec<Gly
     let scaling = Scaling { kind: options.scale, largest, radius: kind.radius() * CELL_PX * every as f64 };
     let mut outlines = Vec::new();
     for cell in map_frame::sampled_cells(field.grid(), every) {
-        let mut layers = Layers::of(kind, GlyphColour::AxisSign);
+        let mut layers = Layers::of(kind, GlyphColour::AxisSign, ColourMap::Batlow);
         layers.add(PagePoint::zero(), field.at(cell), &scaling);
         let [width, height] = options.cell.sides();
         let in_cells = |p: &PagePoint| {

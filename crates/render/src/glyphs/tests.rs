@@ -3,6 +3,7 @@
 use super::layers::{Layer, Layers};
 use super::note::Note;
 use super::{GlyphColour, GlyphKind, GlyphOptions, GlyphScale, Scaling, glyphs};
+use crate::colour::ColourMap;
 use crate::scene::{PagePoint, Segment};
 use tigereye_core::{
     Field, Grid, OrthogonalFactor, PhysicalPoint, PrincipalAxes, Svd, Tensor2, Vector, length, math,
@@ -28,7 +29,7 @@ const KINDS: [GlyphKind; 7] = [
 
 fn drawn(kind: GlyphKind, t: &Tensor2) -> Layers {
     let scaling = Scaling { kind: GlyphScale::Glyph, largest: kind.size(t), radius: REACH };
-    let mut layers = Layers::of(kind, GlyphColour::AxisSign);
+    let mut layers = Layers::of(kind, GlyphColour::AxisSign, ColourMap::Batlow);
     layers.add(PagePoint::zero(), t, &scaling);
     layers
 }
@@ -281,7 +282,7 @@ fn legends_name_only_what_occurs() {
     assert_eq!(notes(GlyphKind::Asymmetric, turning), [Note::TurnedLeft]);
     let scaling = Scaling { kind: GlyphScale::Glyph, largest: 1.0, radius: REACH };
     for both in [[Tensor2::ZERO, turning], [turning, Tensor2::ZERO]] {
-        let mut layers = Layers::of(GlyphKind::Arrows, GlyphColour::AxisSign);
+        let mut layers = Layers::of(GlyphKind::Arrows, GlyphColour::AxisSign, ColourMap::Batlow);
         both.iter().for_each(|t| layers.add(PagePoint::zero(), t, &scaling));
         let notes: Vec<Note> = layers.notes.into_iter().collect();
         assert_eq!(notes, [Note::SymmetricPart, Note::NoSymmetricPart]);

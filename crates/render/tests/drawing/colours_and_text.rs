@@ -1,5 +1,6 @@
 //! Laws of colour maps, of the embedded font and of number labels.
 
+use tigereye_core::Choice;
 use tigereye_render::{ColourMap, Rgba, has_glyph, number, text_width};
 
 /// CIELAB L*, a*, b* (D65) of an sRGB colour.
@@ -21,13 +22,23 @@ fn distance(a: Rgba, b: Rgba) -> f64 {
     (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum::<f64>().sqrt()
 }
 
+const SEQUENTIAL: [ColourMap; 7] = [
+    ColourMap::Viridis,
+    ColourMap::Magma,
+    ColourMap::Inferno,
+    ColourMap::Plasma,
+    ColourMap::Batlow,
+    ColourMap::Lajolla,
+    ColourMap::Imola,
+];
+
 #[test]
 fn sequential_maps_grow_lighter() {
-    for map in [ColourMap::Viridis, ColourMap::Batlow] {
+    for map in SEQUENTIAL {
         let lightness: Vec<f64> = (0..256).map(|i| lab(map.sample(f64::from(i) / 255.0))[0]).collect();
         // Rounding to eight bits moves lightness by up to 0.3.
-        assert!(lightness.windows(2).all(|w| w[1] > w[0] - 0.3), "{}", map.name());
-        assert!(lightness[255] - lightness[0] > 60.0, "{}", map.name());
+        assert!(lightness.windows(2).all(|w| w[1] > w[0] - 0.3), "{}", map.word());
+        assert!(lightness[255] - lightness[0] > 60.0, "{}", map.word());
     }
 }
 
@@ -41,16 +52,13 @@ fn diverging_map_is_lightest_in_the_middle_and_balanced() {
 }
 
 #[test]
-fn cyclic_map_closes() {
-    let step = |i: u32| {
-        distance(
-            ColourMap::RomaO.sample(f64::from(i) / 255.0),
-            ColourMap::RomaO.sample(f64::from(i + 1) / 255.0),
-        )
-    };
-    let largest = (0..255).map(step).fold(0.0, f64::max);
-    let closing = distance(ColourMap::RomaO.sample(0.0), ColourMap::RomaO.sample(1.0));
-    assert!(closing <= largest, "{closing} against {largest}");
+fn cyclic_maps_close() {
+    for &map in ColourMap::ALL.iter().filter(|map| map.is_cyclic()) {
+        let step = |i: u32| distance(map.sample(f64::from(i) / 255.0), map.sample(f64::from(i + 1) / 255.0));
+        let largest = (0..255).map(step).fold(0.0, f64::max);
+        let closing = distance(map.sample(0.0), map.sample(1.0));
+        assert!(closing <= largest, "{}: {closing} against {largest}", map.word());
+    }
 }
 
 #[test]
@@ -64,11 +72,12 @@ fn sampling_stays_in_the_table() {
 
 #[test]
 fn cells_without_a_value_cannot_be_taken_for_one() {
-    for map in [ColourMap::Viridis, ColourMap::Batlow] {
+    for map in SEQUENTIAL {
         for i in 0..256 {
             let colour = map.sample(f64::from(i) / 255.0);
-            assert!(distance(colour, Rgba::NO_LIGHT) > 15.0, "{} {i}", map.name());
-            assert!(distance(colour, Rgba::NOT_FINITE) > 15.0, "{} {i}", map.name());
+            assert!(distance(colour, Rgba::NO_LIGHT) > 15.0, "{} {i}", map.word());
+            assert!(distance(colour, Rgba::NOT_FINITE) > 15.0, "{} {i}", map.word());
+            assert!(distance(colour, Rgba::MASKED) > 15.0, "{} {i}", map.word());
         }
     }
 }

@@ -1,0 +1,24 @@
+//! Colour map bam: perceptually uniform and diverging, magenta over near-white to green.
+//!
+//! Source: Scientific colour maps by Fabio Crameri, doi:10.5281/zenodo.1243862, through the Python package
+//! cmcrameri 1.10.
+//! Licence: MIT, text in assets/LICENSE-colour-maps.txt.
+
+/// 256 entries of six hexadecimal digits (sRGB).
+pub(super) const TABLE: &str = "\
+    65024b67054e6a07506c0a526e0d5470105772125975145b77175d79195f7b1b617d1d637f1f6681216884236a86256c\
+    88276e8a28708c2a728e2c74902e7692307893317a95337c97357e99377f9b38819d3a839e3c85a03e87a23f88a4418a\
+    a5438ca7448ea9468faa4891ac4993ad4b94af4d96b04e97b25099b3529ab5549cb6559db8579fb959a0ba5aa2bc5ca3\
+    bd5ea5bf60a6c062a8c164a9c266abc468acc56aaec66cafc86eb0c970b2ca72b3cb74b5cc76b6ce78b7cf7ab9d07cba\
+    d17fbcd281bdd383bed485c0d587c1d68ac2d78cc4d88ec5d991c6da93c8db95c9dc97cadd9acbde9ccddf9ecedfa1cf\
+    e0a3d0e1a5d1e2a7d3e3aad4e4acd5e4aed6e5b0d7e6b3d8e7b5dae7b7dbe8b9dce9bbddeabddeeac0dfebc2e0ecc4e1\
+    ecc6e2edc8e3eecae4eecce5efcee6efd0e7f0d1e8f1d3e9f1d5e9f2d7eaf2d8ebf3daecf3dcecf3ddedf4dfeef4e0ee\
+    f5e2eff5e3eff5e4f0f5e6f0f6e7f0f6e8f1f6e9f1f6eaf1f6ebf1f6ecf1f6edf1f6eef1f6eff1f6eff1f6f0f1f6f1f1\
+    f6f1f0f6f2f0f5f2f0f5f2eff5f3eff4f3eef4f3edf3f3edf3f3ecf2f3ebf2f3eaf1f3e9f0f3e8eff3e6eff3e5eef2e4\
+    edf2e2ecf2e0ebf1dfeaf1dde8f0dbe7f0d9e6efd7e5efd5e3eed3e2edd1e0eccfdfecccddebcadceac7dae9c5d8e8c2\
+    d6e7bfd4e6bdd2e4bad0e3b7cee2b4cce1b1cadfaec8deabc6dda8c3dba5c1daa2bfd89fbcd79bbad598b7d395b5d292\
+    b2d08fb0ce8cadcd89abcb86a8c983a6c780a3c67da1c47a9ec2779cc07499be7297bc6f94bb6d92b96a8fb7688db565\
+    8ab36388b16186b05e83ae5c81ac5a7faa587ca8567aa75478a55276a35074a24f72a04d709e4b6d9c496b9b48699946\
+    67984565964364944162934060913e5e903d5c8e3c5a8d3a588b39578a375588365387355185335084324e82314c812f\
+    4b7f2e497e2d477c2b457b2a4479294278274076263e75253d73233b7122397021376e1f356d1e336b1c32691b306819\
+    2e66182c64162a6315286113265f12245d10225c0e205a0d1e580b1b5609195507175306155104124f030f4d010d4c00";

@@ -1,0 +1,16 @@
+//! How values become colours.
+
+/// How values become colours.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum HeatScale {
+    /// From the smallest to the largest value.
+    #[default]
+    Linear,
+    /// Powers of ten: `decades` below the maximum, and everything lower in [`crate::Rgba::NO_LIGHT`].
+    Logarithmic {
+        /// Decades shown, positive.
+        decades: f64,
+    },
+    /// Symmetric about 0.
+    Diverging,
+}

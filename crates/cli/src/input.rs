@@ -243,6 +243,7 @@ pub(crate) fn insert_reading(parameters: &mut Value, args: &ReadingArgs) {
                 .map(|d| json!(d.window.unwrap_or(Derived::USUAL_WINDOW))),
         ),
         ("mask", reading.mask.map(|v| json!(v))),
+        ("mask_array", reading.mask_array.map(|v| json!(v))),
         ("mask_above", (reading.mask_above != 0.0).then(|| json!(reading.mask_above))),
         ("not_finite", reading.zero_not_finite.then(|| json!("zero"))),
     ];

@@ -173,6 +173,18 @@ impl From<PlaneError> for InputError {
 }
 
 impl InputError {
+    /// The same about the file of a mask, whose array has an option of its own.
+    pub(crate) fn words_of_mask(&self) -> String {
+        match self {
+            Self::File { source, .. }
+                if matches!(**source, IoError::Choice(ChoiceError::Ambiguous { .. })) =>
+            {
+                format!("{source} (option --mask-array)")
+            }
+            other => other.to_string(),
+        }
+    }
+
     /// An option that chooses an array in a file that has no names for them.
     pub(crate) const fn nameless(option: &'static str) -> Self {
         Self::Needless { option, why: "the format has no names for arrays" }

@@ -7,7 +7,7 @@ use crate::provenance::hash_of_bytes;
 use crate::reading::{Derivation, Reading};
 use tigereye_core::math;
 use tigereye_io::volume::{Frame, Known, Lattice, Overlay, PlaneChoice, TensorVolume, World};
-use tigereye_io::{ArrayChoice, Limits, ScalarType, Wanted, npy};
+use tigereye_io::{ArrayChoice, Limits, ScalarType, Wanted};
 
 /// What a data file holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +22,8 @@ pub struct TensorFile {
     pub content: Content,
     /// The axes that vectors are along, where the user says so.
     frame: Option<Frame>,
-    /// How the mask lies over the input, where that is not plain.
-    mask_overlay: Option<String>,
+    /// How the mask lies over the input, where that is not plain, and what was read of it, a sentence each.
+    of_mask: Vec<String>,
     /// Names of all files that were read.
     pub files: Vec<String>,
 }
@@ -64,15 +64,17 @@ pub fn open(
     if reading.wanted() == Wanted::Tensors {
         lattice = lattice.with_mask_apart();
     }
-    let mut mask_overlay = None;
+    let mut of_mask = Vec::new();
     if let Some(mask) = &reading.mask {
-        let (found, bytes) = mask_lattice(mask, reading.limits(), &mut read)?;
+        let (found, bytes) = mask_lattice(mask, reading.mask_array.as_deref(), reading.limits(), &mut read)?;
         let overlay = lattice.mask_by(&found).ok_or_else(|| InputError::MaskSize {
             mask: mask.clone(),
             found: found.size,
             expected: lattice.size,
         })?;
-        mask_overlay = overlay_words(overlay, mask, found.world == World::Absent);
+        of_mask.extend(overlay_words(overlay, mask, found.world == World::Absent));
+        of_mask.extend(found.remarks.iter().map(|words| format!("mask {mask}: {words}")));
+        of_mask.extend(found.warnings.iter().map(|words| format!("WARNING: mask {mask}: {words}")));
         hashed.extend(bytes);
     }
     match &mut lattice.mask {
@@ -107,7 +109,7 @@ pub fn open(
         Content::Tensors(lattice.tensors(words)?)
     };
     let (name, frame) = (name.to_owned(), reading.frame);
-    Ok(TensorFile { name, kind, blake3, content, frame, mask_overlay, files })
+    Ok(TensorFile { name, kind, blake3, content, frame, of_mask, files })
 }
 
 /// A volume with its tensors that are not finite as the reading wants them: refused, or zero.
@@ -183,19 +185,20 @@ fn overlay_words(overlay: Overlay, mask: &str, mask_is_without: bool) -> Option<
 }
 
 /// One number a voxel, and the bytes they come from.
-fn mask_lattice(mask: &str, limits: Limits, read: &mut Read) -> Result<(Lattice, Vec<u8>), InputError> {
+fn mask_lattice(
+    mask: &str,
+    array: Option<&str>,
+    limits: Limits,
+    read: &mut Read,
+) -> Result<(Lattice, Vec<u8>), InputError> {
     let fault = |words: String| InputError::Mask { mask: mask.to_owned(), words };
-    if !is_readable(mask) {
-        return Err(fault(unreadable(mask).to_string()));
+    let Some(format) = Format::of(mask) else { return Err(fault(unreadable(mask).to_string())) };
+    if array.is_some() && !format.has_names {
+        return Err(InputError::nameless("--mask-array"));
     }
-    if format_of(mask) == "npy" {
-        let bytes = read(mask)?;
-        let lattice = npy::read_numbers(&bytes).map_err(|e| fault(InputError::from(e).to_string()))?;
-        return Ok((lattice, bytes));
-    }
-    let (_, lattice, bytes) = match lattice_of(mask, ArrayChoice::Usual, Wanted::Scalars, limits, read) {
+    let (_, lattice, bytes) = match lattice_of(mask, array.into(), Wanted::Mask, limits, read) {
         Err(e @ InputError::Unread { .. }) => return Err(e),
-        other => other.map_err(|e| fault(e.to_string()))?,
+        other => other.map_err(|e| fault(e.words_of_mask()))?,
     };
     if lattice.components != 1 {
         return Err(fault(format!("{} numbers a voxel: expected one", lattice.components)));
@@ -337,7 +340,7 @@ impl TensorFile {
             .chain(said)
             .chain(of_vectors)
             .chain(warnings)
-            .chain(self.mask_overlay.clone())
+            .chain(self.of_mask.iter().cloned())
             .collect()
     }
 }

@@ -320,7 +320,7 @@ fn read_text(request: &Request<'_>) -> Result<Found, InputError> {
     match (is_table(request.bytes, request.wanted), option) {
         (true, _) => Ok((TABLE, read_table(request)?)),
         (false, Some(option)) => Err(InputError::nameless(option)),
-        _ if request.wanted == Wanted::Scalars => Ok((ROWS_OF_NUMBERS, table::read_numbers(request.bytes)?)),
+        _ if request.wanted.is_numbers() => Ok((ROWS_OF_NUMBERS, table::read_numbers(request.bytes)?)),
         _ => Ok((TEXT_MATRICES, matrices::read_lattice(request.bytes)?)),
     }
 }
@@ -337,7 +337,7 @@ fn read_nifti(request: &Request<'_>) -> Result<Found, InputError> {
 fn is_table(bytes: &[u8], wanted: Wanted) -> bool {
     match (wanted, table::kind(bytes)) {
         (Wanted::Vectors, _) | (_, table::Kind::Named | table::Kind::Positions) => true,
-        (Wanted::Scalars, _) | (_, table::Kind::Other) => false,
+        (Wanted::Scalars | Wanted::Mask, _) | (_, table::Kind::Other) => false,
         (Wanted::Tensors, table::Kind::Numbered) => true,
     }
 }
@@ -348,7 +348,7 @@ fn read_table(request: &Request<'_>) -> Result<Lattice, InputError> {
     if wanted == Wanted::Vectors && matches!(request.array, ArrayChoice::Usual) {
         return Ok(table::read_vectors(bytes)?);
     }
-    if wanted == Wanted::Scalars && !is_table(bytes, wanted) {
+    if wanted.is_numbers() && !is_table(bytes, wanted) {
         return Ok(table::read_numbers(bytes)?);
     }
     match table::read_columns(bytes, request.array, wanted) {

@@ -27,6 +27,8 @@ pub struct Reading {
     pub derive: Option<Derivation>,
     /// File with one number a voxel; where it is not above [`Self::mask_above`], tensors become zero.
     pub mask: Option<String>,
+    /// Array of the mask's file, where this has several.
+    pub mask_array: Option<String>,
     /// Confidence that a mask (of its own file, or in NRRD) must exceed.
     pub mask_above: f64,
     /// Whether tensors that are not finite become zero instead of being refused.
@@ -122,6 +124,9 @@ impl Reading {
                 option,
                 why: "--components names the arrays and their order",
             });
+        }
+        if self.mask_array.is_some() && self.mask.is_none() {
+            return Err(InputError::Needless { option: "--mask-array", why: "no --mask is given" });
         }
         let Some(Derivation { kind, window, .. }) = self.derive else { return Ok(()) };
         let numbers = !kind.takes_vectors();

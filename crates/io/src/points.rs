@@ -87,16 +87,17 @@ impl PointLattice {
         let (mut first, mut step) = ([0.0; 3], [0.0; 3]);
         for axis in 0..3 {
             let mut sorted: Vec<f64> = points.iter().map(|p| p[axis]).collect();
-            sorted.sort_by(f64::total_cmp);
+            sorted.sort_unstable_by(f64::total_cmp);
             let (Some(&low), Some(&high)) = (sorted.first(), sorted.last()) else { return Err(0) };
             let largest_gap = sorted.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
-            let steps = if largest_gap > 0.0 { ((high - low) / largest_gap).round() } else { 0.0 };
-            // More steps than points, or no numbers.
-            if !(0.0..points.len() as f64).contains(&steps) {
+            if !(largest_gap.is_finite() && low.is_finite() && high.is_finite()) {
                 return Err(0);
             }
-            size[axis] = steps as usize + 1;
-            (first[axis], step[axis]) = (low, if steps > 0.0 { (high - low) / steps } else { 0.0 });
+            // Smaller gaps are rounding.
+            let is_step = |w: &&[f64]| largest_gap > 0.0 && w[1] - w[0] > COARSE * largest_gap;
+            let steps = sorted.windows(2).filter(is_step).count();
+            size[axis] = steps + 1;
+            (first[axis], step[axis]) = (low, if steps > 0 { (high - low) / steps as f64 } else { 0.0 });
         }
         if size.iter().map(|&n| n as u128).product::<u128>() != points.len() as u128 {
             return Err(0);

@@ -53,6 +53,10 @@ pub(crate) struct ReadingArgs {
     /// File of one number a voxel; tensors become zero where it is not above --mask-above.
     #[arg(long, value_name = "FILE")]
     mask: Option<String>,
+    /// Array of the mask's file, where it has several; without this, the one called mask, valid or the like, or the
+    /// active one.
+    #[arg(long, value_name = "NAME", requires = "mask")]
+    mask_array: Option<String>,
     /// What a mask, or the confidence in an NRRD file, must exceed.
     #[arg(long, value_name = "F", default_value_t = 0.0, value_parser = parse_threshold)]
     mask_above: f64,
@@ -82,6 +86,7 @@ impl ReadingArgs {
             resample: self.resample,
             derive,
             mask: self.mask.clone(),
+            mask_array: self.mask_array.clone(),
             mask_above: self.mask_above,
             zero_not_finite: self.not_finite == NotFinite::Zero,
             limit: self.limit,

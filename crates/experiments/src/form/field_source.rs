@@ -100,6 +100,9 @@ pub enum FieldSource {
         /// [`mask_above`](Self::File::mask_above) become zero.
         #[serde(default)]
         mask: Option<String>,
+        /// Array of the mask's file, where it has several.
+        #[serde(default)]
+        mask_array: Option<String>,
         /// What a mask, or the confidence in an NRRD file, must exceed.
         #[serde(default)]
         mask_above: f64,

@@ -2,7 +2,7 @@
 
 use super::arrays::described;
 use super::error::ChoiceError;
-use super::wanted::{Association, Wanted};
+use super::wanted::{Association, NAMED_MASK, Wanted};
 use crate::image::ActiveArrays;
 use crate::volume::{
     ComponentArrays, Group, Naming, VolumeError, groups, joined, joined_rows, names_principal_values, naming,
@@ -29,7 +29,7 @@ impl<'a> From<Option<&'a str>> for ArrayChoice<'a> {
     }
 }
 
-type Found<'a> = (Association, Cow<'a, DataArray>);
+pub(crate) type Found<'a> = (Association, Cow<'a, DataArray>);
 
 /// The array that the user names, or the active one, or the one that suits best; separate arrays of single components
 /// are joined.
@@ -119,9 +119,12 @@ fn by_components<'a>(image: &'a ImageData, components: &ComponentArrays) -> Resu
 }
 
 fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
-    let is_active = |(on, a): &(Association, &DataArray)| {
-        let active = of(image, *on).1;
-        wanted.active(active) == Some(&a.name) && wanted.suits(a, active) > 0
+    let suits = |(on, a): &(Association, &DataArray)| wanted.suits(a, of(image, *on).1);
+    // What is called a mask goes before what happens to be active.
+    let is_named = wanted == Wanted::Mask && all(image).any(|found| suits(&found) == NAMED_MASK);
+    let is_active = |found: &(Association, &DataArray)| {
+        let active = of(image, found.0).1;
+        !is_named && wanted.active(active) == Some(&found.1.name) && suits(found) > 0
     };
     let borrowed = |(on, a)| (on, Cow::Borrowed(a));
     let active: Vec<Found> = all(image).filter(is_active).map(borrowed).collect();
@@ -129,8 +132,8 @@ fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
         return Ok(found);
     }
     // Three numbers are a tensor only where nothing else is, at points and cells alike.
-    let certain = if wanted == Wanted::Tensors { 2 } else { 1 };
-    for least in [certain, 1] {
+    let first = if is_named { NAMED_MASK } else { wanted.certain() };
+    for least in [first, wanted.certain(), 1] {
         let mut fitting: Vec<Found> = Vec::new();
         for on in BOTH {
             let (arrays, active) = of(image, on);
@@ -161,12 +164,26 @@ fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
     }
 }
 
-/// Names of the arrays that hold tensors, too, where the usual one of `image` is called `chosen`.
-pub(crate) fn left_aside<'a>(image: &'a ImageData, wanted: Wanted, chosen: &str) -> Vec<&'a str> {
-    let is_another = |on: Association, array: &DataArray| {
-        wanted == Wanted::Tensors && array.name != chosen && wanted.suits(array, of(image, on).1) > 1
+/// Most arrays that a message names.
+const MOST_NAMED: usize = 12;
+
+/// What is said where the usual array of `image` was taken and there are others of its kind.
+pub(crate) fn left_aside(image: &ImageData, wanted: Wanted, chosen: &Found) -> Option<String> {
+    let is_another = |(on, array): &(Association, &DataArray)| {
+        let is_chosen = *on == chosen.0 && array.name == chosen.1.name;
+        !is_chosen && wanted.suits(array, of(image, *on).1) >= wanted.certain()
     };
-    all(image).filter(|(on, array)| is_another(*on, array)).map(|(_, array)| array.name.as_str()).collect()
+    let others: Vec<&str> = all(image).filter(is_another).map(|(_, array)| array.name.as_str()).collect();
+    if others.is_empty() {
+        return None;
+    }
+    let active = wanted.active(of(image, chosen.0).1) == Some(&chosen.1.name);
+    let how = if active { format!("the active {} ", wanted.word()) } else { String::new() };
+    let named = others[..others.len().min(MOST_NAMED)].join("`, `");
+    let more = others.len().saturating_sub(MOST_NAMED);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let (name, option) = (&chosen.1.name, wanted.option());
+    Some(format!("took {how}`{name}`; left aside: `{named}`{more} ({option})"))
 }
 
 /// The only one of those that fit, where there is any.
@@ -183,7 +200,7 @@ fn separate(arrays: &[DataArray], wanted: Wanted) -> Vec<DataArray> {
     match wanted {
         Wanted::Tensors => [entries(&with(1)), rows(&with(3), 3), rows(&with(2), 2)].concat(),
         Wanted::Vectors => [rows(&with(1), 3), rows(&with(1), 2)].concat(),
-        Wanted::Scalars => Vec::new(),
+        Wanted::Scalars | Wanted::Mask => Vec::new(),
     }
 }
 

@@ -33,6 +33,12 @@ impl Layout {
                 [x, y, z, 3] => volume(x, y, z, 3),
                 _ => None,
             },
+            // A mask of few layers is no image of vectors.
+            Wanted::Mask => match *shape {
+                [h, w] => picture(h, w, 1),
+                [x, y, z] => volume(x, y, z, 1),
+                _ => None,
+            },
             Wanted::Scalars => match *shape {
                 [h, w] => picture(h, w, 1),
                 // Two or three numbers a cell are a vector rather than layers.
@@ -49,7 +55,7 @@ const fn expected(wanted: Wanted) -> &'static str {
             "(H, W, 2, 2), (H, W, 4), (H, W, 3), (H, W, 3, 3), (H, W, 6), (X, Y, Z, 3, 3) or (X, Y, Z, 6) (also 7 or 9 instead of 6)"
         }
         Wanted::Vectors => "(H, W, 2), (H, W, 3) or (X, Y, Z, 3)",
-        Wanted::Scalars => "(H, W) or (X, Y, Z)",
+        Wanted::Scalars | Wanted::Mask => "(H, W) or (X, Y, Z)",
     }
 }
 
@@ -256,28 +262,18 @@ fn components_among(members: &[(String, Vec<u8>)], choice: ArrayChoice, wanted: 
     let found = match wanted {
         Wanted::Tensors => groups(&names).into_iter().map(|group| group.members).collect(),
         Wanted::Vectors => [row_groups(&names, 3), row_groups(&names, 2)].concat(),
-        Wanted::Scalars => Vec::new(),
+        Wanted::Scalars | Wanted::Mask => Vec::new(),
     };
     let all = found.into_iter().filter(|group| alike(group)).flatten();
     all.map(|i| names[i].to_owned()).collect()
 }
 
-/// Reads an array of single numbers, whatever the length of its last axis: a mask of few layers is no image of vectors.
+/// Reads an array of single numbers, whatever the length of its last axis.
 ///
 /// # Errors
 /// As [`read_lattice`].
-pub fn read_numbers(bytes: &[u8]) -> Result<Lattice, IoError> {
-    let array = read_array(bytes)?;
-    let layout = match array.shape[..] {
-        [height, width] => Some(Layout::Picture { height, width, tuple: 1, content: Content::NumpyPlane }),
-        [x, y, z] => Some(Layout::Volume { size: [x, y, z], tuple: 1 }),
-        _ => None,
-    };
-    let layout = layout.filter(|_| !array.shape.contains(&0));
-    let expected = expected(Wanted::Scalars);
-    layout
-        .map(|l| laid_out(array.clone(), l, Vec::new()))
-        .ok_or(NpyError::Shape { shape: array.shape, expected }.into())
+fn read_numbers(bytes: &[u8]) -> Result<Lattice, IoError> {
+    read_lattice(bytes, Wanted::Mask)
 }
 
 /// From `[x][y][z][component]` to tuples with x fastest.

@@ -24,6 +24,6 @@ mod write;
 
 pub use archive::{array_of_archive, arrays_of_archive, read_archive};
 pub use error::NpyError;
-pub use lattice::{lattice_of_members, read_lattice, read_numbers};
+pub use lattice::{lattice_of_members, read_lattice};
 pub use read::{NpyArray, read_array, read_tensors};
 pub use write::{write_array, write_light, write_ltg, write_tensors};

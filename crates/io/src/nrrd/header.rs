@@ -290,7 +290,7 @@ impl Header {
             self.kinds.iter().enumerate().filter_map(|(i, k)| Some((i, kind(k)?))).collect();
         let is_vector = |k: &String| VECTOR_KINDS.iter().any(|v| k.eq_ignore_ascii_case(v));
         let (axis, kind) = match (wanted, &tensors[..]) {
-            (Wanted::Scalars, _) => return self.scalar_layout(),
+            (Wanted::Scalars | Wanted::Mask, _) => return self.scalar_layout(),
             (Wanted::Vectors, _) => match self.kinds.iter().position(is_vector) {
                 Some(axis) if matches!(self.sizes[axis], 2 | 3) => (axis, None),
                 None if self.kinds.is_empty() && matches!(self.sizes[0], 2 | 3) => (0, None),

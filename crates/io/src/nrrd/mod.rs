@@ -73,7 +73,7 @@ pub fn read_with_limits(
         None => (Frame::Voxel, Known::Assumed),
     };
     let component_names =
-        if wanted == Wanted::Scalars { Vec::new() } else { header.component_names(layout.axis, components) };
+        if wanted.is_numbers() { Vec::new() } else { header.component_names(layout.axis, components) };
     let (axes, origin) = header.geometry(&layout);
     Ok(Lattice {
         size: layout.size,

@@ -112,7 +112,7 @@ impl Header {
             Some((line, names)) => {
                 Err(TableError::Header { line, found: shortened(names.as_bytes()) }.into())
             }
-            None if wanted == Wanted::Scalars && text.columns() == 3 => {
+            None if wanted.is_numbers() && text.columns() == 3 => {
                 Ok(Self::named(0, &["x", "y", "value"].map(str::to_owned)))
             }
             None => {
@@ -164,7 +164,11 @@ impl Header {
     }
 
     /// The columns that say which points are valid; one that the user names as data is none.
-    fn validity(&self, choice: ArrayChoice) -> Vec<(usize, Validity)> {
+    fn validity(&self, choice: ArrayChoice, wanted: Wanted) -> Vec<(usize, Validity)> {
+        // Those of a mask are what it is read for.
+        if wanted == Wanted::Mask {
+            return Vec::new();
+        }
         let is_data = |name: &str| match choice {
             ArrayChoice::Usual => false,
             ArrayChoice::Named(named) => named == name,
@@ -200,7 +204,7 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
     text.check_zones()?;
     let mut header = Header::of(&text, wanted)?;
     let (time, of_other_times) = header.choose_time(choice)?;
-    let validity = header.validity(choice);
+    let validity = header.validity(choice, wanted);
     // A time is no array.
     let is_time = time.as_ref().is_some_and(|time| times::is_named(time, choice));
     let choice = if is_time { ArrayChoice::Usual } else { choice };

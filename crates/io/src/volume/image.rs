@@ -2,6 +2,7 @@
 
 use super::convention::Content;
 use super::error::VolumeError;
+use super::geometry::world_axes;
 use super::lattice::Lattice;
 use super::matrix3::IDENTITY;
 use super::meaning::{Frame, Known, World};
@@ -19,8 +20,9 @@ use crate::{DataArray, ImageData, IoError, PolyData};
 pub(crate) const HIDDEN_POINT: u8 = 2;
 const HIDDEN_CELL: u8 = 32 | 8;
 
-/// Takes an array out of poly data whose points form a lattice: row by row in any direction, or along the world's axes
-/// in any order.
+/// Takes an array out of poly data whose points form a lattice, which has the world's axes x, y and z in this order
+/// whatever the order of the points: points are voxels without an order of their own. Points of a turned lattice go row
+/// by row in any direction; its axes have the order and the signs of the world's that they are nearest to.
 ///
 /// # Errors
 /// [`VolumeError::NoLattice`], and as [`lattice_from_image`]. Cell arrays belong to polygons and are not looked at.
@@ -29,25 +31,25 @@ pub fn lattice_from_points<'a>(
     array: impl Into<ArrayChoice<'a>>,
     wanted: Wanted,
 ) -> Result<Lattice, IoError> {
-    let (lattice, order) = match PointLattice::find(&data.points) {
-        Ok(lattice) => (lattice, None),
-        Err(point) => {
-            let scattered = PointLattice::scattered(&data.points);
-            let (lattice, order) = scattered.map_err(|_| VolumeError::NoLattice { point })?;
-            (lattice, Some(order))
+    let (lattice, order) = match PointLattice::scattered(&data.points) {
+        Ok(found) => found,
+        Err(_) => {
+            let turned = PointLattice::find(&data.points);
+            along_the_world(&turned.map_err(|point| VolumeError::NoLattice { point })?)
         }
     };
+    let is_ordered = order.iter().enumerate().all(|(place, &point)| place == point);
     let mut image = ImageData::empty(lattice.size);
     lattice.place(&mut image);
     image.point_arrays = data.point_arrays;
-    if let Some(order) = &order {
-        image.point_arrays.iter_mut().for_each(|array| array.reorder(order));
+    if !is_ordered {
+        image.point_arrays.iter_mut().for_each(|array| array.reorder(&order));
     }
     image.point_active = data.point_active;
     image.skipped = data.skipped;
     let mut found = lattice_from_image(&image, array, wanted)?;
     found.notes[0] = "a point array of VTK poly data whose points form a lattice".to_owned();
-    if order.is_some() {
+    if !is_ordered {
         found.notes.push("points put in the order of their lattice".to_owned());
     }
     let left_out: Vec<String> = data.cell_arrays.into_iter().map(|a| format!("`{}`", a.name)).collect();
@@ -55,6 +57,32 @@ pub fn lattice_from_points<'a>(
         found.notes.push(format!("arrays of polygons left out: {}", left_out.join(", ")));
     }
     Ok(found)
+}
+
+/// A lattice with its axes in the order of the world's that they are nearest to, running their way, and which of its
+/// points is at each place, the first axis fastest.
+fn along_the_world(lattice: &PointLattice) -> (PointLattice, Vec<usize>) {
+    let assigned = world_axes(&lattice.axes);
+    // The axis of the lattice for each of the world's.
+    let own = [0, 1, 2].map(|world| (0..3).find(|&a| assigned[a] == world).unwrap_or(world));
+    let is_reversed = |axis: usize| lattice.axes[axis][assigned[axis]] < 0.0;
+    let mut origin = lattice.origin;
+    for axis in (0..3).filter(|&a| is_reversed(a)) {
+        let steps = (lattice.size[axis] - 1) as f64;
+        (0..3).for_each(|i| origin[i] += steps * lattice.axes[axis][i]);
+    }
+    let axes = own.map(|a| lattice.axes[a].map(|v| if is_reversed(a) { -v } else { v }));
+    let size = own.map(|a| lattice.size[a]);
+    let strides = [1, lattice.size[0], lattice.size[0] * lattice.size[1]];
+    let point = |place: usize| {
+        let at = [place % size[0], place / size[0] % size[1], place / (size[0] * size[1])];
+        let along = |(i, &axis): (usize, &usize)| {
+            strides[axis] * if is_reversed(axis) { size[i] - 1 - at[i] } else { at[i] }
+        };
+        own.iter().enumerate().map(along).sum()
+    };
+    let order = (0..size.iter().product()).map(point).collect();
+    (PointLattice { size, axes, origin }, order)
 }
 
 /// Takes an array out of an image: the named one, or the active one of the wanted kind, or the only one whose tuples
@@ -70,16 +98,11 @@ pub fn lattice_from_image<'a>(
     wanted: Wanted,
 ) -> Result<Lattice, IoError> {
     let choice = array.into();
-    let (association, array) = choose_array(image, choice, wanted)?;
-    let mut remarks = Vec::new();
-    if matches!(choice, ArrayChoice::Usual) {
-        let others = left_aside(image, wanted, &array.name);
-        if !others.is_empty() {
-            let others = others.join("`, `");
-            remarks
-                .push(format!("took the active tensors `{}`; left aside: `{others}` (--array)", array.name));
-        }
-    }
+    let found = choose_array(image, choice, wanted)?;
+    let is_usual = matches!(choice, ArrayChoice::Usual);
+    let mut remarks: Vec<String> =
+        left_aside(image, wanted, &found).filter(|_| is_usual).into_iter().collect();
+    let (association, array) = found;
     let size = match association {
         Association::Points => image.dimensions,
         Association::Cells => image.cell_dimensions(),

@@ -7,6 +7,7 @@ mod encodings;
 mod hostile;
 mod parts;
 mod planes;
+mod positions;
 mod reference_files;
 mod round_trips;
 mod support;

@@ -79,7 +79,8 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
     }
     let remarks = transparent(&opacity);
     let is_opaque = opacity.iter().all(|alpha| *alpha == 1.0);
-    let warnings = orientation(reader.info()).map(unapplied).into_iter().collect();
+    let warnings =
+        orientation(reader.info()).map(unapplied).into_iter().chain(oblong(reader.info())).collect();
     if values.len() as u128 != cells {
         return Err(PictureError::Png { problem: "the rows do not fill the picture".to_owned() }.into());
     }
@@ -124,6 +125,18 @@ fn unapplied(orientation: u16) -> String {
     )
 }
 
+/// Words for pixels that the picture states to be oblong (its chunk `pHYs`): they are read as squares.
+fn oblong(info: &png::Info) -> Option<String> {
+    let png::PixelDimensions { xppu, yppu, .. } = info.pixel_dims?;
+    (xppu != yppu && xppu > 0 && yppu > 0).then(|| {
+        let ratio = f64::from(xppu) / f64::from(yppu);
+        format!(
+            "the picture states that its pixels are {ratio:.3} times as high as wide (pHYs), which is not applied: \
+             directions are right only in a picture resampled to square pixels"
+        )
+    })
+}
+
 /// The orientation in the EXIF data of a picture, where it is another than that of the rows and columns as stored.
 fn orientation(info: &png::Info) -> Option<u16> {
     exif_orientation(info.exif_metadata.as_ref()?).filter(|orientation| (2..=8).contains(orientation))
@@ -155,6 +168,22 @@ fn exif_orientation(exif: &[u8]) -> Option<u16> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A grey pixel with so many pixels a metre along x and y.
+    fn pixel(xppu: u32, yppu: u32) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
+        encoder.set_pixel_dims(Some(png::PixelDimensions { xppu, yppu, unit: png::Unit::Meter }));
+        encoder.write_header().unwrap().write_image_data(&[0; 4]).unwrap();
+        bytes
+    }
+
+    #[test]
+    fn oblong_pixels_are_warned_of() {
+        assert_eq!(read_png(&pixel(3937, 3937)).unwrap().warnings, Vec::<String>::new());
+        let warnings = read_png(&pixel(3937, 1969)).unwrap().warnings;
+        assert!(warnings.len() == 1 && warnings[0].contains("1.999 times as high as wide"), "{warnings:?}");
+    }
 
     #[test]
     fn orientations_are_found_in_both_byte_orders() {

@@ -103,7 +103,10 @@ impl Header {
     /// The nearest line above the numbers that names positions; without names, three columns are x, y and a number
     /// where single numbers are wanted.
     fn of(text: &Text, wanted: Wanted) -> Result<Self, IoError> {
-        let candidates: Vec<Self> = text.names().map(|(line, names)| Self::named(line, &names)).collect();
+        let candidates: Vec<Self> = text
+            .names()
+            .map(|(line, names)| Self::named(line, &names).with_units(text.units_below(line)))
+            .collect();
         let first = candidates.first().map(|h| (h.line, h.names()));
         if let Some(found) = candidates.into_iter().find(|h| h.places[0].is_some() && h.places[1].is_some()) {
             return Ok(found);
@@ -133,6 +136,14 @@ impl Header {
         let places = all.each_ref().map(|found| found.first().copied());
         let doubled = all.iter().flat_map(|found| found.iter().skip(1).copied()).collect();
         Self { line, columns, places, doubled }
+    }
+
+    /// With the units of a line of their own, for columns that have none in their names.
+    fn with_units(mut self, units: Vec<Option<String>>) -> Self {
+        for (column, unit) in self.columns.iter_mut().zip(units) {
+            column.unit = column.unit.take().or(unit);
+        }
+        self
     }
 
     fn names(&self) -> String {
@@ -451,6 +462,10 @@ mod tests {
         assert!(two.contains("columns x, y taken; X, Y left aside"), "{two}");
         let units = one("x,y,S11 [Pa],S22 [Pa],S12 [kPa]\n", |x, y| format!("{x},{y},1,2,3"));
         assert!(units.contains("Pa, Pa, kPa"), "{units}");
+        for line in ["mm,mm,Pa,Pa,kPa", "[mm],[mm],[Pa],[Pa],[kPa]", "\"mm\",\"mm\",(Pa),(Pa),(kPa)"] {
+            let units = one(&format!("x,y,S11,S22,S12\n{line}\n"), |x, y| format!("{x},{y},1,2,3"));
+            assert!(units.contains("Pa, Pa, kPa"), "{line}: {units}");
+        }
         let pixels = one("x [px],y [px],exx,eyy,exy\n", |x, y| format!("{x},{y},1,2,3"));
         assert!(pixels.contains("xy has the other sign"), "{pixels}");
         let thousands = one("x\ty\tS11\tS22\tS12\n", |x, y| format!("{x}\t{y}\t1,200\t5,000\t3"));

@@ -129,6 +129,26 @@ impl<'a> Text<'a> {
         all
     }
 
+    /// The units of the columns in a line of their own beneath that of the names, `mm,mm,MPa` or `[mm] [mm] [MPa]`;
+    /// nothing where the next line is another one.
+    pub(super) fn units_below(&self, names: usize) -> Vec<Option<String>> {
+        let line = self.above.get(names).map_or("", String::as_str);
+        let line = line.trim().trim_start_matches(['#', '%', '/', '!']).trim();
+        let words: Vec<&str> = match ['\t', ',', ';'].into_iter().find(|s| line.contains(*s)) {
+            Some(separator) => line.strip_suffix(separator).unwrap_or(line).split(separator).collect(),
+            None => line.split_whitespace().collect(),
+        };
+        if words.len() != self.columns() {
+            return Vec::new();
+        }
+        let unit =
+            |word: &str| word.trim_matches(|c: char| c.is_whitespace() || "[]()\"".contains(c)).to_owned();
+        words
+            .into_iter()
+            .map(|word| Some(unit(word)).filter(|unit| !matches!(unit.as_str(), "" | "-")))
+            .collect()
+    }
+
     /// Whether a line above the numbers begins a zone, as Tecplot has it.
     pub(super) fn is_of_tecplot(&self) -> bool {
         self.above.iter().any(|line| words_outside_quotes(line).any(|word| word == "ZONE"))

@@ -80,7 +80,8 @@ impl Columns {
                 let (_, unit) = name.split_once(['[', '('])?;
                 Some(unit.trim_end_matches([']', ')', ' ']).to_owned())
             };
-            let units = names.iter().map(unit).collect();
+            let mut below = text.units_below(line).into_iter();
+            let units = names.iter().map(|name| unit(name).or(below.next().flatten())).collect();
             let once = |role: &Role| roles.iter().filter(|r| **r == Some(*role)).count() == 1;
             let is_unread = |(name, role): (&String, &Option<Role>)| role.is_none().then(|| name.clone());
             let unread = names.iter().zip(&roles).filter_map(is_unread).collect();

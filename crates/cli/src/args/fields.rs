@@ -9,6 +9,7 @@ use tigereye_core::{Choice, Normalization};
 use tigereye_transport::ScatteringRule;
 
 #[derive(Debug, Subcommand)]
+#[expect(clippy::large_enum_variant, reason = "there is one at a time")]
 pub(crate) enum FieldCommand {
     /// All generators with their parameters and defaults.
     List(FieldListArgs),

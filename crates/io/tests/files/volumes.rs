@@ -341,7 +341,6 @@ fn volume() -> TensorVolume {
         t
     });
     let lattice = Lattice {
-        unit: None,
         size: [2, 3, 4],
         components: 9,
         values: values.collect(),
@@ -441,7 +440,6 @@ fn written_volumes_come_back() {
 fn scalars(size: [usize; 3], axes: [[f64; 3]; 3], origin: [f64; 3], world: &str) -> Lattice {
     let voxels: usize = size.iter().product();
     Lattice {
-        unit: None,
         size,
         components: 1,
         values: (0..voxels).map(|v| v as f64).collect(),

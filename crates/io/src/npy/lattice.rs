@@ -102,7 +102,7 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
         });
     };
     // A mask before six numbers is rarer than an array of seven columns.
-    let components_first = has_components_first(&shape, wanted);
+    let components_first = wanted != Wanted::Mask && has_components_first(&shape, wanted);
     if components_first && shape.last() == Some(&7) {
         return Err(NpyError::ComponentsFirst { shape }.into());
     }

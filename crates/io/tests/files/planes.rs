@@ -84,6 +84,11 @@ fn choice(order: Order, world: usize, index: usize, size: [usize; 3]) -> PlaneCh
     PlaneChoice { plane: None, slice: Some((axis, order.index(world, index, size))) }
 }
 
+/// A slice as a format counts that keeps the order of the axes, or as points do, which have that of the world.
+fn choice_in(format: &Format, order: Order, world: usize, index: usize) -> PlaneChoice {
+    choice(if format.name == "vtp" { PLAIN } else { order }, world, index, SIZE)
+}
+
 /// The numbers of a slice and of its place.
 fn all(slice: &Slice<Tensor2>) -> Vec<f64> {
     let lies = slice.cut.geometry;
@@ -110,7 +115,7 @@ fn no_order_of_axes_shows_in_a_slice() {
                 let turned = through(order);
                 for (world, index) in [(0, 0), (0, 1), (1, 2), (2, 1)] {
                     let expected = plain.slice(choice(PLAIN, world, index, SIZE)).unwrap();
-                    let found = turned.slice(choice(order, world, index, SIZE)).unwrap();
+                    let found = turned.slice(choice_in(format, order, world, index)).unwrap();
                     let what = format!("{} {order:?}, across {world} at {index}", format.name);
                     assert!(near(&found, &expected, tolerance), "{what}: {found:?}, expected {expected:?}");
                 }

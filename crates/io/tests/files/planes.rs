@@ -1,6 +1,6 @@
 //! Planes are laid out by the world: the order and the signs of voxel axes show in no picture, whatever the format.
 
-use crate::support::FORMATS;
+use crate::support::{FORMATS, Format};
 use tigereye_core::Tensor2;
 use tigereye_io::volume::{Axis, PlaneChoice, Reading, Slice, TensorVolume, lattice_from_image};
 use tigereye_io::{DataArray, ImageData, Wanted};
@@ -115,7 +115,7 @@ fn no_order_of_axes_shows_in_a_slice() {
                 let turned = through(order);
                 for (world, index) in [(0, 0), (0, 1), (1, 2), (2, 1)] {
                     let expected = plain.slice(choice(PLAIN, world, index, SIZE)).unwrap();
-                    let found = turned.slice(choice_in(format, order, world, index)).unwrap();
+                    let found = turned.slice(choice_in(&format, order, world, index)).unwrap();
                     let what = format!("{} {order:?}, across {world} at {index}", format.name);
                     assert!(near(&found, &expected, tolerance), "{what}: {found:?}, expected {expected:?}");
                 }

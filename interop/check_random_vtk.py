@@ -5,7 +5,7 @@ import itertools
 
 import numpy as np
 import vtk
-from random_fields import TEXT, Lattice, RandomChecks, Written, lattice, nearest, random_tensors
+from random_fields import TEXT, Lattice, RandomChecks, Written, lattice, nearest, random_tensors, world_axes_of
 from read_back import points_of
 from vtk.util.numpy_support import numpy_to_vtk
 
@@ -260,8 +260,15 @@ def write_legacy(generator, folder):
     return Written("in.vtk", place, world, words, options, kept, tolerance=TEXT if text else 1e-5)
 
 
+def along_the_world(written):
+    """Points have no axes of their own: x, y and z of their planes are the world's that they are nearest to."""
+    own = world_axes_of(written.lattice.directions())
+    permuted = written.permuted([own.index(world) for world in range(3)])
+    return permuted.taken([slice(None, None, -1 if permuted.lattice.axes[a, a] < 0 else 1) for a in range(3)])
+
+
 def write_points(generator, folder, shuffled=False):
-    # Points in no order say nothing of axes of their own: those of the world are left.
+    # Points in no order have to lie along the world's axes.
     place, kind = lattice(generator, ("upright",) if shuffled else ("upright", "signed", "signed", "oblique"))
     words = [kind, "shuffled"] if shuffled else [kind]
     positions = in_file_order(place.positions())
@@ -271,7 +278,7 @@ def write_points(generator, folder, shuffled=False):
     world, options, more = put_tensors(generator, data.GetPointData(), field_for(generator, place.size), order)
     words += more
     write_xml(generator, vtk.vtkXMLPolyDataWriter(), data, folder / "in.vtp", words)
-    return Written("in.vtp", place, world, words, options)
+    return along_the_world(Written("in.vtp", place, world, words, options))
 
 
 class RandomVtk(RandomChecks):

@@ -8,6 +8,7 @@ import numpy as np
 import vtk
 from check_vtk import array
 from common import ORIGIN, SPACING, TURN, Checks, six, slice_of, tensors, turned
+from random_fields import world_axes_of
 from vtk.util.numpy_support import vtk_to_numpy
 
 SHAPE = (4, 5, 3)
@@ -221,12 +222,22 @@ class Volumes(Places):
         data.GetPointData().SetActiveTensors("Tensors")
         self.written(data, "a.vtp")
         voxel = turned(world, TURN.T)
+        # Points have no order: x, y and z are the world's axes that those of the lattice are nearest to.
+        own = world_axes_of(TURN)
+        order = [own.index(axis) for axis in range(3)]
+        steps = [1 if TURN[axis, own.index(axis)] > 0 else -1 for axis in range(3)]
         for axis, index in [("x", 3), ("y", 2), ("z", 0)]:
             with self.subTest(f"{axis}={index}"):
-                found = self.plane("a.vtp", "--slice", f"{axis}={index}")
+                a = "xyz".index(axis)
+                counted = index if steps[own[a]] > 0 else SHAPE[a] - 1 - index
+                found = self.plane("a.vtp", "--slice", f"{'xyz'[own[a]]}={counted}")
                 self.near(found, slice_of(voxel, axis, index, TURN), 1e-9, f"{axis}={index}")
         self.run_program("convert", "a.vtp", "o.vti")
-        self.tensors_at(self.read("o.vti"), places, in_file_order(world), "poly data as .vti")
+        along = tuple(slice(None, None, step) for step in steps)
+        grid = places.reshape(*reversed(SHAPE), 3).transpose(2, 1, 0, 3).transpose(*order, 3)[along]
+        there = grid.transpose(2, 1, 0, 3).reshape(-1, 3)
+        expected = in_file_order(world.transpose(*order, 3, 4)[along])
+        self.tensors_at(self.read("o.vti"), there, expected, "poly data as .vti")
 
     def test_legacy_volumes(self):
         """Three axes in the legacy geometries, with unequal steps of the axes."""

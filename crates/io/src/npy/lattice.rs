@@ -62,6 +62,9 @@ const fn expected(wanted: Wanted) -> &'static str {
 /// Whether the shape would fit with its first axis (or its first two, of a matrix) put last, as arrays with the
 /// components first have it.
 fn has_components_first(shape: &[usize], wanted: Wanted) -> bool {
+    if wanted == Wanted::Mask {
+        return false;
+    }
     let leading = match *shape {
         [a @ (2 | 3), b, _, ..] if a == b && wanted == Wanted::Tensors => 2,
         // Two numbers last are a vector.

@@ -110,7 +110,9 @@ fn no_order_of_axes_shows_in_a_slice() {
                 let turned = through(order);
                 for (world, index) in [(0, 0), (0, 1), (1, 2), (2, 1)] {
                     let expected = plain.slice(choice(PLAIN, world, index, SIZE)).unwrap();
-                    let found = turned.slice(choice(order, world, index, SIZE)).unwrap();
+                    // Points have no order of axes in their file: slices are counted along the world's.
+                    let counted = if format.name == "vtp" { PLAIN } else { order };
+                    let found = turned.slice(choice(counted, world, index, SIZE)).unwrap();
                     let what = format!("{} {order:?}, across {world} at {index}", format.name);
                     assert!(near(&found, &expected, tolerance), "{what}: {found:?}, expected {expected:?}");
                 }

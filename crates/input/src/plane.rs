@@ -52,6 +52,7 @@ fn projected(volume: &TensorVolume, reading: &Reading) -> Result<PlaneField, Inp
     let mut story = volume.story();
     story.push(slice.cut.story(", the components along its normal dropped"));
     let mut plane = placed(slice.field, story, &slice.cut);
+    plane.remarks.extend(volume.tilted(&slice.cut));
     plane.remarks.extend(volume.contradicted_frame().map(|stated| {
         let taken = volume.frame().0.words();
         format!(

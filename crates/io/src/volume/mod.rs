@@ -38,7 +38,8 @@ pub use mask::Overlay;
 pub(crate) use matrix3::IDENTITY;
 pub use meaning::{Frame, Known, Shear, World};
 pub(crate) use names::{
-    Group, Naming, groups, names_eigenvectors, names_principal_values, naming, order_of, row_groups,
+    Group, Naming, VECTOR_AXES, groups, names_eigenvectors, names_principal_values, naming, order_of,
+    row_groups,
 };
 pub use order::TensorOrder;
 pub(crate) use output::{symmetric, written_scalar};

@@ -767,8 +767,67 @@ fn components_belong_to_the_plane_that_is_shown() {
     assert!(fault.contains("xx,yy,xy") && fault.contains("--order xx,zz,xz"), "{fault}");
     let by = |order| tensors(Reading { order: Some(order), ..Reading::default() });
     assert_eq!(by("xx,zz,xz"), Ok(Tensor2::symmetric(1.0, 3.0, 2.0)));
-    let vectors = lattice_from_image(&upright(2, &[]), None, Wanted::Vectors).unwrap();
-    assert_eq!(vectors.vectors(PlaneChoice::default(), None).unwrap().field.values()[0], [1.0, 2.0]);
+    let vectors = |names: &[&str], frame| {
+        let lattice = lattice_from_image(&upright(2, names), None, Wanted::Vectors).unwrap();
+        lattice.vectors(PlaneChoice::default(), frame).map(|s| s.field.values()[0])
+    };
+    assert_eq!(vectors(&["X", "Z"], None), Ok([1.0, 2.0]));
+    assert_eq!(vectors(&["w", "u"], None), Ok([2.0, 1.0]));
+    for (names, found) in [(&[][..], "x and y"), (&["u", "v"], "x and y"), (&["v", "w"], "y and z")] {
+        for frame in [None, Some(Frame::Voxel)] {
+            let fault = vectors(names, frame).unwrap_err().to_string();
+            assert!(fault.contains(&format!("along {found}, and the plane shows x and z")), "{fault}");
+        }
+    }
+}
+
+/// Two components say nothing of a plane that is tilted against them: vectors are refused, and of tensors it is said
+/// what is assumed. A turn within the plane of the components is no tilt.
+#[test]
+fn planes_that_are_tilted_against_their_components_are_known() {
+    let turned = |axis: usize, degrees: f64, components: usize| {
+        let mut image = ImageData::empty([3, 2, 1]);
+        let radians = degrees.to_radians();
+        let (sin, cos) = (tigereye_core::math::sin(radians), tigereye_core::math::cos(radians));
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mut direction = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        (direction[4 * a], direction[4 * b]) = (cos, cos);
+        (direction[3 * a + b], direction[3 * b + a]) = (-sin, sin);
+        image.direction = Some(direction);
+        image.point_arrays.push(DataArray::new("t", components, vec![1.0; 6 * components]));
+        image
+    };
+    for (axis, degrees, is_tilted) in [
+        (2, 30.0, false),
+        (2, 90.0, false),
+        (0, 20.0, true),
+        (0, 44.0, true),
+        (0, 80.0, true),
+        (1, 60.0, true),
+    ] {
+        let vectors = lattice_from_image(&turned(axis, degrees, 2), None, Wanted::Vectors).unwrap();
+        let found = vectors.vectors(PlaneChoice::default(), None);
+        assert_eq!(found.is_err(), is_tilted, "{axis} by {degrees}");
+        let along_voxels = vectors.vectors(PlaneChoice::default(), Some(Frame::Voxel)).unwrap();
+        assert_eq!(along_voxels.field.values()[0].map(f64::abs), [1.0; 2]);
+        if let Err(fault) = found {
+            let fault = fault.to_string();
+            assert!(fault.contains("is tilted against these") && fault.contains("--frame voxel"), "{fault}");
+        }
+        let tensors = lattice_from_image(&turned(axis, degrees, 4), None, Wanted::Tensors).unwrap();
+        let tensors = tensors.tensors(Reading::default()).unwrap();
+        let slice = tensors.slice(PlaneChoice::default()).unwrap();
+        let said = tensors.tilted(&slice.cut);
+        assert_eq!(said.is_some(), is_tilted, "{axis} by {degrees}: {said:?}");
+    }
+    // Turned within the plane xz, whose zz is not there.
+    let mut upright = turned(1, 30.0, 3);
+    upright.dimensions = [3, 1, 2];
+    upright.point_arrays[0] =
+        DataArray::new("t", 3, vec![1.0; 18]).with_component_names(&["S11", "S22", "S12"]);
+    let tensors = lattice_from_image(&upright, None, Wanted::Tensors).unwrap();
+    let fault = tensors.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap_err();
+    assert!(fault.to_string().contains("--order xx,zz,xz"), "{fault}");
 }
 
 #[test]

@@ -466,6 +466,10 @@ mod tests {
             let units = one(&format!("x,y,S11,S22,S12\n{line}\n"), |x, y| format!("{x},{y},1,2,3"));
             assert!(units.contains("Pa, Pa, kPa"), "{line}: {units}");
         }
+        let blanks = one("x [mm] y [mm] S11 [Pa] S22 [Pa] S12 [10^3 Pa]\n", |x, y| format!("{x} {y} 1 2 3"));
+        assert!(blanks.contains("Pa, Pa, 10^3 Pa"), "{blanks}");
+        let blanks = one("x y S11 S22 S12\n[mm] [mm] [Pa] [Pa] [kPa]\n", |x, y| format!("{x} {y} 1 2 3"));
+        assert!(blanks.contains("Pa, Pa, kPa"), "{blanks}");
         let pixels = one("x [px],y [px],exx,eyy,exy\n", |x, y| format!("{x},{y},1,2,3"));
         assert!(pixels.contains("xy has the other sign"), "{pixels}");
         let thousands = one("x\ty\tS11\tS22\tS12\n", |x, y| format!("{x}\t{y}\t1,200\t5,000\t3"));

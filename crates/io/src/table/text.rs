@@ -132,7 +132,8 @@ impl<'a> Text<'a> {
     /// The units of the columns in a line of their own beneath that of the names, `mm,mm,MPa` or `[mm] [mm] [MPa]`;
     /// nothing where the next line is another one.
     pub(super) fn units_below(&self, names: usize) -> Vec<Option<String>> {
-        let line = self.above.get(names).map_or("", String::as_str);
+        // What follows the variables of Tecplot files begins a zone.
+        let line = self.above.get(names).filter(|_| !self.is_of_tecplot()).map_or("", String::as_str);
         let line = line.trim().trim_start_matches(['#', '%', '/', '!']).trim();
         let words: Vec<&str> = match ['\t', ',', ';'].into_iter().find(|s| line.contains(*s)) {
             Some(separator) => line.strip_suffix(separator).unwrap_or(line).split(separator).collect(),
@@ -257,7 +258,7 @@ pub(super) fn names_of(line: &str) -> Vec<String> {
     }
 }
 
-/// Names between blanks, without their units; COMSOL's keep what follows their mark of a time, `@ t=0, Q=3`.
+/// Names between blanks with the units behind them, `x [px] y [px]`; COMSOL's keep what follows their mark of a time, `@ t=0, Q=3`.
 fn names_between_blanks(text: &str) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let mut words = text.split_whitespace();
@@ -273,7 +274,19 @@ fn names_between_blanks(text: &str) -> Vec<String> {
                     }
                 }
             }
-            _ if word.starts_with(['[', '(']) => {}
+            Some(name) if word.starts_with(['[', '(']) => {
+                name.push(' ');
+                name.push_str(word);
+                let mut last = word;
+                while !last.ends_with([']', ')']) {
+                    let Some(next) = words.next() else { break };
+                    name.push(' ');
+                    name.push_str(next);
+                    last = next;
+                }
+            }
+            // Units without a name are a line of their own.
+            None if word.starts_with(['[', '(']) => {}
             _ => names.push(word.to_owned()),
         }
     }

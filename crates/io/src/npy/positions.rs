@@ -17,6 +17,10 @@ const AXES: [[&str; 3]; 5] = [
 /// Arrays that say where cells lie by other rules.
 const OTHERS: [&str; 8] = ["points", "coords", "extent", "extents", "bounds", "spacing", "origin", "affine"];
 
+/// What is said of arrays with three axes of cells, which nothing names.
+pub(super) const AXES_OF_VOLUMES: &str = "took the axes of the array as x, y and z in this order; stacks of images are mostly [z][y][x], which \
+     numpy.transpose turns round";
+
 /// Whether an array of this name says where cells lie.
 pub(super) fn is_position(name: &str) -> bool {
     AXES.iter().flatten().chain(&OTHERS).any(|p| name.eq_ignore_ascii_case(p))
@@ -116,6 +120,7 @@ impl Positions {
         lattice.origin = image.origin;
         lattice.world = World::Viewer;
         lattice.notes.retain(|note| !note.starts_with("indexed"));
+        lattice.remarks.retain(|remark| remark != AXES_OF_VOLUMES);
         lattice.notes.push(format!("cells at the positions {names}"));
         if let Some(axis) = lattice.vertical_axis().filter(|_| !self.is_volume) {
             lattice.remarks.push(taken_upwards(axis));

@@ -56,6 +56,9 @@ pub(super) struct Header {
     maxima: Vec<f64>,
     centerings: Vec<String>,
     origin: Option<[f64; 3]>,
+    /// Units of the axes of the space, and of those of the array; empty where there are none.
+    space_units: Vec<String>,
+    units: Vec<String>,
     limits: Limits,
     /// The line that says that the numbers are diffusion-weighted images.
     weighted: Option<usize>,
@@ -250,6 +253,8 @@ impl Header {
             sizes,
             kinds: kinds.map_or_else(Vec::new, |e| e.value.split_whitespace().map(str::to_owned).collect()),
             kinds_line: kinds.map_or(fields.lines, |e| e.line),
+            space_units: fields.get(&["spaceunits"]).map_or_else(Vec::new, |e| labels(e.value)),
+            units: fields.get(&["units"]).map_or_else(Vec::new, |e| labels(e.value)),
             labels: fields.get(&["labels"]).map_or_else(Vec::new, |e| labels(e.value)),
             directions,
             directions_line,
@@ -473,6 +478,17 @@ impl Header {
                  their middles",
                 open.join(", ")
             )
+        })
+    }
+
+    /// A warning where the file measures its axes in different units.
+    pub(super) fn unequal_units(&self, layout: &Layout) -> Option<String> {
+        let of_axes = || layout.lattice.iter().filter_map(|&a| self.units.get(a).cloned()).collect();
+        let all: Vec<String> = if self.has_directions() { self.space_units.clone() } else { of_axes() };
+        let stated: Vec<&String> = all.iter().filter(|unit| !matches!(unit.trim(), "" | "???")).collect();
+        stated.windows(2).any(|pair| pair[0].trim() != pair[1].trim()).then(|| {
+            let units = stated.iter().map(|unit| unit.trim()).collect::<Vec<_>>().join(", ");
+            format!("the axes have different units ({units}), taken as they stand")
         })
     }
 

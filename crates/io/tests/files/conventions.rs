@@ -407,6 +407,70 @@ fn arrays_that_could_have_their_components_first_are_said() {
     assert_eq!(read(&[20, 40, 4]), Ok(0));
     assert!(matches!(read(&[3, 6, 7]), Err(IoError::Npy(NpyError::ComponentsFirst { .. }))));
     assert_eq!(read(&[20, 6, 7]), Ok(0));
+    // Matrices with both axes first.
+    assert_eq!((read(&[2, 2, 8, 6]), read(&[3, 3, 6]), read(&[2, 4, 8, 6])), (Ok(1), Ok(1), Ok(0)));
+    // One number behind the others does stand last.
+    assert!(matches!(read(&[3, 9, 1]), Err(IoError::Npy(NpyError::Shape { .. }))));
+}
+
+/// Nothing names the axes of an array of numbers with three of them; positions beside it do.
+#[test]
+fn the_order_of_the_axes_of_volumes_is_said() {
+    let array = npy::write_array(&[5, 4, 6], &[1.0; 120]).unwrap();
+    let said = |remarks: &[String]| remarks.iter().any(|r| r.contains("x, y and z in this order"));
+    assert!(said(&npy::read_lattice(&array, Wanted::Scalars).unwrap().remarks));
+    assert!(!said(&npy::read_lattice(&array, Wanted::Mask).unwrap().remarks));
+    let mut members = vec![("s".to_owned(), array)];
+    for (axis, n) in [("x", 5), ("y", 4), ("z", 6)] {
+        let steps: Vec<f64> = (0..n).map(f64::from).collect();
+        members.push((axis.to_owned(), npy::write_array(&[n as usize], &steps).unwrap()));
+    }
+    let placed = npy::lattice_of_members(&members, tigereye_io::ArrayChoice::Usual, Wanted::Scalars).unwrap();
+    assert!(!said(&placed.remarks), "{:?}", placed.remarks);
+}
+
+/// Blocks are an assumption about rows of numbers, which symmetric ones confirm.
+#[test]
+fn blocks_that_are_not_symmetric_are_said_to_be_assumed() {
+    let said = |text: &str| !tigereye_io::matrices::read_lattice(text.as_bytes()).unwrap().remarks.is_empty();
+    assert!(said("1 2 3 4\n5 6 7 8\n"));
+    assert!(!said("1 2 3 4\n2 6 4 8\n"));
+}
+
+/// A size has no sign, and half a scaling is none.
+#[test]
+fn sizes_and_scalings_of_nifti_are_taken_as_nibabel_takes_them() {
+    let mut file = nifti_voxel(RAS, [3, 1, 1, 1, 1, 1, 1, 1], 0, &[5.0], None);
+    file[254..256].copy_from_slice(&0_i16.to_le_bytes());
+    file[84..88].copy_from_slice(&(-3_f32).to_le_bytes());
+    assert_eq!(nifti::read(&file).unwrap().spacing(), [2.0, 3.0, 2.0]);
+    let mut scaled = |slope: f32, intercept: f32| {
+        file[112..116].copy_from_slice(&slope.to_le_bytes());
+        file[116..120].copy_from_slice(&intercept.to_le_bytes());
+        nifti::read(&file).map(|l| l.values[0]).map_err(|e| e.to_string())
+    };
+    assert_eq!((scaled(2.0, 1.0), scaled(f32::NAN, f32::NAN)), (Ok(11.0), Ok(5.0)));
+    let fault = scaled(2.0, f32::NAN).unwrap_err();
+    assert!(fault.contains("byte 116: NIfTI field scl_inter: found NaN"), "{fault}");
+}
+
+#[test]
+fn axes_of_nrrd_in_different_units_are_warned_of() {
+    let warnings = |more: &str| {
+        let text = format!(
+            "NRRD0005\ntype: float\ndimension: 3\nsizes: 3 2 2\nkinds: 2D-symmetric-matrix domain domain\nencoding: ascii\n\
+             {more}\n\n{}",
+            "1 0 1 ".repeat(4)
+        );
+        nrrd::read(text.as_bytes(), None).unwrap().warnings
+    };
+    let space = "space dimension: 2\nspace directions: none (1,0) (0,1)\nspace units:";
+    assert_eq!(warnings(&format!("{space} \"mm\" \"mm\"")), Vec::<String>::new());
+    assert_eq!(warnings("units: \"MPa\" \"mm\" \"mm\""), Vec::<String>::new());
+    for more in [format!("{space} \"mm\" \"cm\""), "units: \"\" \"mm\" \"cm\"".to_owned()] {
+        let found = warnings(&more);
+        assert!(found.len() == 1 && found[0].contains("different units (mm, cm)"), "{more}: {found:?}");
+    }
 }
 
 /// What VTK hides is no data, what it duplicates is.

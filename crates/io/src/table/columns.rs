@@ -254,6 +254,11 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
             if others > 0 { format!("; {others} columns of other times left aside") } else { String::new() };
         lattice.notes.push(format!("columns at {time}{aside}"));
     }
+    // Such a column leaves points out where it is not 0, if it stands beside the data.
+    if wanted == Wanted::Mask && Validity::of(&lattice.array) == Some(Validity::Mask) {
+        let words = format!("of the column `{}`, points stay where it is above 0", lattice.array);
+        lattice.remarks.push(words);
+    }
     lattice.remarks.extend(validity.iter().filter_map(|&(at, validity)| {
         let values: Vec<f64> = rows.iter().map(|row| row[at]).collect();
         validity.said(names[at], &values, "points")

@@ -148,6 +148,12 @@ fn hint(source: &IoError) -> &'static str {
             " (option --array)"
         }
         IoError::Volume(VolumeError::NoTensor { .. }) => " (option --order)",
+        IoError::Choice(ChoiceError::NoArray { wanted, available })
+            if wanted.starts_with("array of tensors")
+                && available.iter().any(|a| a.ends_with("a vector)")) =>
+        {
+            " (option --derive gradient or strain-rate for tensors of a vector)"
+        }
         // Components whose names are not understood.
         IoError::Choice(ChoiceError::NoArray { wanted, available })
             if wanted.starts_with("array of tensors")

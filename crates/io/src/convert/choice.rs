@@ -226,7 +226,12 @@ fn rows(arrays: &[&DataArray], axes: &[&str]) -> Vec<DataArray> {
 }
 
 fn missing(image: &ImageData, wanted: &str) -> ChoiceError {
-    let mut available = described(all(image).map(|f| f.1));
+    let words = |(on, array): (Association, &DataArray)| {
+        let is_vector = array.components == 2 || of(image, on).1.vectors.as_ref() == Some(&array.name);
+        let words = described([array]).concat();
+        if is_vector { words.replace(')', ", a vector)") } else { words }
+    };
+    let mut available: Vec<String> = all(image).map(words).collect();
     available.extend(image.skipped.iter().cloned());
     ChoiceError::NoArray { wanted: wanted.to_owned(), available }
 }

@@ -241,7 +241,12 @@ fn meaning(
         if components == expected && shape[4] == components {
             Ok((components, content, kind))
         } else {
-            Err(fault(50, "dim[5]", shape[4], "as many components as the intent's matrix has"))
+            Err(fault(
+                50,
+                "dim[5]",
+                shape[4],
+                "as many components along the fifth axis as the intent's matrix has (along the fourth they are read where the intent is 0)",
+            ))
         }
     };
     // ITK leaves the size of the matrix 0.

@@ -49,6 +49,7 @@ impl Layout {
             },
             Wanted::Scalars => match *shape {
                 [h, w] => picture(h, w, 1),
+                [h, w, 1] if h.min(w) > 3 => picture(h, w, 1),
                 // Two or three numbers a cell are a vector rather than layers.
                 [x, y, z] if z > 3 || x.min(y) <= 3 => volume(x, y, z, 1),
                 _ => None,

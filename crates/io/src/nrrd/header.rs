@@ -121,6 +121,10 @@ impl<'a> Fields<'a> {
             }
             if line > 1 {
                 entries.extend(Self::entry(text, line)?);
+                // The names of several files follow up to the end.
+                if entries.last().is_some_and(|e| e.name == "datafile" && e.value.starts_with("LIST")) {
+                    return Ok(Self { entries, weighted, lines: line, end: bytes.len() });
+                }
                 let begins = |key: &&str| {
                     text.get(..key.len()).is_some_and(|t| t.eq_ignore_ascii_case(key.as_bytes()))
                 };
@@ -300,9 +304,7 @@ impl Header {
                 Some(axis) if matches!(self.sizes[axis], 2 | 3) => (axis, None),
                 None if self.kinds.is_empty() && matches!(self.sizes[0], 2 | 3) => (0, None),
                 _ => {
-                    return Err(
-                        fault(&self.kinds.join(" "), "an axis of kind 2-vector, 3-vector or vector").into()
-                    );
+                    return Err(fault(&self.kinds.join(" "), VECTOR_NAMES).into());
                 }
             },
             (Wanted::Tensors, [(axis, kind)]) => (*axis, Some(*kind)),
@@ -506,8 +508,8 @@ impl Header {
 
 const TYPES: &str = "a number type such as float, double, short or uint8";
 const ENCODINGS: &str = "raw, gzip or ascii";
-const KIND_NAMES: &str =
-    "a tensor kind such as 3D-symmetric-matrix for one axis, or 6, 7 or 9 numbers on the first";
+const KIND_NAMES: &str = "a tensor kind such as 3D-symmetric-matrix for one axis, or 6, 7 or 9 numbers on the first, or on one of kind list or vector (3 or 4 there with their order)";
+const VECTOR_NAMES: &str = "two or three numbers on an axis of kind vector, 2-vector, 3-vector, covariant-vector, 3-gradient or 3-normal";
 
 fn too_large(bytes: &[u8], line: usize, count: u128, limit: u64) -> LimitError {
     let before = bytes.split(|&b| b == b'\n').take(line - 1).map(|l| l.len() + 1).sum();

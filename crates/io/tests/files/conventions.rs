@@ -454,6 +454,25 @@ fn sizes_and_scalings_of_nifti_are_taken_as_nibabel_takes_them() {
     assert!(fault.contains("byte 116: NIfTI field scl_inter: found NaN"), "{fault}");
 }
 
+/// What NRRD files do not say is asked for in full.
+#[test]
+fn messages_about_nrrd_name_what_is_read() {
+    let head = "NRRD0005\ntype: float\ndimension: 3\nsizes: 3 2 2\nencoding: ascii\nkinds:";
+    let fault = |more: &str, wanted| {
+        let text = format!("{head} {more}\n\n{}", "1 0 1 ".repeat(4));
+        nrrd::read_with_limits(text.as_bytes(), None, wanted, tigereye_io::Limits::default())
+            .map(|_| ())
+            .map_err(|e| e.to_string())
+    };
+    for kind in ["vector", "3-vector", "covariant-vector", "3-gradient", "3-normal"] {
+        assert_eq!(fault(&format!("{kind} domain domain"), Wanted::Vectors), Ok(()));
+        let words = fault("space domain domain", Wanted::Vectors).unwrap_err();
+        assert!(words.contains(kind), "{kind}: {words}");
+    }
+    let list = fault("vector domain domain\ndata file: LIST\na.raw\nb.raw", Wanted::Tensors).unwrap_err();
+    assert!(list.contains("line 7: NRRD field `data file`") && list.contains("unu save"), "{list}");
+}
+
 #[test]
 fn axes_of_nrrd_in_different_units_are_warned_of() {
     let warnings = |more: &str| {

@@ -310,7 +310,7 @@ fn tables_of_vectors_are_understood_by_their_names() {
     let both =
         |x: f64, y: f64| format!("{x},{y},{},{},{},{}", x + 2.0 * y, 3.0 * x + 4.0 * y, 5.0 * x, 5.0 * y);
     place.write("both.csv", table("x,y,u,v,Ux,Uy", &both));
-    let words = ["several arrays fit: `u, v` (2 components), `Ux, Uy` (2 components)", "(option --array)"];
+    let words = ["several arrays fit: `u, v` (2 components), `Ux, Uy` (2 components)", "(option --array"];
     place.refuses(&["info", "both.csv", "--derive", "gradient"], &words);
     assert_eq!(convert("both.csv", &["--array", "Ux, Uy"]), [5.0, 0.0, 0.0, 5.0]);
     place.write("other.csv", table("x,y,a,b", &|x, y| format!("{x},{y},1,2")));

@@ -319,7 +319,7 @@ mod tests {
             line_overlays(&field(spec), CellShape::SQUARE).into_iter().map(|o| o.label).collect::<Vec<_>>()
         };
         assert_eq!(labels("wedge:size=13"), ["", "wedge (index 1/2)"]);
-        assert_eq!(labels("rings:size=13"), ["", "merged points (index other than ±1/2)"]);
+        assert_eq!(labels("rings:size=13"), ["", "several merged, other index"]);
         assert_eq!(labels("x:size=13"), [""]);
         assert_eq!(usual_light(&field("sink:size=7")), Cell::new(3, 2));
     }

@@ -31,7 +31,7 @@ mod tests {
         let cases = [
             ("(format: 2, style: ())", "1:2: format 2 is unknown"),
             ("(format: 1, style: (\n colour: Vik))", "2:2: there is no key `colour`"),
-            ("(format: 1, style: (colour_map: Jet))", "there is no `Jet` here: expected one of `Viridis`"),
+            ("(format: 1, style: (colour_map: Jet))", "there is no `Jet` here: expected one of `Bam`"),
             ("(format: 1, style: (range: Values(2, 1)))", "1:20: the range from 2 to 1 is empty"),
             ("(format: 1, style: (range: Percentiles(2, 200)))", "both from 0 to 100"),
             (

@@ -31,10 +31,16 @@ pub enum Unavailable {
     Extraction(#[from] ExtractionError),
     /// What cannot be drawn over a picture.
     #[error(transparent)]
-    Added(#[from] AddedError),
+    Added(Box<AddedError>),
     /// A picture that cannot be drawn.
     #[error(transparent)]
     Render(#[from] RenderError),
+}
+
+impl From<AddedError> for Unavailable {
+    fn from(error: AddedError) -> Self {
+        Self::Added(Box::new(error))
+    }
 }
 
 /// For numbers that are not defined everywhere: with the reason.

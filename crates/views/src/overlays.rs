@@ -31,7 +31,7 @@ pub fn point_overlays(points: &[DegeneratePoint]) -> Vec<Overlay> {
     let kinds = [
         ("wedge (index 1/2)", Marker::Circle, Some(1)),
         ("trisector (index −1/2)", Marker::Triangle, Some(-1)),
-        ("merged points (index other than ±1/2)", Marker::Diamond, None),
+        ("several merged, other index", Marker::Diamond, None),
     ];
     let mut overlays = Vec::new();
     for (label, marker, turns) in kinds {

@@ -10,6 +10,7 @@ use tigereye_core::Choice;
 use tigereye_transport::ScatteringRule;
 
 #[derive(Debug, Subcommand)]
+#[expect(clippy::large_enum_variant, reason = "there is one at a time")]
 pub(crate) enum FieldCommand {
     /// All generators with their parameters and defaults.
     List(FieldListArgs),

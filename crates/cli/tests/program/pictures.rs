@@ -166,7 +166,7 @@ fn each_light_of_a_list_has_its_own_results() {
     let place = plate();
     place.write("lights.txt", "# two lights\n2,7\n\n  12,7,clip(cos(theta))^2  # to the right\n");
     let list = ["propagate", "plate.vti", "--normalization", "local", "--lights", "lights.txt"];
-    let run = place.succeeds(&with(&list, &["-o", "out.npy", "out.png", "--json"]));
+    let run = place.says(&with(&list, &["-o", "out.npy", "out.png", "--json"]), "plate.vti: light reached");
     let summaries = run.json();
     assert_eq!(summaries.as_array().map(Vec::len), Some(2));
     assert_eq!(summaries[1]["outputs"][0], "out-2.npy");

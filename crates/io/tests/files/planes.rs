@@ -1,6 +1,6 @@
 //! Planes are laid out by the world: the order and the signs of voxel axes show in no picture, whatever the format.
 
-use crate::support::FORMATS;
+use crate::support::{FORMATS, Format};
 use tigereye_core::Tensor2;
 use tigereye_io::volume::{Axis, PlaneChoice, Reading, Slice, TensorVolume, lattice_from_image};
 use tigereye_io::{DataArray, ImageData, Wanted};
@@ -84,6 +84,11 @@ fn choice(order: Order, world: usize, index: usize, size: [usize; 3]) -> PlaneCh
     PlaneChoice { plane: None, slice: Some((axis, order.index(world, index, size))) }
 }
 
+/// A slice as a format counts that keeps the order of the axes, or as points do, which have that of the world.
+fn choice_in(format: &Format, order: Order, world: usize, index: usize) -> PlaneChoice {
+    choice(if format.name == "vtp" { PLAIN } else { order }, world, index, SIZE)
+}
+
 /// The numbers of a slice and of its place.
 fn all(slice: &Slice<Tensor2>) -> Vec<f64> {
     let lies = slice.cut.geometry;
@@ -110,9 +115,7 @@ fn no_order_of_axes_shows_in_a_slice() {
                 let turned = through(order);
                 for (world, index) in [(0, 0), (0, 1), (1, 2), (2, 1)] {
                     let expected = plain.slice(choice(PLAIN, world, index, SIZE)).unwrap();
-                    // Points have no order of axes in their file: slices are counted along the world's.
-                    let counted = if format.name == "vtp" { PLAIN } else { order };
-                    let found = turned.slice(choice(counted, world, index, SIZE)).unwrap();
+                    let found = turned.slice(choice_in(&format, order, world, index)).unwrap();
                     let what = format!("{} {order:?}, across {world} at {index}", format.name);
                     assert!(near(&found, &expected, tolerance), "{what}: {found:?}, expected {expected:?}");
                 }

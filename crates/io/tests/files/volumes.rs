@@ -341,13 +341,13 @@ fn volume() -> TensorVolume {
         t
     });
     let lattice = Lattice {
-        unit: None,
         size: [2, 3, 4],
         components: 9,
         values: values.collect(),
         scalar: ScalarType::Float64,
         axes: [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]],
         origin: [10.0, 20.0, 30.0],
+        unit: None,
         world: World::Viewer,
         measurement: None,
         mask: None,
@@ -440,13 +440,13 @@ fn written_volumes_come_back() {
 fn scalars(size: [usize; 3], axes: [[f64; 3]; 3], origin: [f64; 3], world: &str) -> Lattice {
     let voxels: usize = size.iter().product();
     Lattice {
-        unit: None,
         size,
         components: 1,
         values: (0..voxels).map(|v| v as f64).collect(),
         scalar: ScalarType::Float64,
         axes,
         origin,
+        unit: None,
         world: if world.is_empty() { World::Viewer } else { World::Scanner(world.to_owned()) },
         measurement: None,
         mask: None,

@@ -56,7 +56,7 @@ fn turned_volume() -> TensorVolume {
 }
 
 /// Tensors along the world's axes, position and mask survive; NIfTI's world is right-anterior-superior, so two axes
-/// change sign there. Points have no order of axes: theirs are the world's.
+/// change sign there.
 #[test]
 fn turned_volumes_come_back_from_every_format() {
     let volume = turned_volume();
@@ -65,29 +65,28 @@ fn turned_volumes_come_back_from_every_format() {
         let lattice = through(&volume).unwrap();
         let nifti = name.starts_with("nii");
         let sign = |i: usize| if nifti && i < 2 { -1.0 } else { 1.0 };
-        let are_points = name == "vtp";
-        assert_eq!(lattice.size, if are_points { [3, 2, 4] } else { [2, 3, 4] }, "{name}");
-        let origin = if are_points { [5.0, 8.0, 9.0] } else { [7.0, 8.0, 9.0] };
-        assert_eq!(lattice.origin, [0, 1, 2].map(|i| sign(i) * origin[i]), "{name}");
-        let axes = if are_points {
-            [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 4.0]]
+        // Points have the order of the world's axes: -x of the volume, in its second axis, is x of the lattice.
+        let (size, origin, axes) = if name == "vtp" {
+            ([3, 2, 4], [5.0, 8.0, 9.0], [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 4.0]])
         } else {
-            [[0.0, 2.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 4.0]]
+            ([2, 3, 4], [7.0, 8.0, 9.0], [[0.0, 2.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 4.0]])
         };
-        // The voxel of the volume at a place of the lattice that comes back.
-        let voxel = |place: usize| match (are_points, [place % 3, place / 3 % 2, place / 6]) {
-            (true, [x, y, z]) => (3 * z + 2 - x) * 2 + y,
-            (false, _) => place,
-        };
+        assert_eq!(lattice.size, size, "{name}");
+        assert_eq!(lattice.origin, [0, 1, 2].map(|i| sign(i) * origin[i]), "{name}");
         for (axis, expected) in lattice.axes.iter().zip(axes) {
             for i in 0..3 {
                 assert!((axis[i] - sign(i) * expected[i]).abs() < 1e-12, "{name}: {axis:?}");
             }
         }
         let back = world(&lattice.tensors(Reading::default()).unwrap()).unwrap();
+        // The place in the volume of a point of the lattice.
+        let place = |point: usize| match name {
+            "vtp" => (point / 3 % 2) + 2 * ((2 - point % 3) + 3 * (point / 6)),
+            _ => point,
+        };
         for (i, found) in back.point_arrays[0].values.iter().enumerate() {
             let (row, column) = (i % 9 / 3, i % 3);
-            let expected = expected.point_arrays[0].values[9 * voxel(i / 9) + i % 9];
+            let expected = expected.point_arrays[0].values[9 * place(i / 9) + i % 9];
             assert_eq!(*found, sign(row) * sign(column) * expected, "{name}, number {i}");
         }
     }

@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn glyphs_of_every_anisotropy_stand_out_on_white() {
         for i in 0..=100 {
-            let colour = ColourMap::Batlow.sample(f64::from(i) / 100.0);
+            let colour = crate::ColourMap::Batlow.sample(f64::from(i) / 100.0);
             let drawn = legible(colour);
             assert!(1.05 / (luminance(drawn) + 0.05) >= LEAST_CONTRAST, "{i}: {drawn:?}");
             assert!(luminance(colour) > 0.3 || drawn == colour, "dark colours stay");

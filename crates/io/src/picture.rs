@@ -40,8 +40,8 @@ fn over_white(brightness: f64, alpha: f64) -> f64 {
 }
 
 /// Reads a PNG picture: brightness from 0 to 1, row 0 on top. Pixels are at distance 1 or, where the picture states
-/// that they are oblong, as it states: in millimetres, or in widths of a pixel where it has no unit. Transparent pixels hold no data:
-/// the opacity is the confidence of the mask. Partly transparent ones show white behind them.
+/// that they are oblong, as it states: in millimetres, or in widths of a pixel where it has no unit. Transparent pixels
+/// hold no data: the opacity is the confidence of the mask. Partly transparent ones show white behind them.
 ///
 /// # Errors
 /// [`PictureError::Png`], [`LimitError::Cells`].

@@ -281,7 +281,8 @@ pub(super) fn names_of(line: &str) -> Vec<String> {
     }
 }
 
-/// Names between blanks with the units behind them, `x [px] y [px]`; COMSOL's keep what follows their mark of a time, `@ t=0, Q=3`.
+/// Names between blanks with the units behind them, `x [px] y [px]`; COMSOL's keep what follows their mark of a time,
+/// `@ t=0, Q=3`.
 fn names_between_blanks(text: &str) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let mut words = text.split_whitespace();

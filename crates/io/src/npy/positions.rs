@@ -3,7 +3,7 @@
 use super::error::NpyError;
 use super::{NpyArray, read_array};
 use crate::points::PointLattice;
-use crate::volume::{Frame, Known, Lattice, World};
+use crate::volume::{Frame, Known, Lattice, World, world_axes};
 use crate::{ImageData, taken_upwards};
 
 /// What the axes of positions are called, in any case; the third is that of volumes.
@@ -128,6 +128,13 @@ impl Positions {
         if self.is_volume {
             // Whoever has positions has components along the same axes, rather than along those of the array.
             lattice.frame = (Frame::World, Known::Assumed);
+            let names = world_axes(&lattice.axes).map(|axis| ["x", "y", "z"][axis]);
+            if names != ["x", "y", "z"] {
+                lattice.remarks.push(format!(
+                    "the axes of the array run along the world's {}: --slice and --plane name and count those of the array",
+                    names.join(", ")
+                ));
+            }
         }
         if self.ambiguous {
             let warning = format!(

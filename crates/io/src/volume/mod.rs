@@ -31,6 +31,7 @@ pub(crate) use components::{joined, joined_rows};
 pub use convention::{ALIASES, Alias, CONVENTIONS, Content, Convention, documentation};
 pub use error::{PlaneError, VolumeError};
 pub use geometry::PlaneGeometry;
+pub(crate) use geometry::world_axes;
 pub(crate) use image::{HIDDEN_POINT, points_of_image};
 pub use image::{image_from_volume, lattice_from_image, lattice_from_points, points_from_image};
 pub use lattice::Lattice;

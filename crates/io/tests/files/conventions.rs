@@ -427,6 +427,16 @@ fn the_order_of_the_axes_of_volumes_is_said() {
     }
     let placed = npy::lattice_of_members(&members, tigereye_io::ArrayChoice::Usual, Wanted::Scalars).unwrap();
     assert!(!said(&placed.remarks), "{:?}", placed.remarks);
+    assert!(placed.remarks.is_empty(), "{:?}", placed.remarks);
+    // Axes that run along others than their names say so: slices are those of the array.
+    members.truncate(1);
+    for (name, step) in [("x", 1), ("y", 6), ("z", 24)] {
+        let length = [6, 4, 5][[1, 6, 24].iter().position(|s| *s == step).unwrap()];
+        let positions: Vec<f64> = (0..120).map(|i| f64::from(i / step % length)).collect();
+        members.push((name.to_owned(), npy::write_array(&[5, 4, 6], &positions).unwrap()));
+    }
+    let placed = npy::lattice_of_members(&members, tigereye_io::ArrayChoice::Usual, Wanted::Scalars).unwrap();
+    assert!(placed.remarks.iter().any(|r| r.contains("along the world's z, y, x")), "{:?}", placed.remarks);
 }
 
 /// Blocks are an assumption about rows of numbers, which symmetric ones confirm.

@@ -89,6 +89,16 @@ pub enum InputError {
         /// What is wrong with it.
         words: String,
     },
+    /// A mask that leaves nothing.
+    #[error(
+        "mask {mask} leaves nothing: expected a number above {above} at one point at least (--mask-above, --mask-array)"
+    )]
+    NothingLeft {
+        /// Name of the mask's file.
+        mask: String,
+        /// What its numbers should exceed.
+        above: f64,
+    },
     /// A tensor with a component that is infinite or not a number.
     #[error(
         "the tensor of cell ({x}, {y}) is not finite ({count} such tensors): expected numbers, a --mask that leaves them out, or --not-finite zero"
@@ -138,6 +148,12 @@ fn hint(source: &IoError) -> &'static str {
             " (option --array)"
         }
         IoError::Volume(VolumeError::NoTensor { .. }) => " (option --order)",
+        IoError::Choice(ChoiceError::NoArray { wanted, available })
+            if wanted.starts_with("array of tensors")
+                && available.iter().any(|a| a.ends_with("a vector)")) =>
+        {
+            " (option --derive gradient or strain-rate for tensors of a vector)"
+        }
         // Components whose names are not understood.
         IoError::Choice(ChoiceError::NoArray { wanted, available })
             if wanted.starts_with("array of tensors")

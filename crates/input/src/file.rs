@@ -78,6 +78,10 @@ pub fn open(
         hashed.extend(bytes);
     }
     match &mut lattice.mask {
+        Some(mask) if !mask.iter().any(|m| *m > reading.mask_above) && reading.mask.is_some() => {
+            let (mask, above) = (reading.mask.clone().unwrap_or_default(), reading.mask_above);
+            return Err(InputError::NothingLeft { mask, above });
+        }
         Some(mask) => mask.iter_mut().for_each(|m| *m = if *m > reading.mask_above { *m } else { 0.0 }),
         None if reading.mask_above != 0.0 => {
             return Err(InputError::Needless {

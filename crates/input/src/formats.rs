@@ -96,7 +96,10 @@ pub const FORMATS: &[Format] = &[
         has_names: true,
         read_as: "tables, one point per line: tensors by names of columns (x, y, S11, S22, S12); vectors (x y u v, `--derive`)",
         written_for: "",
-        read: |r| Ok((TABLE, read_table(r)?)),
+        read: |r| {
+            let bytes = table::utf8(r.bytes);
+            Ok((TABLE, read_table(&Request { bytes: &bytes, ..*r })?))
+        },
         detached: None,
         tensors: None,
     },
@@ -312,6 +315,8 @@ The extension of a file name determines the format.
 
 /// Blocks of tensors, rows of numbers, or a table, by what is wanted and what stands in it.
 fn read_text(request: &Request<'_>) -> Result<Found, InputError> {
+    let bytes = table::utf8(request.bytes);
+    let request = &Request { bytes: &bytes, ..*request };
     let option = match request.array {
         ArrayChoice::Usual => None,
         ArrayChoice::Named(_) => Some("--array"),
@@ -346,7 +351,21 @@ fn is_table(bytes: &[u8], wanted: Wanted) -> bool {
 fn read_table(request: &Request<'_>) -> Result<Lattice, InputError> {
     let (bytes, wanted) = (request.bytes, request.wanted);
     if wanted == Wanted::Vectors && matches!(request.array, ArrayChoice::Usual) {
-        return Ok(table::read_vectors(bytes)?);
+        return Ok(match table::read_vectors(bytes) {
+            // Other positions than x and y, other components than u and v, or several of them.
+            Err(error @ IoError::Table(TableError::Header { .. }))
+                if table::kind(bytes) == table::Kind::Named =>
+            {
+                match table::read_columns(bytes, request.array, wanted) {
+                    Err(
+                        IoError::Table(TableError::Header { .. })
+                        | IoError::Choice(ChoiceError::NoArray { .. }),
+                    ) => Err(error),
+                    other => other,
+                }
+            }
+            other => other,
+        }?);
     }
     if wanted.is_numbers() && !is_table(bytes, wanted) {
         return Ok(table::read_numbers(bytes)?);

@@ -52,6 +52,11 @@ fn projected(volume: &TensorVolume, reading: &Reading) -> Result<PlaneField, Inp
     let mut story = volume.story();
     story.push(slice.cut.story(", the components along its normal dropped"));
     let mut plane = placed(slice.field, story, &slice.cut);
+    plane.remarks.extend(volume.tilted(&slice.cut));
+    let mask = volume.lattice().mask_in(&slice.cut);
+    if mask.is_some_and(|mask| mask.values().iter().all(|is_out| *is_out)) {
+        plane.remarks.push("WARNING: the mask leaves nothing of this plane".to_owned());
+    }
     plane.remarks.extend(volume.contradicted_frame().map(|stated| {
         let taken = volume.frame().0.words();
         format!(

@@ -18,7 +18,7 @@ use crate::text::{TextError, shortened};
 use crate::volume::Lattice;
 pub use error::MatricesError;
 use std::fmt::Write as _;
-use tigereye_core::{Cell, CoreError, Field, Grid, Tensor2};
+use tigereye_core::{Cell, CoreError, Field, Grid, Symmetry, Tensor2};
 
 /// Reads a tensor field.
 ///
@@ -60,6 +60,12 @@ pub fn read_lattice(bytes: &[u8]) -> Result<Lattice, IoError> {
     let field = read(bytes)?;
     let mut lattice = Lattice::from_field(&field);
     let [width, height, _] = lattice.size;
+    let symmetry = Symmetry::of(&field);
+    if field.values().iter().any(|t| !symmetry.has_symmetric(t)) {
+        lattice.remarks.push(format!(
+            "took blocks of 2 x 2 numbers as the tensors of {width} x {height} cells; numbers of one quantity need --derive"
+        ));
+    }
     if width <= NARROW && height >= LONG * width || has_a_tensor_a_line(&field) {
         lattice.warnings.push(format!(
             "{width} x {height} cells of 2x2 blocks: a table with one tensor a line would look the same (it needs positions \

@@ -39,8 +39,9 @@ fn over_white(brightness: f64, alpha: f64) -> f64 {
     alpha * brightness + (1.0 - alpha)
 }
 
-/// Reads a PNG picture: brightness from 0 to 1, row 0 on top, pixels at distance 1. Transparent pixels hold no data:
-/// the opacity is the confidence of the mask. Partly transparent ones show white behind them.
+/// Reads a PNG picture: brightness from 0 to 1, row 0 on top. Pixels are at distance 1 or, where the picture states
+/// that they are oblong, as it states: in millimetres, or in widths of a pixel where it has no unit. Transparent pixels
+/// hold no data: the opacity is the confidence of the mask. Partly transparent ones show white behind them.
 ///
 /// # Errors
 /// [`PictureError::Png`], [`LimitError::Cells`].
@@ -77,10 +78,17 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
             opacity.push(alpha);
         }
     }
-    let remarks = transparent(&opacity);
     let is_opaque = opacity.iter().all(|alpha| *alpha == 1.0);
-    let warnings =
-        orientation(reader.info()).map(unapplied).into_iter().chain(oblong(reader.info())).collect();
+    let warnings = orientation(reader.info()).map(unapplied).into_iter().collect();
+    let (mut remarks, mut pixel, mut unit) = (transparent(&opacity), [1.0; 2], None);
+    if let Some((sides, of)) = oblong(reader.info()) {
+        (pixel, unit) = (sides, of);
+        let [x, y] = sides;
+        remarks.push(match unit {
+            Some(unit) => format!("pixels are {x:.4} x {y:.4} {unit}, as the picture states (pHYs)"),
+            None => format!("pixels are {y:.4} times as high as wide, as the picture states (pHYs)"),
+        });
+    }
     if values.len() as u128 != cells {
         return Err(PictureError::Png { problem: "the rows do not fill the picture".to_owned() }.into());
     }
@@ -89,9 +97,9 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
         components: 1,
         values,
         scalar: format,
-        axes: [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]],
-        origin: [0.0, (height - 1) as f64, 0.0],
-        unit: None,
+        axes: [[pixel[0], 0.0, 0.0], [0.0, -pixel[1], 0.0], [0.0, 0.0, 1.0]],
+        origin: [0.0, (height - 1) as f64 * pixel[1], 0.0],
+        unit,
         world: World::Absent,
         measurement: None,
         mask: (!is_opaque).then_some(opacity),
@@ -125,15 +133,17 @@ fn unapplied(orientation: u16) -> String {
     )
 }
 
-/// Words for pixels that the picture states to be oblong (its chunk `pHYs`): they are read as squares.
-fn oblong(info: &png::Info) -> Option<String> {
-    let png::PixelDimensions { xppu, yppu, .. } = info.pixel_dims?;
-    (xppu != yppu && xppu > 0 && yppu > 0).then(|| {
-        let ratio = f64::from(xppu) / f64::from(yppu);
-        format!(
-            "the picture states that its pixels are {ratio:.3} times as high as wide (pHYs), which is not applied: \
-             directions are right only in a picture resampled to square pixels"
-        )
+/// Width and height of pixels that the picture states to be oblong (its chunk `pHYs`), and their unit.
+fn oblong(info: &png::Info) -> Option<([f64; 2], Option<&'static str>)> {
+    const MILLIMETRES: f64 = 1000.0;
+    let png::PixelDimensions { xppu, yppu, unit } = info.pixel_dims?;
+    // Pixels a metre are rounded to whole numbers; ratios of small numbers, such as 1 to 2, are exact.
+    let rounding = if unit == png::Unit::Meter { 1 } else { 0 };
+    let is_oblong = xppu > 0 && yppu > 0 && xppu.abs_diff(yppu) > rounding;
+    let (x, y) = (f64::from(xppu), f64::from(yppu));
+    is_oblong.then(|| match unit {
+        png::Unit::Meter => ([MILLIMETRES / x, MILLIMETRES / y], Some("mm")),
+        png::Unit::Unspecified => ([1.0, x / y], None),
     })
 }
 
@@ -169,20 +179,28 @@ fn exif_orientation(exif: &[u8]) -> Option<u16> {
 mod tests {
     use super::*;
 
-    /// A grey pixel with so many pixels a metre along x and y.
-    fn pixel(xppu: u32, yppu: u32) -> Vec<u8> {
+    /// A grey picture of 2 x 2 pixels, so many a unit along x and y.
+    fn picture(xppu: u32, yppu: u32, unit: png::Unit) -> Lattice {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
-        encoder.set_pixel_dims(Some(png::PixelDimensions { xppu, yppu, unit: png::Unit::Meter }));
+        encoder.set_pixel_dims(Some(png::PixelDimensions { xppu, yppu, unit }));
         encoder.write_header().unwrap().write_image_data(&[0; 4]).unwrap();
-        bytes
+        read_png(&bytes).unwrap()
     }
 
     #[test]
-    fn oblong_pixels_are_warned_of() {
-        assert_eq!(read_png(&pixel(3937, 3937)).unwrap().warnings, Vec::<String>::new());
-        let warnings = read_png(&pixel(3937, 1969)).unwrap().warnings;
-        assert!(warnings.len() == 1 && warnings[0].contains("1.999 times as high as wide"), "{warnings:?}");
+    fn pixels_are_as_oblong_as_the_picture_states() {
+        let spacing = |lattice: &Lattice| (lattice.spacing()[0], lattice.spacing()[1], lattice.unit);
+        for (x, y) in [(3937, 3937), (3937, 3936), (0, 5), (5, 0)] {
+            let square = picture(x, y, png::Unit::Meter);
+            assert_eq!((spacing(&square), square.remarks.len()), ((1.0, 1.0, None), 0), "{x} {y}");
+        }
+        let oblong = picture(4000, 2000, png::Unit::Meter);
+        assert_eq!((spacing(&oblong), oblong.origin), ((0.25, 0.5, Some("mm")), [0.0, 0.5, 0.0]));
+        assert!(oblong.remarks[0].contains("0.2500 x 0.5000 mm"), "{:?}", oblong.remarks);
+        let ratio = picture(2, 1, png::Unit::Unspecified);
+        assert_eq!(spacing(&ratio), (1.0, 2.0, None));
+        assert!(ratio.remarks[0].contains("2.0000 times as high as wide"), "{:?}", ratio.remarks);
     }
 
     #[test]

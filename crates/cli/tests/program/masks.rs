@@ -159,3 +159,63 @@ fn flags_of_paraview_mask_tensors_and_vectors() {
         }
     }
 }
+
+/// Of several arrays the one that is called a mask is one, whichever is active; what was taken is said, and another may
+/// be named.
+#[test]
+fn the_array_of_a_mask_is_said_and_may_be_named() {
+    let place = Place::new();
+    let array = |name: &str, value: &dyn Fn(usize) -> f64| {
+        let values: Vec<String> = (0..9).map(|i| value(i).to_string()).collect();
+        format!("SCALARS {name} double 1\nLOOKUP_TABLE default\n{}\n", values.join(" "))
+    };
+    let head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 3 1\nORIGIN 0 0 0\nSPACING 1 1 1\n\
+                POINT_DATA 9\n";
+    let (pressure, corner, edge) = (
+        |_: usize| 5.0,
+        |i: usize| if i == 0 { 0.0 } else { 1.0 },
+        |i: usize| if i < 3 { -1.0 } else { 1.0 },
+    );
+    place.write("t.vtk", format!("{head}TENSORS t double\n{}", "1 0 0 0 2 0 0 0 3\n".repeat(9)));
+    place.write("named.vtk", head.to_owned() + &array("p", &pressure) + &array("Brain_mask", &corner));
+    place.write("plain.vtk", head.to_owned() + &array("p", &edge) + &array("q", &corner));
+    place.write("two.vtk", head.to_owned() + &array("mask", &edge) + &array("valid", &corner));
+    let zeros = |options: &[&str], words: &str| {
+        let run = place.says(&[&["convert", "t.vtk", "o.npy", "--force"], options].concat(), words);
+        assert!(words.is_empty() != run.stderr.contains("left aside"), "{}", run.stderr);
+        let field = npy::read_tensors(&place.read("o.npy")).unwrap();
+        field.values().iter().filter(|t| t.is_zero()).count()
+    };
+    assert_eq!(zeros(&["--mask", "named.vtk"], "took `Brain_mask`; left aside: `p` (--mask-array)"), 1);
+    assert_eq!(zeros(&["--mask", "plain.vtk"], "took the active scalars `p`; left aside: `q`"), 3);
+    assert_eq!(zeros(&["--mask", "plain.vtk", "--mask-array", "q"], ""), 1);
+    place.refuses(&["info", "t.vtk", "--mask", "two.vtk"], &["several arrays fit", "(option --mask-array)"]);
+    place.refuses(&["info", "t.vtk", "--mask", "two.vtk", "--mask-array", "r"], &["no array `r`"]);
+    // Inside a table of data such a column would leave points out.
+    let line = |i: usize| format!("{},{},{},7\n", i % 3, i / 3, if i == 0 { 0 } else { 1 });
+    place.write("m.csv", "x,y,mask,T\n".to_owned() + &(0..9).map(line).collect::<String>());
+    let run = place
+        .says(&["convert", "t.vtk", "o.npy", "--force", "--mask", "m.csv"], "took `mask`; left aside: `T`");
+    assert!(run.stderr.contains("points stay where it is above 0"), "{}", run.stderr);
+    place.refuses(&["info", "t.vtk", "--mask", "m.csv", "--mask-above", "1"], &["leaves nothing", "above 1"]);
+}
+
+/// Derivatives, too, are of one array of several, and which is said.
+#[test]
+fn the_array_that_is_derived_from_is_said() {
+    let place = Place::new();
+    let head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 3 1\nORIGIN 0 0 0\nSPACING 1 1 1\n\
+                POINT_DATA 9\n";
+    let vectors = |name: &str| format!("VECTORS {name} double\n{}", "1 2 3\n".repeat(9));
+    let scalars = |name: &str| format!("SCALARS {name} double 1\nLOOKUP_TABLE default\n{}", "4\n".repeat(9));
+    place.write("v.vtk", head.to_owned() + &vectors("U") + &vectors("W"));
+    place.write("s.vtk", head.to_owned() + &scalars("a") + &scalars("b"));
+    place.says(
+        &["convert", "v.vtk", "o.npy", "--force", "--derive", "gradient"],
+        "took the active vectors `U`; left aside: `W` (--array)",
+    );
+    place.says(
+        &["convert", "s.vtk", "o.npy", "--force", "--derive", "hessian"],
+        "took the active scalars `a`; left aside: `b` (--array)",
+    );
+}

@@ -292,3 +292,38 @@ fn negative_eigenvalues_are_counted() {
     let text = place.succeeds(&["info", "t.npy"]).stdout;
     assert!(text.contains("tensors with 0, 1, 2 negative eigenvalues: 1, 2, 1"), "{text}");
 }
+
+/// Vectors in tables by other names than u and v: those of another plane are read, several are told apart.
+#[test]
+fn tables_of_vectors_are_understood_by_their_names() {
+    let place = Place::new();
+    let table = |names: &str, line: &dyn Fn(f64, f64) -> String| {
+        let line = |i: u32| line(f64::from(i % 4), f64::from(i / 4)) + "\n";
+        format!("{names}\n{}", (0..12).map(line).collect::<String>())
+    };
+    let convert = |file: &str, options: &[&str]| {
+        place.says(&[&["convert", file, "o.npy", "--force", "--derive", "gradient"], options].concat(), "");
+        tigereye_io::npy::read_tensors(&place.read("o.npy")).unwrap().values()[5].components()
+    };
+    place.write("xz.csv", table("x,z,u,w", &|x, z| format!("{x},{z},{},{}", x + 2.0 * z, 3.0 * x + 4.0 * z)));
+    assert_eq!(convert("xz.csv", &[]), [1.0, 2.0, 3.0, 4.0]);
+    let both =
+        |x: f64, y: f64| format!("{x},{y},{},{},{},{}", x + 2.0 * y, 3.0 * x + 4.0 * y, 5.0 * x, 5.0 * y);
+    place.write("both.csv", table("x,y,u,v,Ux,Uy", &both));
+    let words = ["several arrays fit: `u, v` (2 components), `Ux, Uy` (2 components)", "(option --array"];
+    place.refuses(&["info", "both.csv", "--derive", "gradient"], &words);
+    assert_eq!(convert("both.csv", &["--array", "Ux, Uy"]), [5.0, 0.0, 0.0, 5.0]);
+    place.write("other.csv", table("x,y,a,b", &|x, y| format!("{x},{y},1,2")));
+    let words = ["the columns `x, y, a, b` are not understood", "names such as x, y, u, v"];
+    place.refuses(&["info", "other.csv", "--derive", "gradient"], &words);
+}
+
+/// Who asks for tensors of a file of vectors hears how they are made.
+#[test]
+fn vectors_are_called_so_where_tensors_are_missing() {
+    let place = Place::new();
+    let head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 3 1\nORIGIN 0 0 0\nSPACING 1 1 1\n\
+                POINT_DATA 9\n";
+    place.write("v.vtk", format!("{head}VECTORS U double\n{}", "1 2 3\n".repeat(9)));
+    place.refuses(&["info", "v.vtk"], &["`U` (3 components, a vector)", "(option --derive gradient"]);
+}

@@ -5,8 +5,8 @@ use super::error::ChoiceError;
 use super::wanted::{Association, NAMED_MASK, Wanted};
 use crate::image::ActiveArrays;
 use crate::volume::{
-    ComponentArrays, Group, Naming, VolumeError, groups, joined, joined_rows, names_principal_values, naming,
-    row_groups,
+    ComponentArrays, Group, Naming, VECTOR_AXES, VolumeError, groups, joined, joined_rows,
+    names_principal_values, naming, row_groups,
 };
 use crate::{DataArray, ImageData, IoError};
 use std::borrow::Cow;
@@ -198,8 +198,10 @@ fn only(mut found: Vec<Found>) -> Result<Option<Found>, IoError> {
 fn separate(arrays: &[DataArray], wanted: Wanted) -> Vec<DataArray> {
     let with = |n: usize| arrays.iter().filter(|a| a.components == n).collect::<Vec<&DataArray>>();
     match wanted {
-        Wanted::Tensors => [entries(&with(1)), rows(&with(3), 3), rows(&with(2), 2)].concat(),
-        Wanted::Vectors => [rows(&with(1), 3), rows(&with(1), 2)].concat(),
+        Wanted::Tensors => {
+            [entries(&with(1)), rows(&with(3), VECTOR_AXES[0]), rows(&with(2), VECTOR_AXES[1])].concat()
+        }
+        Wanted::Vectors => VECTOR_AXES.iter().flat_map(|axes| rows(&with(1), axes)).collect(),
         Wanted::Scalars | Wanted::Mask => Vec::new(),
     }
 }
@@ -215,15 +217,21 @@ fn entries(arrays: &[&DataArray]) -> Vec<DataArray> {
     groups(&names).into_iter().filter_map(of_group).collect()
 }
 
-/// Tensors whose rows, or vectors whose components, are arrays.
-fn rows(arrays: &[&DataArray], length: usize) -> Vec<DataArray> {
+/// Tensors whose rows, or vectors whose components, are arrays, along these axes.
+fn rows(arrays: &[&DataArray], axes: &[&str]) -> Vec<DataArray> {
     let names: Vec<&str> = arrays.iter().map(|a| a.name.as_str()).collect();
-    let of_group = |members: Vec<usize>| joined_rows(&members.iter().map(|&i| arrays[i]).collect::<Vec<_>>());
-    row_groups(&names, length).into_iter().filter_map(of_group).collect()
+    let of_group =
+        |members: Vec<usize>| joined_rows(axes, &members.iter().map(|&i| arrays[i]).collect::<Vec<_>>());
+    row_groups(&names, axes).into_iter().filter_map(of_group).collect()
 }
 
 fn missing(image: &ImageData, wanted: &str) -> ChoiceError {
-    let mut available = described(all(image).map(|f| f.1));
+    let words = |(on, array): (Association, &DataArray)| {
+        let is_vector = array.components == 2 || of(image, on).1.vectors.as_ref() == Some(&array.name);
+        let words = described([array]).concat();
+        if is_vector { words.replace(')', ", a vector)") } else { words }
+    };
+    let mut available: Vec<String> = all(image).map(words).collect();
     available.extend(image.skipped.iter().cloned());
     ChoiceError::NoArray { wanted: wanted.to_owned(), available }
 }

@@ -136,7 +136,10 @@ impl Header {
             return Err(fault(108, "vox_offset", offset, "a whole number from 352 to 67108864").into());
         }
         let (slope, intercept) = (fields.float(112), fields.float(116));
-        let scales = slope != 0.0 && slope.is_finite() && intercept.is_finite();
+        let scales = slope != 0.0 && slope.is_finite();
+        if scales && !intercept.is_finite() {
+            return Err(fault(116, "scl_inter", intercept, "a finite number beside a slope").into());
+        }
         Ok(Self {
             order: fields.order,
             scalar,
@@ -238,7 +241,12 @@ fn meaning(
         if components == expected && shape[4] == components {
             Ok((components, content, kind))
         } else {
-            Err(fault(50, "dim[5]", shape[4], "as many components as the intent's matrix has"))
+            Err(fault(
+                50,
+                "dim[5]",
+                shape[4],
+                "as many components along the fifth axis as the intent's matrix has (along the fourth they are read where the intent is 0)",
+            ))
         }
     };
     // ITK leaves the size of the matrix 0.
@@ -336,10 +344,10 @@ fn qform(fields: &Bytes) -> Result<Option<Position>, NiftiError> {
     Ok(Some((rotated([q[0], q[1], q[2]], steps(fields), flip), [q[3], q[4], q[5]])))
 }
 
-/// Voxel sizes; 1 where the header has none.
+/// Voxel sizes, whose signs mean nothing; 1 where the header has none.
 fn steps(fields: &Bytes) -> [f64; 3] {
     let pixdim: [f64; 8] = fields.floats(76);
-    [1, 2, 3].map(|i| if pixdim[i] > 0.0 && pixdim[i].is_finite() { pixdim[i] } else { 1.0 })
+    [1, 2, 3].map(|i| if pixdim[i] != 0.0 && pixdim[i].is_finite() { pixdim[i].abs() } else { 1.0 })
 }
 
 /// Distance of the two positions of a corner voxel, of a voxel's size, that is a disagreement: quaternions in single

@@ -1,10 +1,10 @@
 //! Arrays of many shapes as lattices.
 
 use super::error::NpyError;
-use super::positions::{self, Positions};
+use super::positions::{self, AXES_OF_VOLUMES, Positions};
 use super::{NpyArray, read_array};
 use crate::convert::ChoiceError;
-use crate::volume::{Content, Lattice, World, groups, row_groups};
+use crate::volume::{Content, Lattice, VECTOR_AXES, World, groups, row_groups};
 use crate::{ArrayChoice, DataArray, ImageData, IoError, Wanted, choose_array};
 
 /// How the axes of an array lie: rows and columns of a picture, or three axes of a volume; and the numbers of a tuple.
@@ -15,6 +15,14 @@ enum Layout {
 }
 
 impl Layout {
+    /// Axes of cells.
+    const fn cells(self) -> usize {
+        match self {
+            Self::Picture { .. } => 2,
+            Self::Volume { .. } => 3,
+        }
+    }
+
     fn of(shape: &[usize], wanted: Wanted) -> Option<Self> {
         let of = |height, width, tuple, content| Some(Self::Picture { height, width, tuple, content });
         let picture = |height, width, tuple| of(height, width, tuple, Content::NumpyPlane);
@@ -41,6 +49,7 @@ impl Layout {
             },
             Wanted::Scalars => match *shape {
                 [h, w] => picture(h, w, 1),
+                [h, w, 1] if h.min(w) > 3 => picture(h, w, 1),
                 // Two or three numbers a cell are a vector rather than layers.
                 [x, y, z] if z > 3 || x.min(y) <= 3 => volume(x, y, z, 1),
                 _ => None,
@@ -62,6 +71,10 @@ const fn expected(wanted: Wanted) -> &'static str {
 /// Whether the shape would fit with its first axis (or its first two, of a matrix) put last, as arrays with the
 /// components first have it.
 fn has_components_first(shape: &[usize], wanted: Wanted) -> bool {
+    // One number behind the others is no axis of cells that components could stand before.
+    if wanted == Wanted::Mask || shape.last() == Some(&1) {
+        return false;
+    }
     let leading = match *shape {
         [a @ (2 | 3), b, _, ..] if a == b && wanted == Wanted::Tensors => 2,
         // Two numbers last are a vector.
@@ -77,6 +90,8 @@ fn has_components_first(shape: &[usize], wanted: Wanted) -> bool {
 /// rows as a tuple has numbers.
 fn could_have_components_first(shape: &[usize], wanted: Wanted) -> bool {
     let is_tuple = match (wanted, shape) {
+        (Wanted::Tensors, [a @ (2 | 3), b, _, _]) if a == b => true,
+        (Wanted::Tensors, [3, 3, _, _, _]) => true,
         (Wanted::Tensors, [first, _, _]) => matches!(first, 3 | 4 | 6 | 9),
         (Wanted::Tensors, [first, _, _, _]) => matches!(first, 6 | 9),
         (Wanted::Vectors, [first, _, _]) => matches!(first, 2 | 3),
@@ -102,16 +117,27 @@ pub fn read_lattice(bytes: &[u8], wanted: Wanted) -> Result<Lattice, IoError> {
         });
     };
     // A mask before six numbers is rarer than an array of seven columns.
-    let components_first = wanted != Wanted::Mask && has_components_first(&shape, wanted);
+    let components_first = has_components_first(&shape, wanted);
     if components_first && shape.last() == Some(&7) {
         return Err(NpyError::ComponentsFirst { shape }.into());
     }
     let warnings = could_have_components_first(&shape, wanted).then(|| {
-        let (first, last) = (shape[0], shape[shape.len() - 1]);
-        format!("the first axis (size {first}) could be the components as well as the last ({last}), which was taken")
+        let axes = |of: &[usize]| of.iter().map(usize::to_string).collect::<Vec<_>>().join(" x ");
+        let is_matrix = matches!(shape[..], [a @ (2 | 3), b, _, _, ..] if a == b);
+        let count = if is_matrix { 2 } else { 1 };
+        let taken = if shape.len() == layout.cells() + 2 { 2 } else { 1 };
+        let (first, last) = (axes(&shape[..count]), axes(&shape[shape.len() - taken..]));
+        let (axes, verb) = if count == 1 { ("axis", "size") } else { ("axes", "sizes") };
+        format!(
+            "the first {axes} ({verb} {first}) could be the components as well as the last ({last}), which was taken"
+        )
     });
     let array = NpyArray { shape, values, scalar };
-    Ok(laid_out(array, layout, warnings.into_iter().collect()))
+    let mut lattice = laid_out(array, layout, warnings.into_iter().collect());
+    if matches!(layout, Layout::Volume { .. }) && wanted != Wanted::Mask {
+        lattice.remarks.push(AXES_OF_VOLUMES.to_owned());
+    }
+    Ok(lattice)
 }
 
 fn laid_out(array: NpyArray, layout: Layout, warnings: Vec<String>) -> Lattice {
@@ -261,7 +287,7 @@ fn components_among(members: &[(String, Vec<u8>)], choice: ArrayChoice, wanted: 
     let names: Vec<&str> = members.iter().map(|(name, _)| name.as_str()).collect();
     let found = match wanted {
         Wanted::Tensors => groups(&names).into_iter().map(|group| group.members).collect(),
-        Wanted::Vectors => [row_groups(&names, 3), row_groups(&names, 2)].concat(),
+        Wanted::Vectors => VECTOR_AXES.iter().flat_map(|axes| row_groups(&names, axes)).collect(),
         Wanted::Scalars | Wanted::Mask => Vec::new(),
     };
     let all = found.into_iter().filter(|group| alike(group)).flatten();

@@ -3,7 +3,7 @@
 use super::error::NpyError;
 use super::{NpyArray, read_array};
 use crate::points::PointLattice;
-use crate::volume::{Frame, Known, Lattice, World};
+use crate::volume::{Frame, Known, Lattice, World, world_axes};
 use crate::{ImageData, taken_upwards};
 
 /// What the axes of positions are called, in any case; the third is that of volumes.
@@ -16,6 +16,10 @@ const AXES: [[&str; 3]; 5] = [
 ];
 /// Arrays that say where cells lie by other rules.
 const OTHERS: [&str; 8] = ["points", "coords", "extent", "extents", "bounds", "spacing", "origin", "affine"];
+
+/// What is said of arrays with three axes of cells, which nothing names.
+pub(super) const AXES_OF_VOLUMES: &str = "took the axes of the array as x, y and z in this order; stacks of images are mostly [z][y][x], which \
+     numpy.transpose turns round";
 
 /// Whether an array of this name says where cells lie.
 pub(super) fn is_position(name: &str) -> bool {
@@ -116,6 +120,7 @@ impl Positions {
         lattice.origin = image.origin;
         lattice.world = World::Viewer;
         lattice.notes.retain(|note| !note.starts_with("indexed"));
+        lattice.remarks.retain(|remark| remark != AXES_OF_VOLUMES);
         lattice.notes.push(format!("cells at the positions {names}"));
         if let Some(axis) = lattice.vertical_axis().filter(|_| !self.is_volume) {
             lattice.remarks.push(taken_upwards(axis));
@@ -123,6 +128,13 @@ impl Positions {
         if self.is_volume {
             // Whoever has positions has components along the same axes, rather than along those of the array.
             lattice.frame = (Frame::World, Known::Assumed);
+            let names = world_axes(&lattice.axes).map(|axis| ["x", "y", "z"][axis]);
+            if names != ["x", "y", "z"] {
+                lattice.remarks.push(format!(
+                    "the axes of the array run along the world's {}: --slice and --plane name and count those of the array",
+                    names.join(", ")
+                ));
+            }
         }
         if self.ambiguous {
             let warning = format!(

@@ -56,6 +56,9 @@ pub(super) struct Header {
     maxima: Vec<f64>,
     centerings: Vec<String>,
     origin: Option<[f64; 3]>,
+    /// Units of the axes of the space, and of those of the array; empty where there are none.
+    space_units: Vec<String>,
+    units: Vec<String>,
     limits: Limits,
     /// The line that says that the numbers are diffusion-weighted images.
     weighted: Option<usize>,
@@ -118,6 +121,10 @@ impl<'a> Fields<'a> {
             }
             if line > 1 {
                 entries.extend(Self::entry(text, line)?);
+                // The names of several files follow up to the end.
+                if entries.last().is_some_and(|e| e.name == "datafile" && e.value.starts_with("LIST")) {
+                    return Ok(Self { entries, weighted, lines: line, end: bytes.len() });
+                }
                 let begins = |key: &&str| {
                     text.get(..key.len()).is_some_and(|t| t.eq_ignore_ascii_case(key.as_bytes()))
                 };
@@ -250,6 +257,8 @@ impl Header {
             sizes,
             kinds: kinds.map_or_else(Vec::new, |e| e.value.split_whitespace().map(str::to_owned).collect()),
             kinds_line: kinds.map_or(fields.lines, |e| e.line),
+            space_units: fields.get(&["spaceunits"]).map_or_else(Vec::new, |e| labels(e.value)),
+            units: fields.get(&["units"]).map_or_else(Vec::new, |e| labels(e.value)),
             labels: fields.get(&["labels"]).map_or_else(Vec::new, |e| labels(e.value)),
             directions,
             directions_line,
@@ -295,9 +304,7 @@ impl Header {
                 Some(axis) if matches!(self.sizes[axis], 2 | 3) => (axis, None),
                 None if self.kinds.is_empty() && matches!(self.sizes[0], 2 | 3) => (0, None),
                 _ => {
-                    return Err(
-                        fault(&self.kinds.join(" "), "an axis of kind 2-vector, 3-vector or vector").into()
-                    );
+                    return Err(fault(&self.kinds.join(" "), VECTOR_NAMES).into());
                 }
             },
             (Wanted::Tensors, [(axis, kind)]) => (*axis, Some(*kind)),
@@ -476,6 +483,17 @@ impl Header {
         })
     }
 
+    /// A warning where the file measures its axes in different units.
+    pub(super) fn unequal_units(&self, layout: &Layout) -> Option<String> {
+        let of_axes = || layout.lattice.iter().filter_map(|&a| self.units.get(a).cloned()).collect();
+        let all: Vec<String> = if self.has_directions() { self.space_units.clone() } else { of_axes() };
+        let stated: Vec<&String> = all.iter().filter(|unit| !matches!(unit.trim(), "" | "???")).collect();
+        stated.windows(2).any(|pair| pair[0].trim() != pair[1].trim()).then(|| {
+            let units = stated.iter().map(|unit| unit.trim()).collect::<Vec<_>>().join(", ");
+            format!("the axes have different units ({units}), taken as they stand")
+        })
+    }
+
     /// The first sample, where the file gives the least position along each axis.
     fn origin_of_ranges(&self, layout: &Layout, axes: [[f64; 3]; 3]) -> [f64; 3] {
         let mut origin = [0.0; 3];
@@ -490,8 +508,8 @@ impl Header {
 
 const TYPES: &str = "a number type such as float, double, short or uint8";
 const ENCODINGS: &str = "raw, gzip or ascii";
-const KIND_NAMES: &str =
-    "a tensor kind such as 3D-symmetric-matrix for one axis, or 6, 7 or 9 numbers on the first";
+const KIND_NAMES: &str = "a tensor kind such as 3D-symmetric-matrix for one axis, or 6, 7 or 9 numbers on the first, or on one of kind list or vector (3 or 4 there with their order)";
+const VECTOR_NAMES: &str = "two or three numbers on an axis of kind vector, 2-vector, 3-vector, covariant-vector, 3-gradient or 3-normal";
 
 fn too_large(bytes: &[u8], line: usize, count: u128, limit: u64) -> LimitError {
     let before = bytes.split(|&b| b == b'\n').take(line - 1).map(|l| l.len() + 1).sum();

@@ -96,6 +96,7 @@ pub fn read_with_limits(
         warnings: (layout.kind.is_none() && layout.masked)
             .then(|| "seven numbers taken as a mask and xx,xy,xz,yy,yz,zz".to_owned())
             .into_iter()
+            .chain(header.unequal_units(&layout))
             .collect(),
     })
 }

@@ -83,7 +83,15 @@ impl Column {
     /// `S11 [MPa]`, `solid.sx (N/m^2) @ t=0`.
     fn of(text: &str) -> Self {
         let (text, time) = times::split(text);
-        let start = text.find(['[', '(']).filter(|at| *at > 0);
+        // An index follows its name at once: `T[0][1]`, but `strain [1]`.
+        let is_index = |at: usize| {
+            let inside = text[at + 1..].split([']', ')']).next().unwrap_or_default();
+            text[..at].ends_with(|c: char| !c.is_whitespace())
+                && !inside.is_empty()
+                && inside.chars().all(|c| c.is_ascii_digit())
+        };
+        let brackets = text.match_indices(['[', '(']).map(|(at, _)| at);
+        let start = brackets.filter(|at| *at > 0).find(|&at| !is_index(at));
         let unit = start.map(|at| text[at + 1..].trim_end_matches([']', ')', ' ']).to_owned());
         let name = text[..start.unwrap_or(text.len())].trim().to_owned();
         Self { name, unit, time: time.map(str::to_owned) }
@@ -108,7 +116,7 @@ impl Header {
             .map(|(line, names)| Self::named(line, &names).with_units(text.units_below(line)))
             .collect();
         let first = candidates.first().map(|h| (h.line, h.names()));
-        if let Some(found) = candidates.into_iter().find(|h| h.places[0].is_some() && h.places[1].is_some()) {
+        if let Some(found) = candidates.into_iter().find(|h| h.places.iter().flatten().count() >= 2) {
             return Ok(found);
         }
         match first {
@@ -240,6 +248,8 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
         }
     }
     let mask = mask(&data.points, &rows, &validity)?;
+    let lines: Vec<usize> = text.lines.iter().map(|(line, _)| *line).collect();
+    check_positions(&data.points, &lines)?;
     let mut lattice = lattice_from_points(data, choice, wanted)?;
     if let Some(mask) = mask {
         let _ = lattice.mask_by(&mask);
@@ -253,6 +263,11 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
         let aside =
             if others > 0 { format!("; {others} columns of other times left aside") } else { String::new() };
         lattice.notes.push(format!("columns at {time}{aside}"));
+    }
+    // Such a column leaves points out where it is not 0, if it stands beside the data.
+    if wanted == Wanted::Mask && Validity::of(&lattice.array) == Some(Validity::Mask) {
+        let words = format!("of the column `{}`, points stay where it is above 0", lattice.array);
+        lattice.remarks.push(words);
     }
     lattice.remarks.extend(validity.iter().filter_map(|&(at, validity)| {
         let values: Vec<f64> = rows.iter().map(|row| row[at]).collect();
@@ -275,7 +290,7 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
     let is_pixel = |c: &usize| {
         header.columns[*c].unit.as_ref().is_some_and(|u| u.starts_with("px") || u.starts_with("pix"))
     };
-    if places[1].as_ref().is_some_and(is_pixel) {
+    if places[1].as_ref().or(places[2].as_ref()).is_some_and(is_pixel) {
         lattice.warnings.push(
             "positions are in pixels: y taken to run upwards; where it runs downwards, as rows of an image do, the picture is \
              upside down and xy has the other sign"
@@ -295,6 +310,26 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
     }
     lattice.warnings.extend([of_places, of_array].iter().filter_map(|of| header.unequal_units(of)));
     Ok(lattice)
+}
+
+/// Refuses two rows at one position, of several times or layers.
+///
+/// # Errors
+/// [`TableError::SamePoint`].
+fn check_positions(points: &[[f64; 3]], lines: &[usize]) -> Result<(), TableError> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    // A zero is one whatever its sign.
+    let key = |i: usize| points[i].map(|v| v + 0.0);
+    let compare = |a: &usize, b: &usize| {
+        let (p, q) = (key(*a), key(*b));
+        (0..3).map(|i| p[i].total_cmp(&q[i])).find(|o| o.is_ne()).unwrap_or(a.cmp(b))
+    };
+    order.sort_unstable_by(compare);
+    let twice = order.windows(2).filter(|w| key(w[0]) == key(w[1])).min_by_key(|w| w[1]);
+    match twice {
+        Some(w) if points.len() > 1 => Err(TableError::SamePoint { line: lines[w[1]], before: lines[w[0]] }),
+        _ => Ok(()),
+    }
 }
 
 /// Most columns that a message names.
@@ -466,10 +501,80 @@ mod tests {
             let units = one(&format!("x,y,S11,S22,S12\n{line}\n"), |x, y| format!("{x},{y},1,2,3"));
             assert!(units.contains("Pa, Pa, kPa"), "{line}: {units}");
         }
+        let blanks = one("x [mm] y [mm] S11 [Pa] S22 [Pa] S12 [10^3 Pa]\n", |x, y| format!("{x} {y} 1 2 3"));
+        assert!(blanks.contains("Pa, Pa, 10^3 Pa"), "{blanks}");
+        let blanks = one("x y S11 S22 S12\n[mm] [mm] [Pa] [Pa] [kPa]\n", |x, y| format!("{x} {y} 1 2 3"));
+        assert!(blanks.contains("Pa, Pa, kPa"), "{blanks}");
         let pixels = one("x [px],y [px],exx,eyy,exy\n", |x, y| format!("{x},{y},1,2,3"));
         assert!(pixels.contains("xy has the other sign"), "{pixels}");
         let thousands = one("x\ty\tS11\tS22\tS12\n", |x, y| format!("{x}\t{y}\t1,200\t5,000\t3"));
         assert!(thousands.contains("separators of thousands"), "{thousands}");
+    }
+
+    /// Numbers in quotes may have commas within.
+    #[test]
+    fn quotes_hold_decimal_commas_together() {
+        let bytes =
+            table("x,y,S11,S22,S12\n", |x, y| format!("\"{x}\",{y},\"{x},0\",\"{},0\",\"0,25\"", 10.0 * y));
+        is_read(&bytes);
+        let lattice = read(&bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap();
+        assert!(lattice.remarks.iter().any(|r| r.contains("commas taken as decimal points")));
+        is_read(&table("Part,x,y,S11,S22,S12\n", |x, y| format!("5\" plate,{x},{y},{x},{},0.25", 10.0 * y)));
+    }
+
+    #[test]
+    fn spreadsheets_may_write_utf_16() {
+        let bytes = table("x\ty\tS11\tS22\tS12\n", |x, y| format!("{x}\t{y}\t{x}\t{}\t0,25", 10.0 * y));
+        let text = String::from_utf8(bytes.clone()).unwrap();
+        for (mark, unit) in
+            [([0xff, 0xfe], u16::to_le_bytes as fn(u16) -> [u8; 2]), ([0xfe, 0xff], u16::to_be_bytes)]
+        {
+            let wide: Vec<u8> = mark.into_iter().chain(text.encode_utf16().flat_map(unit)).collect();
+            assert_eq!(super::super::utf8(&wide), bytes);
+        }
+        assert_eq!(super::super::utf8(&bytes), bytes);
+    }
+
+    /// `T[0][1]` is a name, `strain [1]` a name with a unit.
+    #[test]
+    fn indices_in_brackets_are_no_units() {
+        is_read(&table("x,y,T[0][0],T[1][0],T[0][1],T[1][1]\n", |x, y| {
+            format!("{x},{y},{x},0.25,0.25,{}", 10.0 * y)
+        }));
+        is_read(&table("x,y,T(11),T(22),T(12)\n", |x, y| format!("{x},{y},{x},{},0.25", 10.0 * y)));
+        is_read(&table("x [1],y [1],S11 [1],S22 [1],S12 [1]\n", |x, y| {
+            format!("{x},{y},{x},{},0.25", 10.0 * y)
+        }));
+        let bytes = table("x,y,S[1],S[2],S[4]\n", |x, y| format!("{x},{y},1,2,3"));
+        let fault = read(&bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap_err().to_string();
+        assert!(fault.contains("`S[1]` (1 component), `S[2]`"), "{fault}");
+        let named = crate::volume::ComponentArrays::parse("XX=S[1],YY=S[2],XY=S[4]").unwrap();
+        assert!(read(&bytes, ArrayChoice::Components(&named), Wanted::Tensors).is_ok());
+    }
+
+    /// A plane may be that of x and z.
+    #[test]
+    fn two_positions_of_three_are_enough() {
+        let bytes = table("x,z,sxx,szz,sxz\n", |x, z| format!("{x},{z},{x},{},0.25", 10.0 * z));
+        let lattice = read(&bytes, ArrayChoice::Usual, Wanted::Tensors).unwrap();
+        assert!(
+            lattice.remarks.iter().any(|r| r.starts_with("z taken to run upwards")),
+            "{:?}",
+            lattice.remarks
+        );
+        let slice = lattice.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap();
+        assert_eq!(slice.field.values()[1], Tensor2::new(3.0, 0.25, 0.25, 30.0));
+        assert_eq!(
+            (slice.cut.geometry.corner(), slice.cut.geometry.up()),
+            ([1.0, 0.0, 2.0], [0.0, 0.0, 1.0])
+        );
+    }
+
+    #[test]
+    fn two_rows_at_one_position_are_named() {
+        let text = "t,x,y,S11,S22,S12\n0,0,0,1,2,3\n0,1,0,1,2,3\n1,0,0,1,2,3\n1,1,-0.0,1,2,3\n";
+        let fault = read(text.as_bytes(), ArrayChoice::Usual, Wanted::Tensors).unwrap_err().to_string();
+        assert!(fault.starts_with("line 4: a second row at the position of line 2"), "{fault}");
     }
 
     #[test]

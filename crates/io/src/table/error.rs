@@ -63,7 +63,7 @@ pub enum TableError {
     },
     /// A vector between the positions of the others.
     #[error(
-        "line {line}: {axis} = {value} is off the lattice: expected positions in equal steps, here of {step}"
+        "line {line}: {axis} = {value} is off the lattice: expected positions in equal steps (of {step} in the mean)"
     )]
     Position {
         /// Line, from 1.
@@ -80,6 +80,16 @@ pub enum TableError {
         "line {line}: a second row at the x and y of line {before}: expected the vectors of one plane, one at each position"
     )]
     SamePosition {
+        /// Line, from 1.
+        line: usize,
+        /// Line of the first one.
+        before: usize,
+    },
+    /// Two rows at one position.
+    #[error(
+        "line {line}: a second row at the position of line {before}: expected one row a point, such as those of one time"
+    )]
+    SamePoint {
         /// Line, from 1.
         line: usize,
         /// Line of the first one.

@@ -50,6 +50,8 @@ pub use error::TableError;
 pub use numbers::read as read_numbers;
 pub use vectors::read as read_vectors;
 
+pub use text::utf8;
+
 use steps::Steps;
 use text::{Text, parsed};
 

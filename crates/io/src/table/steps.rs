@@ -4,6 +4,9 @@
 const TOLERANCE: f64 = 0.02;
 /// Gaps between positions below this part of the largest are rounding.
 const GAP: f64 = 0.25;
+/// Difference of a gap from whole steps, in steps, that is rounding.
+const MULTIPLE: f64 = 0.1;
+
 /// Equal steps along an axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Steps {
@@ -19,9 +22,16 @@ impl Steps {
         positions.sort_by(f64::total_cmp);
         let (first, last) = (positions[0], positions[positions.len() - 1]);
         let largest = positions.windows(2).map(|p| p[1] - p[0]).fold(0.0, f64::max);
-        let gaps = positions.windows(2).filter(|p| largest > 0.0 && p[1] - p[0] > GAP * largest).count();
-        let step = if gaps == 0 { 1.0 } else { last / gaps as f64 - first / gaps as f64 };
-        Self { first, step, count: gaps + 1 }
+        let gaps = positions.windows(2).map(|p| p[1] - p[0]).filter(|gap| *gap > GAP * largest && *gap > 0.0);
+        let gaps: Vec<f64> = gaps.collect();
+        // Where a whole row or column is missing, a gap is twice the others.
+        let least = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+        let multiples = gaps.iter().map(|gap| (gap / least).round());
+        let are_multiples =
+            gaps.iter().zip(multiples.clone()).all(|(gap, n)| (gap / least - n).abs() <= MULTIPLE);
+        let steps = if are_multiples { multiples.sum::<f64>() as usize } else { gaps.len() };
+        let step = if steps == 0 { 1.0 } else { last / steps as f64 - first / steps as f64 };
+        Self { first, step, count: steps + 1 }
     }
 
     pub(super) fn index(&self, position: f64) -> Option<usize> {

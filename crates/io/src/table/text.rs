@@ -4,6 +4,7 @@ use super::error::TableError;
 use super::times::MARK;
 use crate::IoError;
 use crate::text::TextError;
+use std::borrow::Cow;
 
 /// What separates the numbers of a line.
 #[derive(Clone, Copy)]
@@ -25,10 +26,22 @@ impl Separator {
             Self::Mark(mark) => *b == mark,
         };
         let blank = matches!(self, Self::Blank);
+        // A quote at the beginning of a word holds together what stands up to the next.
+        let (mut is_quoted, mut begins) = (false, true);
+        let is_outer_mark = move |b: &u8| {
+            if is_quoted {
+                is_quoted = *b != b'"';
+                return false;
+            }
+            is_quoted = begins && *b == b'"';
+            let is_mark = is_mark(b);
+            begins = is_mark || begins && b.is_ascii_whitespace();
+            is_mark
+        };
         let line = line.trim_ascii_end();
         // A mark behind the last number separates nothing.
         let line = if blank { line } else { line.strip_suffix(&[self.mark()]).unwrap_or(line) };
-        line.split(is_mark)
+        line.split(is_outer_mark)
             .scan(1, |column, word| {
                 let at = *column;
                 *column += word.len() + 1;
@@ -43,6 +56,19 @@ impl Separator {
             Self::Mark(mark) => mark,
         }
     }
+}
+
+/// A text in UTF-8: one in UTF-16 with its mark at the beginning, as spreadsheets write it, is converted.
+#[must_use]
+pub fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
+    let unit = match bytes {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => return Cow::Borrowed(bytes),
+    };
+    let units = bytes[2..].as_chunks::<2>().0.iter().map(|pair| unit(*pair));
+    let text: String = char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
+    Cow::Owned(text.into_bytes())
 }
 
 /// A text of numbers, one tuple a line, and what stands above them.
@@ -88,9 +114,6 @@ impl<'a> Text<'a> {
 
     /// What is said of commas in numbers, and whether they look like separators of thousands.
     pub(super) fn decimal_commas(&self) -> Option<(&'static str, bool)> {
-        if matches!(self.separator, Separator::Mark(b',')) {
-            return None;
-        }
         let words = || self.lines.iter().flat_map(|(_, line)| self.separator.words(line)).map(|(_, w)| w);
         let with_comma = || words().filter(|w| parsed(w).is_some() && w.contains(&b','));
         with_comma().next()?;
@@ -132,7 +155,8 @@ impl<'a> Text<'a> {
     /// The units of the columns in a line of their own beneath that of the names, `mm,mm,MPa` or `[mm] [mm] [MPa]`;
     /// nothing where the next line is another one.
     pub(super) fn units_below(&self, names: usize) -> Vec<Option<String>> {
-        let line = self.above.get(names).map_or("", String::as_str);
+        // What follows the variables of Tecplot files begins a zone.
+        let line = self.above.get(names).filter(|_| !self.is_of_tecplot()).map_or("", String::as_str);
         let line = line.trim().trim_start_matches(['#', '%', '/', '!']).trim();
         let words: Vec<&str> = match ['\t', ',', ';'].into_iter().find(|s| line.contains(*s)) {
             Some(separator) => line.strip_suffix(separator).unwrap_or(line).split(separator).collect(),
@@ -257,7 +281,8 @@ pub(super) fn names_of(line: &str) -> Vec<String> {
     }
 }
 
-/// Names between blanks, without their units; COMSOL's keep what follows their mark of a time, `@ t=0, Q=3`.
+/// Names between blanks with the units behind them, `x [px] y [px]`; COMSOL's keep what follows their mark of a time,
+/// `@ t=0, Q=3`.
 fn names_between_blanks(text: &str) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let mut words = text.split_whitespace();
@@ -273,7 +298,19 @@ fn names_between_blanks(text: &str) -> Vec<String> {
                     }
                 }
             }
-            _ if word.starts_with(['[', '(']) => {}
+            Some(name) if word.starts_with(['[', '(']) => {
+                name.push(' ');
+                name.push_str(word);
+                let mut last = word;
+                while !last.ends_with([']', ')']) {
+                    let Some(next) = words.next() else { break };
+                    name.push(' ');
+                    name.push_str(next);
+                    last = next;
+                }
+            }
+            // Units without a name are a line of their own.
+            None if word.starts_with(['[', '(']) => {}
             _ => names.push(word.to_owned()),
         }
     }

@@ -138,7 +138,7 @@ struct Row {
 pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     let text = Text::of(bytes)?;
     text.check_zones()?;
-    let columns = match (Columns::named_above(&text), text.names().next()) {
+    let mut columns = match (Columns::named_above(&text), text.names().next()) {
         (Some(columns), _) => columns,
         (None, Some((line, names))) => {
             times::chosen(line, &names, ArrayChoice::Usual)?;
@@ -149,7 +149,6 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     let read = text.lines.iter().map(|&(number, line)| numbers(&text, &columns, line, number));
     let read = read.collect::<Result<Vec<Vec<f64>>, IoError>>()?;
     let values = |at: usize| read.iter().map(|row| row[at]).collect::<Vec<f64>>();
-    let mut notes = vec![words_of(&columns)];
     let mut said = Vec::new();
     // More columns may be named than there are.
     let mut validity: Vec<(usize, Validity)> =
@@ -160,9 +159,12 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     if columns.named.is_some() || are_masks {
         said.extend(validity.iter().filter_map(|&(at, v)| v.said(&columns.name(at), &values(at), "vectors")));
     } else {
-        validity.clear();
-        notes.push("the sixth column holds more than 0 and 1 and is left aside".to_owned());
+        // Then neither it nor the one before it is what OpenPIV writes there.
+        let aside: Vec<usize> = validity.drain(..).map(|(at, _)| at).collect();
+        aside.iter().for_each(|&at| columns.roles[at] = None);
+        columns.unread.splice(..0, aside.iter().map(|at| format!("number {}", at + 1)));
     }
+    let notes = vec![words_of(&columns)];
     let place = Role::NEEDED.map(|role| columns.of(role).unwrap_or_default());
     let row = |(&(line, _), row): (&(usize, &[u8]), &Vec<f64>)| {
         let [x, y, u, v] = place.map(|at| row[at]);
@@ -474,7 +476,7 @@ mod tests {
         );
         refused(
             "0 0 3 4\n1 0 5 6\n2.5 0 1 1\n",
-            "line 2: x = 1 is off the lattice: expected positions in equal steps, here of 1.25",
+            "line 2: x = 1 is off the lattice: expected positions in equal steps (of 1.25 in the mean)",
         );
         refused(
             "0 0 0 0\n1 1 0 0\n2 2 0 0\n3 3 0 0\n",
@@ -482,6 +484,30 @@ mod tests {
         );
         // Decimal commas between tabs are not taken for two numbers.
         refused("1,5,0\t2\t3\t4\n", "line 1, column 1: expected a number, found `1,5,0`");
+    }
+
+    /// What is said of the columns is what was done with them.
+    #[test]
+    fn columns_that_are_no_mask_are_not_called_one() {
+        let lattice = read(&table("", |x, y| format!("{x} {y} {x} {y} 0 {}", 3.0 + x))).unwrap();
+        let said = [lattice.notes, lattice.remarks, lattice.warnings].concat().join("\n");
+        assert!(!said.contains("left out") && said.contains("not read"), "{said}");
+        assert!(said.contains("whatever they say of the vectors: number 5, number 6"), "{said}");
+    }
+
+    /// A column of the lattice without a single vector leaves nodes out, and moves no other.
+    #[test]
+    fn whole_rows_and_columns_may_be_missing() {
+        let at = (0..30).map(|i| (i % 6, i / 6)).filter(|(x, y)| *x != 2 && *y != 3);
+        let text = at.fold(String::new(), |text, (x, y)| text + &format!("{}.5 {y} {x} {y}\n", x));
+        let lattice = read(text.as_bytes()).unwrap();
+        assert_eq!((lattice.size, lattice.axes[0][0], lattice.axes[1][1]), ([6, 5, 1], 1.0, 1.0));
+        let mask = lattice.mask.unwrap();
+        for (i, (v, m)) in lattice.values.as_chunks::<2>().0.iter().zip(&mask).enumerate() {
+            let (x, y) = (i % 6, i / 6);
+            let expected = if x == 2 || y == 3 { ([0.0; 2], 0.0) } else { ([x as f64, y as f64], 1.0) };
+            assert_eq!((*v, *m), expected, "{x} {y}");
+        }
     }
 
     #[test]

@@ -18,7 +18,7 @@ enum Kind {
     Rows,
 }
 
-const EXPECTED: &str = "expected XX=NAME,YY=NAME,XY=NAME and so on for arrays of one number, or X=NAME,Y=NAME[,Z=NAME] for rows or vectors";
+const EXPECTED: &str = "expected XX=NAME,YY=NAME,XY=NAME and so on for arrays of one number, or X=NAME,Y=NAME,Z=NAME, or two of these, for rows or vectors";
 
 impl ComponentArrays {
     /// The arrays as people write them.
@@ -34,7 +34,7 @@ impl ComponentArrays {
         let pairs: Option<Vec<(String, String)>> = text.split(',').map(pair).collect();
         let pairs = pairs.ok_or(EXPECTED)?;
         let names: Vec<&str> = pairs.iter().map(|p| p.0.as_str()).collect();
-        if matches!(names[..], ["x", "y"] | ["x", "y", "z"]) {
+        if super::names::VECTOR_AXES.contains(&&names[..]) {
             return Ok(Self { pairs, kind: Kind::Rows });
         }
         let entries = super::names::entries(&names).ok_or(EXPECTED)?;
@@ -66,7 +66,7 @@ impl ComponentArrays {
         let names: Vec<&str> = self.pairs.iter().map(|p| p.0.as_str()).collect();
         match self.kind {
             Kind::Entries => joined(&names, arrays),
-            Kind::Rows => joined_rows(arrays),
+            Kind::Rows => joined_rows(&names, arrays),
         }
     }
 }
@@ -84,18 +84,17 @@ pub(crate) fn joined(names: &[&str], arrays: &[&DataArray]) -> Option<DataArray>
     Some(DataArray { scalar: first.scalar, ..array }.with_component_names(names))
 }
 
-/// Rows of a tensor one after the other; of arrays of one number, the components of a vector.
-pub(crate) fn joined_rows(arrays: &[&DataArray]) -> Option<DataArray> {
-    const NAMES: [&str; 9] = ["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
+/// Rows of a tensor along these axes one after the other; of arrays of one number, the components of a vector.
+pub(crate) fn joined_rows(axes: &[&str], arrays: &[&DataArray]) -> Option<DataArray> {
     let (first, n) = (arrays.first()?, arrays.len());
     let length = first.components;
     if !arrays.iter().all(|a| a.components == length && a.values.len() == first.values.len()) {
         return None;
     }
     if length == 1 {
-        return joined(&["x", "y", "z"][..n], arrays);
+        return joined(axes, arrays);
     }
-    if length != n {
+    if length != n || axes.len() != n {
         return None;
     }
     let tuples = first.values.len() / n;
@@ -103,7 +102,9 @@ pub(crate) fn joined_rows(arrays: &[&DataArray]) -> Option<DataArray> {
         |tuple: usize| arrays.iter().flat_map(move |a| a.values[tuple * n..(tuple + 1) * n].iter().copied());
     let values = (0..tuples).flat_map(row).collect();
     let all: Vec<&str> = arrays.iter().map(|a| a.name.as_str()).collect();
-    let names: Vec<&str> = (0..n * n).map(|i| NAMES[3 * (i / n) + i % n]).collect();
+    let names: Vec<String> =
+        axes.iter().flat_map(|row| axes.iter().map(move |column| format!("{row}{column}"))).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let array = DataArray::new(&all.join(", "), n * n, values).with_component_names(&names);
     Some(DataArray { scalar: first.scalar, ..array })
 }

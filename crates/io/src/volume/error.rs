@@ -59,6 +59,18 @@ pub enum VolumeError {
         /// Components of the plane.
         needed: String,
     },
+    /// Vectors of two components in a plane that they do not lie in.
+    #[error("`{array}` has two components, along {found}, and the plane {shown}: expected three{help}")]
+    VectorsAcross {
+        /// Name of the array or kind.
+        array: String,
+        /// The axes of the components.
+        found: String,
+        /// What the plane shows, or that it is tilted.
+        shown: String,
+        /// Another way, where there is one.
+        help: &'static str,
+    },
     /// Tensors that six components cannot hold.
     #[error(
         "the tensors are not symmetric: expected nine components for them (--write-order nifti, or another format)"

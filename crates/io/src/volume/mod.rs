@@ -31,6 +31,7 @@ pub(crate) use components::{joined, joined_rows};
 pub use convention::{ALIASES, Alias, CONVENTIONS, Content, Convention, documentation};
 pub use error::{PlaneError, VolumeError};
 pub use geometry::PlaneGeometry;
+pub(crate) use geometry::world_axes;
 pub(crate) use image::{HIDDEN_POINT, points_of_image};
 pub use image::{image_from_volume, lattice_from_image, lattice_from_points, points_from_image};
 pub use lattice::Lattice;
@@ -38,7 +39,8 @@ pub use mask::Overlay;
 pub(crate) use matrix3::IDENTITY;
 pub use meaning::{Frame, Known, Shear, World};
 pub(crate) use names::{
-    Group, Naming, groups, names_eigenvectors, names_principal_values, naming, order_of, row_groups,
+    Group, Naming, VECTOR_AXES, groups, names_eigenvectors, names_principal_values, naming, order_of,
+    row_groups,
 };
 pub use order::TensorOrder;
 pub(crate) use output::{symmetric, written_scalar};

@@ -301,9 +301,24 @@ pub(crate) fn groups(names: &[&str]) -> Vec<Group> {
     stems.into_iter().filter_map(group).collect()
 }
 
+/// The axes of vectors: in space, and in the planes of two of its axes.
+pub(crate) const VECTOR_AXES: [&[&str]; 4] = [&["x", "y", "z"], &["x", "y"], &["x", "z"], &["y", "z"]];
+
+/// The axes, 0 to 2, that the components of vectors are along by their names: `X` and `Z`, `u` and `w`, `Ux` and `Uz`.
+pub(crate) fn axes_of_vectors(names: &[String]) -> Option<Vec<usize>> {
+    let axis = |name: &String| match words_of(name).concat().chars().last()? {
+        'x' | 'u' => Some(0),
+        'y' | 'v' => Some(1),
+        'z' | 'w' => Some(2),
+        _ => None,
+    };
+    let axes: Option<Vec<usize>> = names.iter().map(axis).collect();
+    axes.filter(|axes| (0..axes.len()).all(|i| !axes[..i].contains(&axes[i])))
+}
+
 /// Arrays of vectors called `T_x`, `T_y`, `T_z` are the rows of one tensor, arrays of numbers called so the components
-/// of one vector: the indices of the arrays of every complete group, in the order of the rows.
-pub(crate) fn row_groups(names: &[&str], rows: usize) -> Vec<Vec<usize>> {
+/// of one vector: the indices of the arrays of every group of exactly these axes, in the order of the axes.
+pub(crate) fn row_groups(names: &[&str], axes: &[&str]) -> Vec<Vec<usize>> {
     let mut stems: Vec<(String, Vec<(char, usize)>)> = Vec::new();
     for (at, name) in names.iter().enumerate() {
         let words = match *name {
@@ -327,8 +342,8 @@ pub(crate) fn row_groups(names: &[&str], rows: usize) -> Vec<Vec<usize>> {
     }
     let complete = |(_, mut members): (String, Vec<(char, usize)>)| {
         members.sort_unstable();
-        let letters: Vec<char> = members.iter().map(|m| m.0).collect();
-        (['x', 'y', 'z'][..rows.min(3)] == letters[..]).then(|| members.into_iter().map(|m| m.1).collect())
+        let letters: String = members.iter().map(|m| m.0).collect();
+        (axes.concat() == letters).then(|| members.into_iter().map(|m| m.1).collect())
     };
     stems.into_iter().filter_map(complete).collect()
 }
@@ -399,6 +414,18 @@ mod tests {
     }
 
     #[test]
+    fn names_tell_the_axes_of_vectors() {
+        let axes = |names: [&str; 2]| axes_of_vectors(&names.map(str::to_owned));
+        for names in [["X", "Z"], ["u", "w"], ["U_x", "U_z"], ["velocity u", "velocity w"]] {
+            assert_eq!(axes(names), Some(vec![0, 2]), "{names:?}");
+        }
+        assert_eq!(axes(["w", "v"]), Some(vec![2, 1]));
+        for names in [["a", "b"], ["x", "x"], ["", ""], ["0", "1"]] {
+            assert_eq!(axes(names), None, "{names:?}");
+        }
+    }
+
+    #[test]
     fn separate_arrays_are_grouped_by_what_their_names_share() {
         let found = groups(&["S_XX", "pressure", "S_YY", "E_XX", "S_XY", "E_YY"]);
         assert_eq!(found.len(), 1, "E has no shear: {found:?}");
@@ -426,15 +453,17 @@ mod tests {
         assert!(groups(&["sigma_xx", "sigma_yy", "stress_xx", "stress_yy", "tau_xy"]).is_empty());
         let own = groups(&["sigma_xx", "sigma_yy", "sigma_xy", "tau_xy"]);
         assert_eq!((own.len(), &own[0].members[..]), (1, &[0, 1, 2][..]));
-        let rows = row_groups(&["T_y", "grad", "T_x", "T_z"], 3);
+        let rows = row_groups(&["T_y", "grad", "T_x", "T_z"], VECTOR_AXES[0]);
         assert_eq!(rows, [[2, 0, 3]]);
         let gradient = groups(&["u", "dvdy", "dvdx", "dudy", "dudx"]);
         assert_eq!((gradient.len(), gradient[0].order.to_string()), (1, "yy,yx,xy,xx".to_owned()));
-        assert!(row_groups(&["u_x", "u_y"], 3).is_empty());
+        assert!(row_groups(&["u_x", "u_y"], VECTOR_AXES[0]).is_empty());
         for others in [["V1", "V2", "V3"], ["vel_0", "vel_1", "vel_2"], ["d_dx", "d_dy", "d_dz"]] {
-            assert!(row_groups(&others, 3).is_empty(), "{others:?}");
+            assert!(row_groups(&others, VECTOR_AXES[0]).is_empty(), "{others:?}");
         }
-        assert_eq!(row_groups(&["x", "y", "u", "v"], 2), [[2, 3]]);
+        assert_eq!(row_groups(&["x", "y", "u", "v"], VECTOR_AXES[1]), [[2, 3]]);
+        assert_eq!(row_groups(&["w", "p", "u"], VECTOR_AXES[2]), [[2, 0]]);
+        assert!(row_groups(&["u", "v", "w"], VECTOR_AXES[2]).is_empty());
     }
 
     #[test]

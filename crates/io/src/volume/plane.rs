@@ -6,9 +6,21 @@ use super::geometry::{PlaneGeometry, world_axes};
 use super::lattice::Lattice;
 use super::matrix3::turned;
 use super::meaning::{Frame, World};
+use super::names::axes_of_vectors;
 use super::tensors::TensorVolume;
 use crate::IoError;
+use tigereye_core::math::hypot;
 use tigereye_core::{Field, Grid, Tensor2};
+
+/// Cosine between the normal of a plane and an axis from which on the plane is across to the axis: files hold
+/// directions in single precision.
+const ACROSS: f64 = 1.0 - 1e-6;
+/// The same up to which the plane holds the axis.
+const ALONG: f64 = 1e-3;
+
+const fn is_by_voxels(frame: Frame) -> bool {
+    matches!(frame, Frame::Voxel | Frame::Fsl)
+}
 
 /// A voxel axis in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -208,19 +220,64 @@ impl Lattice {
         Ok(Slice { field, cut })
     }
 
-    /// The axes that the components of vectors are along, in their frame: two components of a model in a plane are
-    /// along its two axes.
+    /// The axes that the components of vectors are along, in their frame: by their names, else in the order x, y, z.
+    /// Two components must lie in the plane: of what is across to them nothing is known.
     fn axes_of_components(&self, cut: &Cut, frame: Frame) -> Result<Vec<usize>, IoError> {
-        let mut shown = [cut.right, cut.up]
-            .map(|s| if matches!(frame, Frame::Voxel | Frame::Fsl) { s.voxel } else { s.world });
+        let named = axes_of_vectors(&self.component_names).filter(|axes| axes.len() == self.components);
+        let axes = named.unwrap_or_else(|| (0..self.components).collect());
+        let missing = (0..3).find(|axis| !axes.contains(axis));
+        let Some(missing) = missing.filter(|&axis| self.across(cut, frame, axis) < ACROSS) else {
+            return Ok(axes);
+        };
+        let name = |axis: usize| Axis::ALL[axis].name();
+        let others = |axis: usize| (0..3).filter(move |&a| a != axis).map(name);
+        let [found, shown] = [others(missing).collect(), self.words_of_axes(cut, frame)]
+            .map(|axes: Vec<char>| axes.iter().map(char::to_string).collect::<Vec<_>>().join(" and "));
+        let is_tilted = self.across(cut, frame, missing) > ALONG;
+        let by_voxels = is_by_voxels(frame) || cut.plane.normal() as usize != missing;
+        Err(VolumeError::VectorsAcross {
+            array: self.array.clone(),
+            found,
+            shown: if is_tilted { "is tilted against these".to_owned() } else { format!("shows {shown}") },
+            help: match (by_voxels, is_tilted) {
+                (false, _) => ", or --frame voxel where they are along the axes of the file",
+                (true, true) => "",
+                (true, false) => {
+                    ", or two named after the axes of the plane (u and w; --components X=NAME,Z=NAME)"
+                }
+            },
+        }
+        .into())
+    }
+
+    /// The two axes of a frame that a plane mainly shows.
+    fn words_of_axes(&self, cut: &Cut, frame: Frame) -> Vec<char> {
+        let mut shown = [cut.right, cut.up].map(|s| if is_by_voxels(frame) { s.voxel } else { s.world });
         shown.sort_unstable();
-        if self.components != 2 || shown == [0, 1] {
-            return Ok((0..self.components).collect());
+        shown.iter().map(|&axis| Axis::ALL[axis].name()).collect()
+    }
+
+    /// The cosine between the normal of a plane and an axis of the components: 1 where the plane lies along the two
+    /// others, 0 where it shows the axis.
+    fn across(&self, cut: &Cut, frame: Frame, axis: usize) -> f64 {
+        let normal = cut.plane.normal() as usize;
+        if is_by_voxels(frame) {
+            return f64::from(u8::from(normal == axis));
         }
-        if self.size[cut.plane.normal() as usize] == 1 {
-            return Ok(shown.to_vec());
-        }
-        Err(self.tuple_size("three for this plane, which the two do not lie in").into())
+        let unit = |v: [f64; 3]| {
+            let length = hypot(hypot(v[0], v[1]), v[2]);
+            v.map(|c| c / length)
+        };
+        let d = self.directions();
+        let column = |m: &[f64; 9], a: usize| [m[a], m[a + 3], m[a + 6]];
+        let (a, b) = cut.plane.axes();
+        let ([a, b, c], [d, e, f]) = (column(&d, a), column(&d, b));
+        let normal = unit([b * f - c * e, c * d - a * f, a * e - b * d]);
+        let frame = match (frame, self.measurement) {
+            (Frame::Measurement, Some(m)) => unit(column(&m, axis)),
+            _ => [0, 1, 2].map(|i| f64::from(u8::from(i == axis))),
+        };
+        (0..3).map(|i| normal[i] * frame[i]).sum::<f64>().abs()
     }
 
     /// Which cells of a plane the mask leaves out; `None` where there is no mask.
@@ -262,11 +319,32 @@ impl TensorVolume {
         Ok(Slice { field, cut })
     }
 
+    /// What is assumed of a plane that is tilted against the two axes that the components are along, in words.
+    #[must_use]
+    pub fn tilted(&self, cut: &Cut) -> Option<String> {
+        let missing = self.missing_axis()?;
+        (self.lattice.across(cut, self.frame.0, missing) < ACROSS).then(|| {
+            let order = self.order.0;
+            let axis = Axis::ALL[missing].name();
+            format!(
+                "WARNING: the plane is tilted against the axes of the components {order}; those along {axis}, which the file does not \
+                 have, are taken as zero"
+            )
+        })
+    }
+
+    /// The axis that no component is along, of tensors in a plane.
+    fn missing_axis(&self) -> Option<usize> {
+        (0..3).find(|&axis| !self.order.0.has(axis, axis))
+    }
+
     /// Refuses components of a plane that is not the one shown: what is shown would be zero.
     fn check_components(&self, cut: &Cut) -> Result<(), IoError> {
-        let by_voxels = matches!(self.frame.0, Frame::Voxel | Frame::Fsl);
-        // Along the axes of a turned world a part of every component is shown.
-        if !by_voxels && cut.geometry.is_oblique() {
+        let by_voxels = is_by_voxels(self.frame.0);
+        // Along the axes of a turned world a part of every component is shown, unless the plane is at right angles to
+        // theirs.
+        let is_upright = |axis| self.lattice.across(cut, self.frame.0, axis) <= ALONG;
+        if !by_voxels && cut.geometry.is_oblique() && !self.missing_axis().is_some_and(is_upright) {
             return Ok(());
         }
         let axis = |side: Side| if by_voxels { side.voxel } else { side.world };

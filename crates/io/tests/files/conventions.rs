@@ -407,6 +407,99 @@ fn arrays_that_could_have_their_components_first_are_said() {
     assert_eq!(read(&[20, 40, 4]), Ok(0));
     assert!(matches!(read(&[3, 6, 7]), Err(IoError::Npy(NpyError::ComponentsFirst { .. }))));
     assert_eq!(read(&[20, 6, 7]), Ok(0));
+    // Matrices with both axes first.
+    assert_eq!((read(&[2, 2, 8, 6]), read(&[3, 3, 6]), read(&[2, 4, 8, 6])), (Ok(1), Ok(1), Ok(0)));
+    // One number behind the others does stand last.
+    assert!(matches!(read(&[3, 9, 1]), Err(IoError::Npy(NpyError::Shape { .. }))));
+}
+
+/// Nothing names the axes of an array of numbers with three of them; positions beside it do.
+#[test]
+fn the_order_of_the_axes_of_volumes_is_said() {
+    let array = npy::write_array(&[5, 4, 6], &[1.0; 120]).unwrap();
+    let said = |remarks: &[String]| remarks.iter().any(|r| r.contains("x, y and z in this order"));
+    assert!(said(&npy::read_lattice(&array, Wanted::Scalars).unwrap().remarks));
+    assert!(!said(&npy::read_lattice(&array, Wanted::Mask).unwrap().remarks));
+    let mut members = vec![("s".to_owned(), array)];
+    for (axis, n) in [("x", 5), ("y", 4), ("z", 6)] {
+        let steps: Vec<f64> = (0..n).map(f64::from).collect();
+        members.push((axis.to_owned(), npy::write_array(&[n as usize], &steps).unwrap()));
+    }
+    let placed = npy::lattice_of_members(&members, tigereye_io::ArrayChoice::Usual, Wanted::Scalars).unwrap();
+    assert!(!said(&placed.remarks), "{:?}", placed.remarks);
+    assert!(placed.remarks.is_empty(), "{:?}", placed.remarks);
+    // Axes that run along others than their names say so: slices are those of the array.
+    members.truncate(1);
+    for (name, step) in [("x", 1), ("y", 6), ("z", 24)] {
+        let length = [6, 4, 5][[1, 6, 24].iter().position(|s| *s == step).unwrap()];
+        let positions: Vec<f64> = (0..120).map(|i| f64::from(i / step % length)).collect();
+        members.push((name.to_owned(), npy::write_array(&[5, 4, 6], &positions).unwrap()));
+    }
+    let placed = npy::lattice_of_members(&members, tigereye_io::ArrayChoice::Usual, Wanted::Scalars).unwrap();
+    assert!(placed.remarks.iter().any(|r| r.contains("along the world's z, y, x")), "{:?}", placed.remarks);
+}
+
+/// Blocks are an assumption about rows of numbers, which symmetric ones confirm.
+#[test]
+fn blocks_that_are_not_symmetric_are_said_to_be_assumed() {
+    let said = |text: &str| !tigereye_io::matrices::read_lattice(text.as_bytes()).unwrap().remarks.is_empty();
+    assert!(said("1 2 3 4\n5 6 7 8\n"));
+    assert!(!said("1 2 3 4\n2 6 4 8\n"));
+}
+
+/// A size has no sign, and half a scaling is none.
+#[test]
+fn sizes_and_scalings_of_nifti_are_taken_as_nibabel_takes_them() {
+    let mut file = nifti_voxel(RAS, [3, 1, 1, 1, 1, 1, 1, 1], 0, &[5.0], None);
+    file[254..256].copy_from_slice(&0_i16.to_le_bytes());
+    file[84..88].copy_from_slice(&(-3_f32).to_le_bytes());
+    assert_eq!(nifti::read(&file).unwrap().spacing(), [2.0, 3.0, 2.0]);
+    let mut scaled = |slope: f32, intercept: f32| {
+        file[112..116].copy_from_slice(&slope.to_le_bytes());
+        file[116..120].copy_from_slice(&intercept.to_le_bytes());
+        nifti::read(&file).map(|l| l.values[0]).map_err(|e| e.to_string())
+    };
+    assert_eq!((scaled(2.0, 1.0), scaled(f32::NAN, f32::NAN)), (Ok(11.0), Ok(5.0)));
+    let fault = scaled(2.0, f32::NAN).unwrap_err();
+    assert!(fault.contains("byte 116: NIfTI field scl_inter: found NaN"), "{fault}");
+}
+
+/// What NRRD files do not say is asked for in full.
+#[test]
+fn messages_about_nrrd_name_what_is_read() {
+    let head = "NRRD0005\ntype: float\ndimension: 3\nsizes: 3 2 2\nencoding: ascii\nkinds:";
+    let fault = |more: &str, wanted| {
+        let text = format!("{head} {more}\n\n{}", "1 0 1 ".repeat(4));
+        nrrd::read_with_limits(text.as_bytes(), None, wanted, tigereye_io::Limits::default())
+            .map(|_| ())
+            .map_err(|e| e.to_string())
+    };
+    for kind in ["vector", "3-vector", "covariant-vector", "3-gradient", "3-normal"] {
+        assert_eq!(fault(&format!("{kind} domain domain"), Wanted::Vectors), Ok(()));
+        let words = fault("space domain domain", Wanted::Vectors).unwrap_err();
+        assert!(words.contains(kind), "{kind}: {words}");
+    }
+    let list = fault("vector domain domain\ndata file: LIST\na.raw\nb.raw", Wanted::Tensors).unwrap_err();
+    assert!(list.contains("line 7: NRRD field `data file`") && list.contains("unu save"), "{list}");
+}
+
+#[test]
+fn axes_of_nrrd_in_different_units_are_warned_of() {
+    let warnings = |more: &str| {
+        let text = format!(
+            "NRRD0005\ntype: float\ndimension: 3\nsizes: 3 2 2\nkinds: 2D-symmetric-matrix domain domain\nencoding: ascii\n\
+             {more}\n\n{}",
+            "1 0 1 ".repeat(4)
+        );
+        nrrd::read(text.as_bytes(), None).unwrap().warnings
+    };
+    let space = "space dimension: 2\nspace directions: none (1,0) (0,1)\nspace units:";
+    assert_eq!(warnings(&format!("{space} \"mm\" \"mm\"")), Vec::<String>::new());
+    assert_eq!(warnings("units: \"MPa\" \"mm\" \"mm\""), Vec::<String>::new());
+    for more in [format!("{space} \"mm\" \"cm\""), "units: \"\" \"mm\" \"cm\"".to_owned()] {
+        let found = warnings(&more);
+        assert!(found.len() == 1 && found[0].contains("different units (mm, cm)"), "{more}: {found:?}");
+    }
 }
 
 /// What VTK hides is no data, what it duplicates is.
@@ -767,8 +860,67 @@ fn components_belong_to_the_plane_that_is_shown() {
     assert!(fault.contains("xx,yy,xy") && fault.contains("--order xx,zz,xz"), "{fault}");
     let by = |order| tensors(Reading { order: Some(order), ..Reading::default() });
     assert_eq!(by("xx,zz,xz"), Ok(Tensor2::symmetric(1.0, 3.0, 2.0)));
-    let vectors = lattice_from_image(&upright(2, &[]), None, Wanted::Vectors).unwrap();
-    assert_eq!(vectors.vectors(PlaneChoice::default(), None).unwrap().field.values()[0], [1.0, 2.0]);
+    let vectors = |names: &[&str], frame| {
+        let lattice = lattice_from_image(&upright(2, names), None, Wanted::Vectors).unwrap();
+        lattice.vectors(PlaneChoice::default(), frame).map(|s| s.field.values()[0])
+    };
+    assert_eq!(vectors(&["X", "Z"], None), Ok([1.0, 2.0]));
+    assert_eq!(vectors(&["w", "u"], None), Ok([2.0, 1.0]));
+    for (names, found) in [(&[][..], "x and y"), (&["u", "v"], "x and y"), (&["v", "w"], "y and z")] {
+        for frame in [None, Some(Frame::Voxel)] {
+            let fault = vectors(names, frame).unwrap_err().to_string();
+            assert!(fault.contains(&format!("along {found}, and the plane shows x and z")), "{fault}");
+        }
+    }
+}
+
+/// Two components say nothing of a plane that is tilted against them: vectors are refused, and of tensors it is said
+/// what is assumed. A turn within the plane of the components is no tilt.
+#[test]
+fn planes_that_are_tilted_against_their_components_are_known() {
+    let turned = |axis: usize, degrees: f64, components: usize| {
+        let mut image = ImageData::empty([3, 2, 1]);
+        let radians = degrees.to_radians();
+        let (sin, cos) = (tigereye_core::math::sin(radians), tigereye_core::math::cos(radians));
+        let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mut direction = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        (direction[4 * a], direction[4 * b]) = (cos, cos);
+        (direction[3 * a + b], direction[3 * b + a]) = (-sin, sin);
+        image.direction = Some(direction);
+        image.point_arrays.push(DataArray::new("t", components, vec![1.0; 6 * components]));
+        image
+    };
+    for (axis, degrees, is_tilted) in [
+        (2, 30.0, false),
+        (2, 90.0, false),
+        (0, 20.0, true),
+        (0, 44.0, true),
+        (0, 80.0, true),
+        (1, 60.0, true),
+    ] {
+        let vectors = lattice_from_image(&turned(axis, degrees, 2), None, Wanted::Vectors).unwrap();
+        let found = vectors.vectors(PlaneChoice::default(), None);
+        assert_eq!(found.is_err(), is_tilted, "{axis} by {degrees}");
+        let along_voxels = vectors.vectors(PlaneChoice::default(), Some(Frame::Voxel)).unwrap();
+        assert_eq!(along_voxels.field.values()[0].map(f64::abs), [1.0; 2]);
+        if let Err(fault) = found {
+            let fault = fault.to_string();
+            assert!(fault.contains("is tilted against these") && fault.contains("--frame voxel"), "{fault}");
+        }
+        let tensors = lattice_from_image(&turned(axis, degrees, 4), None, Wanted::Tensors).unwrap();
+        let tensors = tensors.tensors(Reading::default()).unwrap();
+        let slice = tensors.slice(PlaneChoice::default()).unwrap();
+        let said = tensors.tilted(&slice.cut);
+        assert_eq!(said.is_some(), is_tilted, "{axis} by {degrees}: {said:?}");
+    }
+    // Turned within the plane xz, whose zz is not there.
+    let mut upright = turned(1, 30.0, 3);
+    upright.dimensions = [3, 1, 2];
+    upright.point_arrays[0] =
+        DataArray::new("t", 3, vec![1.0; 18]).with_component_names(&["S11", "S22", "S12"]);
+    let tensors = lattice_from_image(&upright, None, Wanted::Tensors).unwrap();
+    let fault = tensors.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap_err();
+    assert!(fault.to_string().contains("--order xx,zz,xz"), "{fault}");
 }
 
 #[test]

@@ -19,7 +19,7 @@ pub(crate) struct ReviewArgs {
     /// Folder for the page and the summary, review.html and review.json.
     #[arg(long, value_name = "DIR", default_value = "review")]
     out: PathBuf,
-    /// Only the experiment of this name, its file without folder and ending; repeatable. Only these are run for a
+    /// Only the experiment of this name, its file without folder and extension; repeatable. Only these are run for a
     /// revision.
     #[arg(long, value_name = "SLUG")]
     only: Vec<String>,

@@ -296,7 +296,7 @@ pub(crate) fn place_of(path: &Path) -> PathBuf {
     path.file_name().map_or_else(|| folder.clone(), |name| folder.join(name))
 }
 
-/// The ending of a path in lower case, without dot.
+/// The extension of a path in lower case, without dot.
 pub(crate) fn extension(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
 }

@@ -25,7 +25,7 @@ pub(crate) enum Source {
 }
 
 impl Source {
-    /// Reads INPUT: a path with a known ending, or a generator.
+    /// Reads INPUT: a path with a known extension, or a generator.
     pub(crate) fn open(text: &str, reading: &ReadingArgs) -> Result<Self, CliError> {
         if is_scene_file(text) {
             let problem = "a scene has no tensors: expected a tensor field (propagate and ltg take scenes)";
@@ -205,7 +205,7 @@ impl Input {
 /// What is wrong with a field file; an experiment in its place is named as such.
 fn other_kind(name: &str, text: &str, fault: &SpecError) -> String {
     let is_experiment = ["look_for", "claim"].iter().all(|key| text.contains(&format!("{key}:")));
-    match is_experiment && !name.ends_with(field_file::ENDING) {
+    match is_experiment && !name.ends_with(field_file::EXTENSION) {
         true => format!("{name}: is an experiment file, not a field: use `tigereye run {name}`"),
         false => fault.to_string(),
     }

@@ -81,8 +81,8 @@ fn command(line: &str) -> Option<(Vec<String>, i32)> {
 
 /// `NAME.ron` in backticks, or `NAME.txt` before a text.
 fn file_name(line: &str, language: &str) -> Option<String> {
-    let ending = if language == "ron" { ".ron" } else { ".txt" };
-    let name = line.split('`').skip(1).step_by(2).find(|code| code.ends_with(ending))?;
+    let extension = if language == "ron" { ".ron" } else { ".txt" };
+    let name = line.split('`').skip(1).step_by(2).find(|code| code.ends_with(extension))?;
     Some(name.to_owned())
 }
 

@@ -24,7 +24,7 @@ pub enum Normalization {
 /// What [`Normalization::LocalAbove`] makes of the cells under its threshold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Below {
-    /// They absorb everything (the published programme).
+    /// They absorb everything (the published program).
     Absorb,
     /// They keep the transmission eq. 3.11 gives them (the text of the thesis, which leaves them out of the local
     /// normalisation).

@@ -5,12 +5,12 @@ use core::fmt;
 use core::str::FromStr;
 
 /// Above this ratio of the semi-axes (or with a vanishing one) a tensor counts as totally anisotropic and its profile
-/// is a bidirectional pulse (thesis, section 4.3; the value is the published programme's).
+/// is a bidirectional pulse (thesis, section 4.3; the value is the published program's).
 pub const TOTAL_ANISOTROPY_RATIO: f64 = 20.0;
 
 /// What becomes of tensors with a large ratio `s1/s2` of the semi-axes: a rule with a ratio R.
 ///
-/// A step (the published programme) turns ellipses into pulses at one ratio. At that ratio a small change of the tensor
+/// A step (the published program) turns ellipses into pulses at one ratio. At that ratio a small change of the tensor
 /// changes the light by a finite amount, so the border of the region beyond is an edge in every gradient. A blend has
 /// no such edge: between `R / width` and `R * width` the profile is `(1 - p)` times the ellipse plus `p` times
 /// the pulse, where p is the smooth step `3 u^2 - 2 u^3` of the position u of `ln(s1/s2)` in the interval. Both have
@@ -33,7 +33,7 @@ enum Beyond {
 }
 
 impl TotalAnisotropy {
-    /// The published programme's: a step at [`TOTAL_ANISOTROPY_RATIO`].
+    /// The published program's: a step at [`TOTAL_ANISOTROPY_RATIO`].
     pub const PUBLISHED: Self = Self { ratio: TOTAL_ANISOTROPY_RATIO, beyond: Beyond::Pulse { width: 1.0 } };
     /// Only tensors with an axis that vanishes within rounding.
     pub const NONE: Self = Self { ratio: Self::LARGEST_RATIO, beyond: Beyond::Pulse { width: 1.0 } };
@@ -158,7 +158,7 @@ impl FromStr for TotalAnisotropy {
     }
 }
 
-/// Whether the published programme makes the transmission of `t` a pulse (or nothing) instead of an ellipse.
+/// Whether the published program makes the transmission of `t` a pulse (or nothing) instead of an ellipse.
 #[must_use]
 pub fn is_totally_anisotropic(t: &Tensor2) -> bool {
     TotalAnisotropy::PUBLISHED.contains(t)

@@ -31,7 +31,7 @@ pub struct ProfileRule {
     pub total_anisotropy: TotalAnisotropy,
 }
 
-/// With the published programme's ratio of total anisotropy.
+/// With the published program's ratio of total anisotropy.
 impl From<Normalization> for ProfileRule {
     fn from(normalization: Normalization) -> Self {
         Self { normalization, total_anisotropy: TotalAnisotropy::PUBLISHED }

@@ -2,8 +2,8 @@
 
 use tigereye_fields::Generator;
 
-/// Ending of files that hold a field; other `.ron` files below `experiments/` are experiments.
-pub const ENDING: &str = ".field.ron";
+/// Extension of files that hold a field; other `.ron` files below `experiments/` are experiments.
+pub const EXTENSION: &str = ".field.ron";
 
 /// Whether a name can be that of a file and of an experiment.
 #[must_use]
@@ -17,10 +17,10 @@ pub fn is_name(name: &str) -> bool {
 pub fn template(name: &str) -> String {
     format!(
         r#"// A tensor field. Look at it with
-//     tigereye field show {name}{ENDING} -o {name}.png
+//     tigereye field show {name}{EXTENSION} -o {name}.png
 // and list likely mistakes in it with
-//     tigereye field lint {name}{ENDING}
-// Every command takes this file where it takes a generator: tigereye ltg {name}{ENDING} -o {name}.vti
+//     tigereye field lint {name}{EXTENSION}
+// Every command takes this file where it takes a generator: tigereye ltg {name}{EXTENSION} -o {name}.vti
 (
     format: 1,
     title: "{name}",
@@ -60,13 +60,13 @@ pub fn template(name: &str) -> String {
 #[must_use]
 pub fn experiment_template(name: &str) -> String {
     let head = format!(
-        r#"// An experiment with the field of {name}{ENDING}. Run it with
+        r#"// An experiment with the field of {name}{EXTENSION}. Run it with
 //     tigereye run {name}.ron --out {name}-results
 // In a folder below experiments/ of the project both files are found by `tigereye reproduce`, the tests and the
 // gallery.
 "#
     );
-    head + &experiment(name, "", &format!(r#"File(path: "{name}{ENDING}")"#), UNIT_DETERMINANT)
+    head + &experiment(name, "", &format!(r#"File(path: "{name}{EXTENSION}")"#), UNIT_DETERMINANT)
 }
 
 /// An experiment that shows a generator with its default parameters.

@@ -29,7 +29,7 @@ fn collect(dir: &'static Dir<'static>, found: &mut Vec<(String, &'static str)>) 
 /// Whether a file in a folder of experiments is one: fields and scenes may lie beside them.
 #[must_use]
 pub fn is_experiment(path: &str) -> bool {
-    path.ends_with(".ron") && !path.ends_with(field_file::ENDING) && !scene::is_scene_file(path)
+    path.ends_with(".ron") && !path.ends_with(field_file::EXTENSION) && !scene::is_scene_file(path)
 }
 
 /// Bytes of a carried data file; `path` is `data/NAME` or `NAME`, or the name of a field, scene or picture beside any
@@ -39,8 +39,9 @@ pub fn data(path: &str) -> Option<&'static [u8]> {
     let carried = DATA.get_file(path.strip_prefix("data/").unwrap_or(path));
     let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
     let beside = || {
-        let is_known =
-            [field_file::ENDING, scene::ENDING, ".png"].iter().any(|ending| name.ends_with(ending));
+        let is_known = [field_file::EXTENSION, scene::EXTENSION, ".png"]
+            .iter()
+            .any(|extension| name.ends_with(extension));
         is_known.then(|| file_below(&EXPERIMENTS, name)).flatten()
     };
     carried.or_else(beside).map(File::contents)

@@ -219,7 +219,7 @@ fn scenes(experiment: &Experiment, host: &dyn Host, faults: &mut Faults<'_>) -> 
 /// The scene of a file.
 fn scene_of(path: &Placed<String>, host: &dyn Host, faults: &mut Faults<'_>) -> Option<PreparedScene> {
     if !is_scene_file(path) {
-        faults.at(path.place(), &format!("{path}: expected a file NAME{}", scene::ENDING));
+        faults.at(path.place(), &format!("{path}: expected a file NAME{}", scene::EXTENSION));
         return None;
     }
     let text = match host.read(path).map(String::from_utf8) {

@@ -17,8 +17,8 @@ use tigereye_io::picture;
 use tigereye_scenes::{Fault, Layout, Mask, Material, Part, Scene, SceneError, Shape, leaks};
 use tigereye_transport::Light;
 
-/// Ending of files that hold a scene; other `.ron` files below `experiments/` are experiments, or fields.
-pub const ENDING: &str = ".scene.ron";
+/// Extension of files that hold a scene; other `.ron` files below `experiments/` are experiments, or fields.
+pub const EXTENSION: &str = ".scene.ron";
 
 /// Samples in which profiles are checked.
 const SAMPLES: usize = 32;
@@ -30,7 +30,7 @@ const MAX_CRYSTAL_CELLS: usize = 4 * Scene::MAX_CELLS;
 #[must_use]
 pub fn is_scene_file(name: &str) -> bool {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
-    name == &ENDING[1..] || name.ends_with(ENDING)
+    name == &EXTENSION[1..] || name.ends_with(EXTENSION)
 }
 
 /// A scene, ready to be built for any number of directions.

@@ -14,3 +14,10 @@ pub enum HeatScale {
     /// Symmetric about 0.
     Diverging,
 }
+
+impl HeatScale {
+    /// Decades of a logarithmic scale for which nobody asks otherwise.
+    pub const USUAL_DECADES: f64 = 4.0;
+    /// Logarithmic, with as many decades as usual.
+    pub const USUAL_LOGARITHMIC: Self = Self::Logarithmic { decades: Self::USUAL_DECADES };
+}

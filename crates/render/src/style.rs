@@ -5,6 +5,7 @@ use crate::error::RenderError;
 use crate::legend::SMALL_PX;
 use crate::scale::HeatScale;
 use crate::scene::Scene;
+use core::ops::RangeInclusive;
 use tigereye_core::choice;
 
 /// What of a picture may be chosen; what is `None` is as the picture itself has it.
@@ -110,6 +111,12 @@ const MM_AN_INCH: f64 = 25.4;
 impl Style {
     /// Resolution of a PNG for which nobody asks otherwise: two pixels for each of the page.
     pub const DPI: f64 = 192.0;
+    /// Widths that may be asked for, millimetres.
+    pub const WIDTHS_MM: RangeInclusive<f64> = 20.0..=2000.0;
+    /// Font sizes that may be asked for, points.
+    pub const FONT_SIZES_PT: RangeInclusive<f64> = 2.0..=72.0;
+    /// Resolutions that may be asked for, pixels per inch.
+    pub const RESOLUTIONS_DPI: RangeInclusive<f64> = 10.0..=2400.0;
 
     /// What `self` leaves open as in `other`.
     #[must_use]

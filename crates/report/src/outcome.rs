@@ -8,7 +8,7 @@ use crate::numbers::plain;
 /// Everything one experiment produced.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExperimentOutcome {
-    /// Name of the experiment: its file without folder and ending.
+    /// Name of the experiment: its file without folder and extension.
     pub slug: String,
     /// Heading.
     pub title: String,
@@ -47,7 +47,7 @@ impl ExperimentOutcome {
 /// A picture in both formats.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// File name without ending, unique in the experiment.
+    /// File name without extension, unique in the experiment.
     pub name: String,
     /// What is seen, in one or two sentences under the picture.
     pub caption: String,
@@ -109,7 +109,7 @@ pub struct Column {
 /// A file of data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataFile {
-    /// File name with ending, unique in the experiment.
+    /// File name with extension, unique in the experiment.
     pub name: String,
     /// Its bytes.
     pub bytes: Vec<u8>,

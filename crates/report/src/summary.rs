@@ -119,7 +119,7 @@ pub struct ExperimentSummary {
 /// What the page says about a figure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PictureSummary {
-    /// File name without ending.
+    /// File name without extension.
     pub name: String,
     /// What is seen.
     pub caption: String,
@@ -139,7 +139,7 @@ pub struct PictureSummary {
 /// A file of data.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DataSummary {
-    /// File name with ending.
+    /// File name with extension.
     pub name: String,
     /// Its size.
     pub bytes: usize,
@@ -339,8 +339,8 @@ impl ExperimentOutcome {
     #[must_use]
     pub fn summary(&self, made: &Made<'_>) -> ExperimentSummary {
         let files = |f: &Figure| {
-            let endings = ["png", "svg"].into_iter().chain((f.frames > 0).then_some("apng"));
-            endings.map(|e| FilePath(path(&self.slug, &format!("{}.{e}", f.name)))).collect::<Vec<_>>()
+            let extensions = ["png", "svg"].into_iter().chain((f.frames > 0).then_some("apng"));
+            extensions.map(|e| FilePath(path(&self.slug, &format!("{}.{e}", f.name)))).collect::<Vec<_>>()
         };
         ExperimentSummary {
             slug: self.slug.clone(),

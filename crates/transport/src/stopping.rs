@@ -8,7 +8,7 @@ use tigereye_core::{Choice, choice};
 pub struct Stopping {
     /// What is compared.
     pub rule: StoppingRule,
-    /// The published programme's `ctrLimit`: a propagation makes at most `max_iterations + 1` steps.
+    /// The published program's `ctrLimit`: a propagation makes at most `max_iterations + 1` steps.
     pub max_iterations: usize,
 }
 
@@ -91,7 +91,7 @@ impl StoppingRule {
 }
 
 impl Stopping {
-    /// The published programme's rule: threshold 0.5 on the flux change, at most 1001 steps.
+    /// The published program's rule: threshold 0.5 on the flux change, at most 1001 steps.
     pub const REFERENCE: Self =
         Self { rule: StoppingRule::FluxChange { threshold: 0.5 }, max_iterations: 1000 };
     /// The stationary state to ten digits.

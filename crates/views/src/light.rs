@@ -3,7 +3,7 @@
 use tigereye_render::{HeatOptions, HeatScale};
 
 /// Default range of pictures, decades below the brightest cell.
-pub const DECADES: f64 = 4.0;
+pub const DECADES: f64 = HeatScale::USUAL_DECADES;
 
 /// Options of a map of the energies of cells (W), over so many decades below the brightest cell; `None` for a linear
 /// scale.

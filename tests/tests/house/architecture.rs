@@ -2,7 +2,7 @@
 
 use crate::root;
 use cargo_metadata::{DependencyKind, MetadataCommand};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use tigereye_experiments::library::is_experiment;
 use tigereye_fields::generators;
@@ -267,6 +267,36 @@ fn every_experiment_has_its_snapshot() {
     snapshots.sort();
     let faults = snapshot_faults(&experiments(), &snapshots);
     assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
+}
+
+/// Sections are the thesis's chapters 2 to 4, or have a letter that no other section has.
+fn section_faults(experiments: &[(String, String)]) -> Vec<String> {
+    let mut titles: BTreeMap<&str, &str> = BTreeMap::new();
+    let mut faults = Vec::new();
+    for (path, text) in experiments {
+        let Some((_, rest)) = text.split_once("section: \"") else { continue };
+        let title = rest.split('"').next().unwrap_or(rest);
+        let mark = title.split(' ').next().unwrap_or(title);
+        let is_letter = mark.len() == 1 && mark.starts_with(|c: char| c.is_ascii_uppercase());
+        if !(is_letter || ["2.", "3.", "4."].iter().any(|chapter| mark.starts_with(chapter))) {
+            faults.push(format!(
+                "{path}: section \"{title}\" looks like a chapter of the thesis: begin it with a letter"
+            ));
+        }
+        let known = titles.entry(mark).or_insert(title);
+        if *known != title {
+            faults.push(format!("{path}: sections \"{title}\" and \"{known}\" have the same mark"));
+        }
+    }
+    faults
+}
+
+#[test]
+fn sections_do_not_collide_with_those_of_the_thesis() {
+    let faults = section_faults(&experiments());
+    assert!(faults.is_empty(), "\n{}\n", faults.join("\n"));
+    let file = |section: &str| ("a.ron".to_owned(), format!("section: \"{section}\","));
+    assert_eq!(section_faults(&[file("6 Beyond"), file("A Data"), file("A Scenes")]).len(), 2);
 }
 
 #[test]

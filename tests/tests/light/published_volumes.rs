@@ -16,7 +16,7 @@ use tigereye_transport::{Scattering, Stopping, StoppingRule};
 const VOLUME_L2: f64 = 1e-10;
 /// Relative error of a single value (1): what the data's README calls generous.
 const VALUE: f64 = 1e-11;
-/// Relative L2 error (1) of the slices in which the published programme does not wrap the direction (README: 3 to 7 %).
+/// Relative L2 error (1) of the slices in which the published program does not wrap the direction (README: 3 to 7 %).
 const UNWRAPPED: std::ops::Range<f64> = 0.02..0.1;
 /// Most cells a volume may have without `TIGEREYE_FULL`.
 const QUICK_CELLS: usize = 29 * 29;

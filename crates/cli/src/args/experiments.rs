@@ -62,7 +62,7 @@ pub(crate) struct ReviewArgs {
     /// Folder for the page and the summary, review.html and review.json.
     #[arg(long, value_name = "DIR", default_value = "review")]
     pub(crate) out: PathBuf,
-    /// Only the experiment of this name, its file without folder and ending; repeatable.
+    /// Only the experiment of this name, its file without folder and extension; repeatable.
     #[arg(long, value_name = "SLUG", conflicts_with = "snapshots")]
     pub(crate) only: Vec<String>,
     /// Largest relative change of a number that is no movement.

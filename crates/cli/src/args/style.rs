@@ -2,6 +2,7 @@
 
 use super::values::choice;
 use clap::Args;
+use core::ops::RangeInclusive;
 use std::path::PathBuf;
 use tigereye_core::Choice;
 use tigereye_render::{AxisNumbers, ColourMap, HeatScale, Length, Style, ValueRange};
@@ -116,15 +117,12 @@ fn colour_maps() -> String {
     )
 }
 
-/// Decades of a logarithmic scale for which nobody asks otherwise.
-const DECADES: f64 = 4.0;
-
 fn parse_scale(text: &str) -> Result<HeatScale, String> {
     let decades = |text: &str| text.parse::<f64>().ok().filter(|d| (0.1..=300.0).contains(d));
     match text.split_once(':') {
         None if text == "linear" => Ok(HeatScale::Linear),
         None if text == "diverging" => Ok(HeatScale::Diverging),
-        None if text == "logarithmic" => Ok(HeatScale::Logarithmic { decades: DECADES }),
+        None if text == "logarithmic" => Ok(HeatScale::USUAL_LOGARITHMIC),
         Some(("logarithmic", number)) => decades(number)
             .map(|decades| HeatScale::Logarithmic { decades })
             .ok_or_else(|| "expected 0.1 to 300 decades, for example logarithmic:3".to_owned()),
@@ -147,28 +145,34 @@ fn parse_range(text: &str) -> Result<ValueRange, String> {
     range.filter(|(a, b, _)| a < b).map(|(_, _, range)| range).ok_or_else(expected)
 }
 
+/// Widths that may be asked for, pixels of a PNG.
+const WIDTHS_PX: RangeInclusive<f64> = 100.0..=8192.0;
+
 fn parse_width(text: &str) -> Result<Length, String> {
-    let number = |text: &str, low: f64, high: f64| {
-        text.trim().parse::<f64>().ok().filter(|v| (low..=high).contains(v))
+    let number = |text: &str, bounds: &RangeInclusive<f64>| {
+        text.trim().parse::<f64>().ok().filter(|v| bounds.contains(v))
     };
+    let (mm, px) = (Style::WIDTHS_MM, WIDTHS_PX);
     let width = match (text.strip_suffix("mm"), text.strip_suffix("px")) {
-        (Some(mm), _) => number(mm, 20.0, 2000.0).map(Length::Millimetres),
-        (_, Some(pixels)) => number(pixels, 100.0, 8192.0).map(Length::Pixels),
+        (Some(millimetres), _) => number(millimetres, &mm).map(Length::Millimetres),
+        (_, Some(pixels)) => number(pixels, &px).map(Length::Pixels),
         _ => None,
     };
-    width.ok_or_else(|| "expected 20mm to 2000mm or 100px to 8192px".to_owned())
+    let [[mm0, mm1], [px0, px1]] = [mm, px].map(|r| [*r.start(), *r.end()]);
+    width.ok_or_else(|| format!("expected {mm0}mm to {mm1}mm or {px0}px to {px1}px"))
 }
 
 fn parse_dpi(text: &str) -> Result<f64, String> {
-    let dpi = text.parse::<f64>().ok().filter(|v| (10.0..=2400.0).contains(v));
-    dpi.ok_or_else(|| "expected 10 to 2400 pixels per inch".to_owned())
+    let bounds = Style::RESOLUTIONS_DPI;
+    let dpi = text.parse::<f64>().ok().filter(|v| bounds.contains(v));
+    dpi.ok_or_else(|| format!("expected {} to {} pixels per inch", bounds.start(), bounds.end()))
 }
 
 fn parse_font_size(text: &str) -> Result<f64, String> {
-    let size = text.strip_suffix("pt").unwrap_or(text).trim().parse::<f64>();
-    size.ok()
-        .filter(|v| (2.0..=72.0).contains(v))
-        .ok_or_else(|| "expected 2 to 72 points, for example 8pt".to_owned())
+    let bounds = Style::FONT_SIZES_PT;
+    let size = text.strip_suffix("pt").unwrap_or(text).trim().parse::<f64>().ok();
+    let expected = || format!("expected {} to {} points, for example 8pt", bounds.start(), bounds.end());
+    size.filter(|v| bounds.contains(v)).ok_or_else(expected)
 }
 
 #[cfg(test)]

@@ -68,7 +68,7 @@ impl Lit<'_> {
                 }
                 _ => "it absorbs all light".to_owned(),
             };
-            Some(format!("the light at ({}, {}) stays dark: {reason}", light.cell.x, light.cell.y))
+            Some(format!("the light at ({}, {}) lights no other cell: {reason}", light.cell.x, light.cell.y))
         };
         dark.filter_map(why).collect()
     }

@@ -102,7 +102,7 @@ pub(super) fn is_picture(output: &Path) -> bool {
     PICTURES.contains(&files::extension(output).as_str())
 }
 
-/// A picture in the format of the output's ending.
+/// A picture in the format of the output's extension.
 pub(super) fn encoded(scene: &Scene, output: &Path, style: &Style) -> Result<Vec<u8>, CliError> {
     style.check_width(scene).map_err(|e| CliError::input("--width", e))?;
     let bytes = match files::extension(output).as_str() {

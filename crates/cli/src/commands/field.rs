@@ -40,7 +40,7 @@ pub(crate) fn new(args: &FieldNewArgs) -> Result<u8, CliError> {
             "is a generator: expected another name, or --experiment for an experiment that shows it";
         return Err(CliError::input(name, problem));
     }
-    let field = args.folder.join(format!("{name}{}", field_file::ENDING));
+    let field = args.folder.join(format!("{name}{}", field_file::EXTENSION));
     let experiment = args.folder.join(format!("{name}.ron"));
     let texts = match generator {
         Some(generator) => vec![(&experiment, field_file::generator_template(generator))],

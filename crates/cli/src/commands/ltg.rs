@@ -1,6 +1,7 @@
 //! `tigereye ltg`: the light transport gradient volume, or a shard of it.
 
 use crate::args::light::LtgArgs;
+use crate::args::style::OverlayName;
 use crate::checkpoint::Checkpoint;
 use crate::commands::drawing;
 use crate::commands::overlaid::Overlaid;
@@ -24,6 +25,7 @@ use tigereye_ltg::{
 };
 use tigereye_render::{Colours, Style};
 use tigereye_transport::{LinearScattering, Scattering, ScatteringRule, StopMeasure, TransportError};
+use tigereye_views::added::Added;
 
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     check_method(args)?;
@@ -92,6 +94,12 @@ fn check_method(args: &LtgArgs) -> Result<(), CliError> {
             );
         }
     }
+    if sketched && args.overlay.overlays.contains(&OverlayName::Kind(Added::Ridges)) {
+        eprintln!(
+            "tigereye: --overlay ridges: ridges of an estimate follow its errors, too; compare them with another --seed, or draw \
+             those of the exact gradient"
+        );
+    }
     if !sketched {
         let asked = [(args.seed.is_some(), "--seed"), (args.preview.is_some(), "--preview")];
         if let Some((_, option)) = asked.iter().find(|(asked, _)| *asked) {
@@ -112,7 +120,7 @@ fn check_places(args: &LtgArgs) -> Result<(), CliError> {
     let is_part = |output: &Path| files::extension(output) == "part";
     if let Some(preview) = &args.preview {
         let all: Vec<_> = args.outputs.iter().filter(|o| !is_part(o)).chain([preview]).cloned().collect();
-        check_outputs(&all, &volume::ENDINGS)?;
+        check_outputs(&all, &volume::EXTENSIONS)?;
     }
     if args.view && !args.outputs.iter().any(|o| files::extension(o) == "vti") {
         return Err(CliError::input("--view", "opens a volume: expected an output .vti"));
@@ -122,7 +130,7 @@ fn check_places(args: &LtgArgs) -> Result<(), CliError> {
             let problem = "a part needs --shard K/N: expected .vti, .npy, .png, .svg or .pdf";
             return Err(CliError::input(&output.display().to_string(), problem));
         }
-        check_outputs(&args.outputs, &volume::ENDINGS)?;
+        check_outputs(&args.outputs, &volume::EXTENSIONS)?;
         return if args.view { volume::check_scripts(&args.outputs) } else { Ok(()) };
     }
     match args.outputs.as_slice() {

@@ -28,7 +28,7 @@ struct Taken {
 }
 
 pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
-    check_outputs(&args.outputs, &volume::ENDINGS)?;
+    check_outputs(&args.outputs, &volume::EXTENSIONS)?;
     let style = drawing::style(&args.style, Colours::Values)?;
     let mut taken: Vec<Taken> = Vec::new();
     let mut sum = None;

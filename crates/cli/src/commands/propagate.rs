@@ -114,8 +114,8 @@ impl Job {
         let digits = lights.len().to_string().len();
         let numbered = |path: &PathBuf, number: usize| {
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-            let ending = path.extension().map(|e| format!(".{}", e.to_string_lossy())).unwrap_or_default();
-            path.with_file_name(format!("{stem}-{number:0digits$}{ending}"))
+            let extension = path.extension().map(|e| format!(".{}", e.to_string_lossy())).unwrap_or_default();
+            path.with_file_name(format!("{stem}-{number:0digits$}{extension}"))
         };
         let job = |(i, (line, light)): (usize, &(usize, &str))| Self {
             lights: vec![(*light).to_owned()],

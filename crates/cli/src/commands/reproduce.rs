@@ -32,7 +32,7 @@ pub(crate) struct Source {
 impl Source {
     pub(crate) fn from_file(path: &Path) -> Result<Self, CliError> {
         let name = path.display().to_string();
-        if name.ends_with(field_file::ENDING) {
+        if name.ends_with(field_file::EXTENSION) {
             let problem = format!(
                 "is a field file: expected an experiment; `tigereye field show {name}` shows it, experiments name it in \
                  `fields` as File(path: \"{name}\")"

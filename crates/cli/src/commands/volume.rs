@@ -18,8 +18,8 @@ use tigereye_views::added::{Additions, Scalars};
 use tigereye_views::total_anisotropy::ThinCells;
 use tigereye_views::{Placement, gradient};
 
-/// Endings of files that hold volumes, or pictures of them.
-pub(super) const ENDINGS: [&str; 5] = ["vti", "npy", "png", "svg", "pdf"];
+/// Extensions of files that hold volumes, or pictures of them.
+pub(super) const EXTENSIONS: [&str; 5] = ["vti", "npy", "png", "svg", "pdf"];
 
 /// The script beside an image file.
 fn script_of(output: &Path) -> PathBuf {
@@ -91,7 +91,7 @@ pub(super) fn write(
     })
 }
 
-/// A volume in the format of the output's ending.
+/// A volume in the format of the output's extension.
 fn encoded(output: &Path, gradient: &Gradient, identity: &Identity) -> Result<Vec<u8>, CliError> {
     let name = output.display().to_string();
     match files::extension(output).as_str() {

@@ -68,11 +68,10 @@ fn lights_in_cells_that_transmit_nothing_are_named() {
     let place = Place::new();
     place.write("stress.npy", array(concentration));
     let above = ["stress.npy", "--light", "20,15", "--normalization", "local-above:0.3"];
-    let words =
-        "the light at (20, 15) stays dark: it transmits 0.001 of the strongest cell, below the threshold";
+    let words = "the light at (20, 15) lights no other cell: it transmits 0.001 of the strongest cell, below the threshold";
     summary(&place, &above, words);
     let sink = ["propagate", "sink:size=9", "--light", "4,4", "-o", "l.npy"];
-    place.says(&sink, "the light at (4, 4) stays dark: its tensor is zero");
+    place.says(&sink, "the light at (4, 4) lights no other cell: its tensor is zero");
 }
 
 /// A threshold between two groups, and none for the tail of a concentration.

@@ -53,6 +53,15 @@ fn with<'a>(args: &[&'a str], more: &[&'a str]) -> Vec<&'a str> {
     [args, more].concat()
 }
 
+/// Errors of an estimate make crests of their own.
+#[test]
+fn ridges_of_estimates_are_warned_of() {
+    let place = Place::new();
+    let overlaid = ["--overlay", "ridges", "-o", "g.png"];
+    place.says(&with(&SKETCHED, &overlaid), "ridges of an estimate follow its errors");
+    place.succeeds(&with(&SHORT, &overlaid));
+}
+
 fn array(place: &Place, name: &str) -> Vec<f64> {
     npy::read_array(&place.read(name)).unwrap_or_else(|e| panic!("{name}: {e}")).values
 }

@@ -34,7 +34,7 @@ pub enum NormalizationRule {
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum TotalAnisotropyRule {
-    /// Those whose semi-axes have a ratio above 20 (the published programme).
+    /// Those whose semi-axes have a ratio above 20 (the published program).
     #[default]
     Published,
     /// Those above this ratio.
@@ -58,11 +58,11 @@ pub enum TotalAnisotropyRule {
 #[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub enum Stop {
-    /// The published programme's rule (`FluxChange` with threshold 0.5) for joint scattering, the stationary state for
+    /// The published program's rule (`FluxChange` with threshold 0.5) for joint scattering, the stationary state for
     /// linear.
     #[default]
     Usual,
-    /// Change of the total flux below a threshold (the published programme).
+    /// Change of the total flux below a threshold (the published program).
     FluxChange {
         /// W.
         threshold: NonNegative,

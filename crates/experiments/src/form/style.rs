@@ -3,6 +3,7 @@
 use super::chosen::Chosen;
 use super::numbers::{Finite, Positive};
 use super::placed::Placed;
+use core::ops::RangeInclusive;
 use serde::Deserialize;
 use tigereye_render::{AxisNumbers, ColourMap, HeatScale, Length, Style, ValueRange};
 
@@ -100,9 +101,9 @@ impl StyleSource {
             unit: self.unit.clone(),
             coordinates: None,
             masked: self.masked_label.clone(),
-            width: size("width_mm", self.width_mm, 20.0, 2000.0)?.map(Length::Millimetres),
-            font_pt: size("font_size_pt", self.font_size_pt, 2.0, 72.0)?,
-            dpi: size("dpi", self.dpi, 10.0, 2400.0)?,
+            width: size("width_mm", self.width_mm, &Style::WIDTHS_MM)?.map(Length::Millimetres),
+            font_pt: size("font_size_pt", self.font_size_pt, &Style::FONT_SIZES_PT)?,
+            dpi: size("dpi", self.dpi, &Style::RESOLUTIONS_DPI)?,
         })
     }
 
@@ -119,23 +120,20 @@ impl StyleSource {
 }
 
 /// A size within its bounds.
-fn size(key: &str, value: Option<Positive>, low: f64, high: f64) -> Result<Option<f64>, String> {
+fn size(key: &str, value: Option<Positive>, bounds: &RangeInclusive<f64>) -> Result<Option<f64>, String> {
     match value.map(Positive::get) {
-        Some(v) if !(low..=high).contains(&v) => {
-            Err(format!("{key} {v} is out of range: expected {low} to {high}"))
+        Some(v) if !bounds.contains(&v) => {
+            Err(format!("{key} {v} is out of range: expected {} to {}", bounds.start(), bounds.end()))
         }
         value => Ok(value),
     }
 }
 
 impl ColourScale {
-    /// Decades of a logarithmic scale for which nobody asks otherwise.
-    const DECADES: f64 = 4.0;
-
     const fn scale(self) -> HeatScale {
         match self {
             Self::Linear => HeatScale::Linear,
-            Self::Logarithmic => HeatScale::Logarithmic { decades: Self::DECADES },
+            Self::Logarithmic => HeatScale::USUAL_LOGARITHMIC,
             Self::Decades(decades) => HeatScale::Logarithmic { decades: decades.get() },
             Self::Diverging => HeatScale::Diverging,
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 use tigereye_fields::generators;
 
 const FOLDER: &str = "crates/fields/src/generators";
-/// Texts of source files by their names without ending.
+/// Texts of source files by their names without extension.
 type Sources = BTreeMap<String, String>;
 
 /// The sources of a folder of this crate.

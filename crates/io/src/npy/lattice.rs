@@ -238,7 +238,8 @@ fn out_of_several(
     let components = components_among(members, choice, wanted);
     let any = |name: &String, bytes: &[u8]| {
         if components.contains(name) {
-            return read_numbers(bytes).ok();
+            // Single numbers, whatever the length of the last axis.
+            return read_lattice(bytes, Wanted::Mask).ok();
         }
         [wanted, Wanted::Scalars, Wanted::Vectors].into_iter().find_map(|w| read_lattice(bytes, w).ok())
     };
@@ -292,14 +293,6 @@ fn components_among(members: &[(String, Vec<u8>)], choice: ArrayChoice, wanted: 
     };
     let all = found.into_iter().filter(|group| alike(group)).flatten();
     all.map(|i| names[i].to_owned()).collect()
-}
-
-/// Reads an array of single numbers, whatever the length of its last axis.
-///
-/// # Errors
-/// As [`read_lattice`].
-fn read_numbers(bytes: &[u8]) -> Result<Lattice, IoError> {
-    read_lattice(bytes, Wanted::Mask)
 }
 
 /// From `[x][y][z][component]` to tuples with x fastest.

@@ -1,16 +1,13 @@
 //! What components mean: names, aliases, frames and what is assumed, read from bytes as programs write them.
 
-use std::io::Write as _;
-use tigereye_core::{Cell, Svd, Tensor2};
-use tigereye_io::npy::NpyError;
-use tigereye_io::nrrd::NrrdError;
+use tigereye_core::Tensor2;
 use tigereye_io::volume::{
-    ALIASES, Axis, CONVENTIONS, ComponentArrays, Frame, Known, Lattice, Plane, PlaneChoice, Reading, Shear,
+    ALIASES, CONVENTIONS, ComponentArrays, Frame, Known, Lattice, Plane, PlaneChoice, Reading, Shear,
     TensorOrder, VolumeError, documentation, lattice_from_image, lattice_from_points,
 };
 use tigereye_io::{
     ArrayChoice, ArrayError, ChoiceError, DataArray, ImageData, IoError, ScalarType, Wanted, legacy, nifti,
-    npy, nrrd,
+    nrrd,
 };
 
 /// Components of one symmetric tensor by their names; no two alike.
@@ -23,19 +20,19 @@ fn value(name: &str) -> f64 {
 }
 
 /// An image of 3 x 2 x 1 points with one array of equal tuples.
-fn image(name: &str, tuple: &[f64], names: &[&str]) -> ImageData {
+pub(crate) fn image(name: &str, tuple: &[f64], names: &[&str]) -> ImageData {
     let mut image = ImageData::empty([3, 2, 1]);
     let values = tuple.repeat(6);
     image.point_arrays.push(DataArray::new(name, tuple.len(), values).with_component_names(names));
     image
 }
 
-fn plane(lattice: Lattice, reading: Reading) -> Result<Tensor2, IoError> {
+pub(crate) fn plane(lattice: Lattice, reading: Reading) -> Result<Tensor2, IoError> {
     let choice = PlaneChoice { plane: Some(Plane::Xy), slice: None };
     Ok(lattice.tensors(reading)?.slice(choice)?.field.values()[0])
 }
 
-const EXPECTED: Tensor2 = Tensor2::symmetric(5.0, 2.0, -1.0);
+pub(crate) const EXPECTED: Tensor2 = Tensor2::symmetric(5.0, 2.0, -1.0);
 
 /// The page of the documentation is made of the tables that decide; TIGEREYE_BLESS=1 writes it.
 #[test]
@@ -245,136 +242,6 @@ fn separate_arrays_are_one_tensor() {
     assert_eq!((found.components, &found.values[..2]), (2, &[1.0, 2.0][..]));
 }
 
-#[test]
-fn archives_give_the_tensor_or_its_components() {
-    let member = |name: &str, shape: &[usize], values: Vec<f64>| {
-        (name.to_owned(), npy::write_array(shape, &values).unwrap())
-    };
-    let members = [
-        member("x", &[2, 3], vec![0.0; 6]),
-        member("sxx", &[2, 3], vec![5.0; 6]),
-        member("syy", &[2, 3], vec![-1.0; 6]),
-        member("sxy", &[2, 3], vec![2.0; 6]),
-    ];
-    let found = npy::lattice_of_members(&members, ArrayChoice::Usual, Wanted::Tensors).unwrap();
-    assert_eq!(plane(found, Reading::default()), Ok(EXPECTED));
-    let tensor = member("stress", &[2, 3, 2, 2], [5.0, 2.0, 2.0, -1.0].repeat(6));
-    let members: Vec<_> = members.into_iter().chain([tensor]).collect();
-    let found = npy::lattice_of_members(&members, ArrayChoice::Usual, Wanted::Tensors).unwrap();
-    assert_eq!(found.array, "stress");
-    assert_eq!(plane(found, Reading::default()), Ok(EXPECTED));
-}
-
-/// Positions beside the data place it, whichever way they run; a picture whose y runs downwards in the file is turned.
-#[test]
-fn positions_of_archives_place_their_cells() {
-    let member = |name: &str, shape: &[usize], values: Vec<f64>| {
-        (name.to_owned(), npy::write_array(shape, &values).unwrap())
-    };
-    let (xs, ys) = ([10.0, 10.5, 11.0], [5.0, 7.0]);
-    // The tensor at (x, y) has xx = x, yy = y, so that each says where it belongs.
-    let stress =
-        |places: &[(f64, f64)]| places.iter().flat_map(|(x, y)| [*x, 0.25, *y]).collect::<Vec<f64>>();
-    let rows: Vec<(f64, f64)> = ys.iter().flat_map(|&y| xs.map(|x| (x, y))).collect();
-    let columns: Vec<(f64, f64)> = xs.iter().flat_map(|&x| ys.map(|y| (x, y))).collect();
-    let falling: Vec<(f64, f64)> = ys.iter().rev().flat_map(|&y| xs.map(|x| (x, y))).collect();
-    let (of_x, of_y) = (
-        |p: &[(f64, f64)]| p.iter().map(|p| p.0).collect(),
-        |p: &[(f64, f64)]| p.iter().map(|p| p.1).collect(),
-    );
-    let archives = [
-        [
-            member("x", &[3], xs.to_vec()),
-            member("y", &[2], ys.to_vec()),
-            member("s", &[2, 3, 3], stress(&rows)),
-        ],
-        [
-            member("X", &[2, 3], of_x(&rows)),
-            member("Y", &[2, 3], of_y(&rows)),
-            member("s", &[2, 3, 3], stress(&rows)),
-        ],
-        [
-            member("lon", &[2, 3], of_x(&falling)),
-            member("lat", &[2, 3], of_y(&falling)),
-            member("s", &[2, 3, 3], stress(&falling)),
-        ],
-        [
-            member("x", &[3], xs.to_vec()),
-            member("y", &[2], ys.to_vec()),
-            member("s", &[3, 2, 3], stress(&columns)),
-        ],
-        [
-            member("x", &[3, 2], of_x(&columns)),
-            member("y", &[3, 2], of_y(&columns)),
-            member("s", &[3, 2, 3], stress(&columns)),
-        ],
-    ];
-    for (which, members) in archives.iter().enumerate() {
-        let lattice = npy::lattice_of_members(members, ArrayChoice::Usual, Wanted::Tensors).unwrap();
-        let slice = lattice.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap();
-        let tensors: Vec<[f64; 4]> = slice.field.values().iter().map(Tensor2::components).collect();
-        let expected: Vec<[f64; 4]> = falling.iter().map(|&(x, y)| [x, 0.25, 0.25, y]).collect();
-        assert_eq!(tensors, expected, "archive {which}: row 0 is the one of the largest y");
-        let geometry = slice.cut.geometry;
-        assert_eq!(
-            (geometry.corner(), geometry.spacing()),
-            ([10.0, 5.0, 0.0], [0.5, 2.0]),
-            "archive {which}"
-        );
-    }
-    let mut uneven = archives[0].clone();
-    uneven[0] = member("x", &[3], vec![10.0, 10.5, 12.0]);
-    let fault = npy::lattice_of_members(&uneven, ArrayChoice::Usual, Wanted::Tensors);
-    assert!(matches!(fault, Err(IoError::Npy(NpyError::Positions { .. }))), "{fault:?}");
-    // Positions of another size place nothing, and that is said.
-    let mut other = archives[0].clone();
-    other[0] = member("x", &[4], vec![0.0; 4]);
-    let lattice = npy::lattice_of_members(&other, ArrayChoice::Usual, Wanted::Tensors).unwrap();
-    assert!(
-        lattice.warnings.iter().any(|w| w.contains("positions x, y left aside")),
-        "{:?}",
-        lattice.warnings
-    );
-}
-
-/// Volumes with one array a component are told from volumes of tuples by the names, whatever the length of their last
-/// axis, and their components are along the axes of their positions.
-#[test]
-fn volumes_of_archives_have_one_array_a_component() {
-    let member = |name: &str, shape: &[usize], values: Vec<f64>| {
-        (name.to_owned(), npy::write_array(shape, &values).unwrap())
-    };
-    for layers in [2, 3, 4, 6, 7, 9] {
-        let shape = [3, 2, layers];
-        let of = |f: fn(f64, f64, f64) -> f64| -> Vec<f64> {
-            let at = |i: usize| (i / layers / 2, i / layers % 2, i % layers);
-            (0..6 * layers).map(at).map(|(x, y, z)| f(x as f64, 5.0 - y as f64, z as f64)).collect()
-        };
-        let members = [
-            member("x", &[3], vec![0.0, 1.0, 2.0]),
-            // Downwards: the voxel axis is not the axis of the components.
-            member("y", &[2], vec![5.0, 4.0]),
-            member("z", &[layers], (0..layers).map(|z| z as f64).collect()),
-            member("sxx", &shape, of(|x, _, z| x + 10.0 * z)),
-            member("syy", &shape, of(|_, y, _| y)),
-            member("szz", &shape, of(|_, _, z| z)),
-            member("sxy", &shape, of(|x, y, _| 0.1 * x * y)),
-            member("sxz", &shape, vec![0.0; 6 * layers]),
-            member("syz", &shape, vec![0.0; 6 * layers]),
-        ];
-        let arrays = ComponentArrays::parse("XX=sxx,YY=syy,ZZ=szz,XY=sxy,XZ=sxz,YZ=syz").unwrap();
-        for choice in [ArrayChoice::Usual, ArrayChoice::Components(&arrays)] {
-            let lattice = npy::lattice_of_members(&members, choice, Wanted::Tensors).unwrap();
-            assert_eq!((lattice.size, lattice.frame.0), (shape, Frame::World), "{layers} layers");
-            let choice = PlaneChoice { plane: Some(Plane::Xy), slice: Some((Axis::Z, 1)) };
-            let slice = lattice.tensors(Reading::default()).unwrap().slice(choice).unwrap();
-            // On top right: x = 2, y = 5.
-            let t = slice.field.at(Cell::new(2, 0));
-            assert_eq!(t.components(), [12.0, 1.0, 1.0, 5.0], "{layers} layers");
-        }
-    }
-}
-
 /// One array at points and one in cells are as ambiguous as two at points.
 #[test]
 fn points_and_cells_are_not_chosen_between() {
@@ -396,110 +263,12 @@ fn points_and_cells_are_not_chosen_between() {
     assert!(lattice_from_image(&both, None, Wanted::Tensors).is_err());
 }
 
-/// Arrays whose first axis could be the components are said, and refused where the last is a mask and six numbers.
-#[test]
-fn arrays_that_could_have_their_components_first_are_said() {
-    let read = |shape: &[usize]| {
-        let array = npy::write_array(shape, &vec![1.0; shape.iter().product()]).unwrap();
-        npy::read_lattice(&array, Wanted::Tensors).map(|l| l.warnings.len())
-    };
-    assert_eq!(read(&[3, 40, 4]), Ok(1));
-    assert_eq!(read(&[20, 40, 4]), Ok(0));
-    assert!(matches!(read(&[3, 6, 7]), Err(IoError::Npy(NpyError::ComponentsFirst { .. }))));
-    assert_eq!(read(&[20, 6, 7]), Ok(0));
-    // Matrices with both axes first.
-    assert_eq!((read(&[2, 2, 8, 6]), read(&[3, 3, 6]), read(&[2, 4, 8, 6])), (Ok(1), Ok(1), Ok(0)));
-    // One number behind the others does stand last.
-    assert!(matches!(read(&[3, 9, 1]), Err(IoError::Npy(NpyError::Shape { .. }))));
-}
-
-/// Nothing names the axes of an array of numbers with three of them; positions beside it do.
-#[test]
-fn the_order_of_the_axes_of_volumes_is_said() {
-    let array = npy::write_array(&[5, 4, 6], &[1.0; 120]).unwrap();
-    let said = |remarks: &[String]| remarks.iter().any(|r| r.contains("x, y and z in this order"));
-    assert!(said(&npy::read_lattice(&array, Wanted::Scalars).unwrap().remarks));
-    assert!(!said(&npy::read_lattice(&array, Wanted::Mask).unwrap().remarks));
-    let mut members = vec![("s".to_owned(), array)];
-    for (axis, n) in [("x", 5), ("y", 4), ("z", 6)] {
-        let steps: Vec<f64> = (0..n).map(f64::from).collect();
-        members.push((axis.to_owned(), npy::write_array(&[n as usize], &steps).unwrap()));
-    }
-    let placed = npy::lattice_of_members(&members, tigereye_io::ArrayChoice::Usual, Wanted::Scalars).unwrap();
-    assert!(!said(&placed.remarks), "{:?}", placed.remarks);
-    assert!(placed.remarks.is_empty(), "{:?}", placed.remarks);
-    // Axes that run along others than their names say so: slices are those of the array.
-    members.truncate(1);
-    for (name, step) in [("x", 1), ("y", 6), ("z", 24)] {
-        let length = [6, 4, 5][[1, 6, 24].iter().position(|s| *s == step).unwrap()];
-        let positions: Vec<f64> = (0..120).map(|i| f64::from(i / step % length)).collect();
-        members.push((name.to_owned(), npy::write_array(&[5, 4, 6], &positions).unwrap()));
-    }
-    let placed = npy::lattice_of_members(&members, tigereye_io::ArrayChoice::Usual, Wanted::Scalars).unwrap();
-    assert!(placed.remarks.iter().any(|r| r.contains("along the world's z, y, x")), "{:?}", placed.remarks);
-}
-
 /// Blocks are an assumption about rows of numbers, which symmetric ones confirm.
 #[test]
 fn blocks_that_are_not_symmetric_are_said_to_be_assumed() {
     let said = |text: &str| !tigereye_io::matrices::read_lattice(text.as_bytes()).unwrap().remarks.is_empty();
     assert!(said("1 2 3 4\n5 6 7 8\n"));
     assert!(!said("1 2 3 4\n2 6 4 8\n"));
-}
-
-/// A size has no sign, and half a scaling is none.
-#[test]
-fn sizes_and_scalings_of_nifti_are_taken_as_nibabel_takes_them() {
-    let mut file = nifti_voxel(RAS, [3, 1, 1, 1, 1, 1, 1, 1], 0, &[5.0], None);
-    file[254..256].copy_from_slice(&0_i16.to_le_bytes());
-    file[84..88].copy_from_slice(&(-3_f32).to_le_bytes());
-    assert_eq!(nifti::read(&file).unwrap().spacing(), [2.0, 3.0, 2.0]);
-    let mut scaled = |slope: f32, intercept: f32| {
-        file[112..116].copy_from_slice(&slope.to_le_bytes());
-        file[116..120].copy_from_slice(&intercept.to_le_bytes());
-        nifti::read(&file).map(|l| l.values[0]).map_err(|e| e.to_string())
-    };
-    assert_eq!((scaled(2.0, 1.0), scaled(f32::NAN, f32::NAN)), (Ok(11.0), Ok(5.0)));
-    let fault = scaled(2.0, f32::NAN).unwrap_err();
-    assert!(fault.contains("byte 116: NIfTI field scl_inter: found NaN"), "{fault}");
-}
-
-/// What NRRD files do not say is asked for in full.
-#[test]
-fn messages_about_nrrd_name_what_is_read() {
-    let head = "NRRD0005\ntype: float\ndimension: 3\nsizes: 3 2 2\nencoding: ascii\nkinds:";
-    let fault = |more: &str, wanted| {
-        let text = format!("{head} {more}\n\n{}", "1 0 1 ".repeat(4));
-        nrrd::read_with_limits(text.as_bytes(), None, wanted, tigereye_io::Limits::default())
-            .map(|_| ())
-            .map_err(|e| e.to_string())
-    };
-    for kind in ["vector", "3-vector", "covariant-vector", "3-gradient", "3-normal"] {
-        assert_eq!(fault(&format!("{kind} domain domain"), Wanted::Vectors), Ok(()));
-        let words = fault("space domain domain", Wanted::Vectors).unwrap_err();
-        assert!(words.contains(kind), "{kind}: {words}");
-    }
-    let list = fault("vector domain domain\ndata file: LIST\na.raw\nb.raw", Wanted::Tensors).unwrap_err();
-    assert!(list.contains("line 7: NRRD field `data file`") && list.contains("unu save"), "{list}");
-}
-
-#[test]
-fn axes_of_nrrd_in_different_units_are_warned_of() {
-    let warnings = |more: &str| {
-        let text = format!(
-            "NRRD0005\ntype: float\ndimension: 3\nsizes: 3 2 2\nkinds: 2D-symmetric-matrix domain domain\nencoding: ascii\n\
-             {more}\n\n{}",
-            "1 0 1 ".repeat(4)
-        );
-        nrrd::read(text.as_bytes(), None).unwrap().warnings
-    };
-    let space = "space dimension: 2\nspace directions: none (1,0) (0,1)\nspace units:";
-    assert_eq!(warnings(&format!("{space} \"mm\" \"mm\"")), Vec::<String>::new());
-    assert_eq!(warnings("units: \"MPa\" \"mm\" \"mm\""), Vec::<String>::new());
-    for more in [format!("{space} \"mm\" \"cm\""), "units: \"\" \"mm\" \"cm\"".to_owned()] {
-        let found = warnings(&more);
-        assert!(found.len() == 1 && found[0].contains("different units (mm, cm)"), "{more}: {found:?}");
-    }
 }
 
 /// What VTK hides is no data, what it duplicates is.
@@ -609,187 +378,6 @@ fn legacy_files_may_hold_what_nobody_asked_for() {
     assert!(matches!(legacy::read(&huge), Err(IoError::Array(ArrayError::Truncated { .. }))));
 }
 
-fn nrrd_text(fields: &str) -> Result<Lattice, IoError> {
-    let numbers = "5 2 0.4 -1 0.3 3 ".repeat(2);
-    let head = format!(
-        "NRRD0005\ntype: float\ndimension: 4\nsizes: 6 2 1 1\nencoding: ascii\n{fields}\n\n{numbers}"
-    );
-    nrrd::read(head.as_bytes(), None)
-}
-
-#[test]
-fn nrrd_axes_that_are_none_are_refused() {
-    let kind = "kinds: 3D-symmetric-matrix space space space\nspace dimension: 3\nspace directions: ";
-    assert!(nrrd_text(&format!("{kind}none (1,0,0) (0,1,0) (0,0,1)")).is_ok());
-    for (directions, words) in [
-        ("none (1,0,0) (2,0,0) (0,0,1)", "linearly independent"),
-        ("none (1,0,0) none (0,0,1)", "`none` for the axis of components only"),
-        ("(1,0,0) none (0,1,0) (0,0,1)", "`none` for the axis of components"),
-        ("none (1,0,0) (0,1,0) (0,0,1) none", "vectors"),
-        ("none (1,0,0) (0,1,0) (0,0,0)", "linearly independent"),
-    ] {
-        let fault = nrrd_text(&format!("{kind}{directions}")).unwrap_err().to_string();
-        assert!(fault.starts_with("line ") && fault.contains(words), "{directions}: {fault}");
-    }
-    let twice =
-        nrrd_text("kinds: 3D-symmetric-matrix space space space\nencoding: raw").unwrap_err().to_string();
-    assert!(twice.contains("every field once") && twice.contains("encoding"), "{twice}");
-}
-
-/// Seven gradients are not a mask and six components.
-#[test]
-fn nrrd_of_diffusion_weighted_images_is_refused() {
-    for key in ["modality:=DWMRI", "DWMRI_gradient_0000:=1 0 0"] {
-        let fault = nrrd_text(&format!("kinds: list domain domain domain\n{key}")).unwrap_err();
-        assert!(matches!(fault, IoError::Nrrd(NrrdError::Weighted { .. })), "{fault}");
-        assert!(nrrd_text(&format!("kinds: 3D-symmetric-matrix domain domain domain\n{key}")).is_ok());
-    }
-}
-
-#[test]
-fn nrrd_labels_name_components() {
-    let labels = "kinds: list domain domain domain\nlabels: \"XX;XY;XZ;YY;YZ;ZZ\" \"x\" \"y\" \"z\"";
-    let lattice = nrrd_text(labels).unwrap();
-    assert_eq!(lattice.order, Some((TensorOrder::UPPER, Known::Stated)));
-    let other = nrrd_text(&labels.replace("XX;XY;XZ;YY;YZ;ZZ", "xx yy zz xy yz xz")).unwrap();
-    assert_eq!(other.order, Some((TensorOrder::VTK, Known::Stated)));
-    for kind in ["list", "vector", "???"] {
-        let lattice = nrrd_text(&format!("kinds: {kind} domain domain domain")).unwrap();
-        assert_eq!(lattice.order, Some((TensorOrder::UPPER, Known::Assumed)), "{kind}: as ITK writes");
-    }
-}
-
-/// NIfTI of one voxel with the affine of the sform, and another qform where asked.
-fn nifti_voxel(
-    affine: [[f32; 4]; 3],
-    shape: [i16; 8],
-    intent: i16,
-    values: &[f64],
-    qform: Option<[f32; 3]>,
-) -> Vec<u8> {
-    let mut head = vec![0_u8; 352];
-    let mut put = |at: usize, bytes: &[u8]| head[at..at + bytes.len()].copy_from_slice(bytes);
-    put(0, &348_i32.to_le_bytes());
-    shape.iter().enumerate().for_each(|(i, n)| put(40 + 2 * i, &n.to_le_bytes()));
-    put(68, &intent.to_le_bytes());
-    put(70, &64_i16.to_le_bytes());
-    put(72, &64_i16.to_le_bytes());
-    [1.0_f32, 2.0, 2.0, 2.0].iter().enumerate().for_each(|(i, v)| put(76 + 4 * i, &v.to_le_bytes()));
-    put(108, &352_f32.to_le_bytes());
-    put(254, &1_i16.to_le_bytes());
-    affine.iter().flatten().enumerate().for_each(|(i, v)| put(280 + 4 * i, &v.to_le_bytes()));
-    if let Some(offset) = qform {
-        put(252, &1_i16.to_le_bytes());
-        offset.iter().enumerate().for_each(|(i, v)| put(268 + 4 * i, &v.to_le_bytes()));
-    }
-    put(344, b"n+1\0");
-    head.write_all(&ScalarType::Float64.encode(values)).unwrap();
-    head
-}
-
-const RAS: [[f32; 4]; 3] = [[2.0, 0.0, 0.0, 0.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, 2.0, 0.0]];
-const LAS: [[f32; 4]; 3] = [[-2.0, 0.0, 0.0, 0.0], [0.0, 2.0, 0.0, 0.0], [0.0, 0.0, 2.0, 0.0]];
-
-/// The angle of a tensor's major axis in the world, degrees from 0 to 180.
-fn world_angle(lattice: Lattice, reading: Reading) -> f64 {
-    let [xx, xy, _, _, yy, ..] = lattice.tensors(reading).unwrap().in_world().unwrap()[0];
-    Svd::of(&Tensor2::symmetric(xx, xy, yy)).phi_rad().to_degrees().rem_euclid(180.0)
-}
-
-/// One fibre at 30 degrees in the world, fitted with FSL's gradient tables, is at 150 degrees in its axes for images of
-/// either hand.
-#[test]
-fn fsl_tensors_are_along_its_gradient_tables() {
-    let t = Tensor2::from_eigen(150.0_f64.to_radians(), 3.0, 1.0);
-    let upper = [t.xx(), t.xy(), 0.0, t.yy(), 0.0, 1.0];
-    let fsl = Reading { order: Some("fsl"), ..Reading::default() };
-    for affine in [RAS, LAS] {
-        let file = nifti_voxel(affine, [4, 1, 1, 1, 6, 1, 1, 1], 0, &upper, None);
-        let lattice = nifti::read(&file).unwrap();
-        assert_eq!(lattice.reverses_x_for_fsl(), affine == RAS);
-        assert!((world_angle(lattice.clone(), fsl) - 30.0).abs() < 1e-9);
-        let volume = lattice.clone().tensors(fsl).unwrap();
-        assert_eq!(volume.frame(), (Frame::Fsl, Known::Convention));
-        // The user's frame comes first, whatever the order.
-        let voxel = Reading { frame: Some(Frame::Voxel), ..fsl };
-        let along_voxels = if affine == RAS { 150.0 } else { 30.0 };
-        assert!((world_angle(lattice, voxel) - along_voxels).abs() < 1e-9);
-        // Written as FSL reads it, it is what FSL wrote.
-        let back = nifti::read(&nifti::write(&volume, nifti::WrittenAs::Fsl, "").unwrap()).unwrap();
-        assert!(back.values.iter().zip(upper).all(|(a, b)| (a - b).abs() < 1e-15), "{:?}", back.values);
-        let mrtrix = nifti::read(&nifti::write(&volume, nifti::WrittenAs::Mrtrix, "").unwrap()).unwrap();
-        assert!(
-            (world_angle(mrtrix, Reading { order: Some("mrtrix"), ..Reading::default() }) - 30.0).abs()
-                < 1e-9
-        );
-    }
-    // A frame that the file states is not replaced by the program's.
-    let lattice = lattice_from_image(&image("t", &upper, &[]), None, Wanted::Tensors).unwrap();
-    assert_eq!(lattice.tensors(fsl).unwrap().frame().0, Frame::World);
-}
-
-#[test]
-fn nifti_vectors_of_an_intent_are_along_the_world() {
-    for intent in [1006, 1007] {
-        let two = nifti_voxel(LAS, [5, 1, 1, 1, 1, 2, 1, 1], intent, &[1.0, 2.0], None);
-        assert_eq!(nifti::read(&two).unwrap().frame.0, Frame::World);
-    }
-    for (intent, frame) in [(1007, Frame::World), (1006, Frame::World), (0, Frame::Voxel)] {
-        let file = nifti_voxel(LAS, [5, 1, 1, 1, 1, 3, 1, 1], intent, &[1.0, 2.0, 3.0], None);
-        assert_eq!(nifti::read(&file).unwrap().frame.0, frame, "intent {intent}");
-    }
-}
-
-/// Colours, points and FSL's warps are no vectors along known axes; single numbers are numbers under any intent.
-#[test]
-fn nifti_intents_of_something_else_are_refused_by_name() {
-    for (intent, name) in [
-        (1008, "points"),
-        (1009, "triangles"),
-        (1010, "quaternions"),
-        (2003, "RGB"),
-        (2004, "RGBA"),
-        (2006, "a warp of FNIRT"),
-        (2007, "cubic spline of FNIRT"),
-        (2009, "quadratic spline of FNIRT"),
-        (2016, "TOPUP"),
-    ] {
-        for shape in [[5, 1, 1, 1, 1, 3, 1, 1], [4, 1, 1, 1, 3, 1, 1, 1]] {
-            let fault = nifti::read(&nifti_voxel(RAS, shape, intent, &[1.0, 2.0, 3.0], None)).unwrap_err();
-            let fault = fault.to_string();
-            assert!(fault.starts_with("byte 68: NIfTI field intent_code") && fault.contains(name), "{fault}");
-            assert_eq!(fault.contains("--frame fsl"), intent == 2006, "{fault}");
-        }
-        assert!(nifti::read(&nifti_voxel(RAS, [3, 1, 1, 1, 1, 1, 1, 1], intent, &[1.0], None)).is_ok());
-    }
-}
-
-#[test]
-fn transforms_that_disagree_are_said() {
-    let file = |qform| nifti_voxel(RAS, [4, 1, 1, 1, 6, 1, 1, 1], 0, &[0.0; 6], qform);
-    assert!(nifti::read(&file(None)).unwrap().warnings.is_empty());
-    assert!(nifti::read(&file(Some([0.0; 3]))).unwrap().warnings.is_empty());
-    let apart = nifti::read(&file(Some([0.0, 0.0, 5.0]))).unwrap().warnings;
-    assert!(apart[0].contains("disagree by up to 5.000"), "{apart:?}");
-}
-
-/// Half turns come with parts of single precision, whose squares do not add up to 1.
-#[test]
-fn half_turns_of_quaternions_are_exact() {
-    let half = (0.5_f32).sqrt();
-    let mut file = nifti_voxel(RAS, [4, 1, 1, 1, 6, 1, 1, 1], 0, &[0.0; 6], Some([0.0; 3]));
-    // No sform; half a turn about the diagonal of x and y swaps them and reverses z.
-    file[254..256].copy_from_slice(&0_i16.to_le_bytes());
-    for (i, part) in [half, half, 0.0].into_iter().enumerate() {
-        file[256 + 4 * i..260 + 4 * i].copy_from_slice(&part.to_le_bytes());
-    }
-    let axes = nifti::read(&file).unwrap().axes;
-    let expected = [[0.0, 2.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]];
-    for (found, expected) in axes.iter().flatten().zip(expected.iter().flatten()) {
-        assert!((found - expected).abs() < 1e-7, "{axes:?}");
-    }
-}
-
 /// Single precision stays single: teem's `tend` takes no double.
 #[test]
 fn files_are_written_in_the_precision_they_had() {
@@ -821,25 +409,6 @@ fn points_are_masked_like_images() {
     let lattice = lattice_from_points(data, None, Wanted::Tensors).unwrap();
     assert_eq!(lattice.mask, Some(vec![1.0, 0.0, 1.0, 1.0]));
     assert!(lattice.remarks.iter().any(|n| n.contains("1 points hidden")), "{:?}", lattice.remarks);
-}
-
-/// ITK writes images of vectors as it has them in memory: left, posterior and superior.
-#[test]
-fn vectors_of_itk_are_read_along_its_axes() {
-    let file = nifti_voxel(RAS, [5, 1, 1, 1, 1, 3, 1, 1], 1007, &[1.0, 2.0, 3.0], None);
-    let lattice = nifti::read(&file).unwrap();
-    let plane = PlaneChoice { plane: Some(Plane::Xy), slice: None };
-    let shown = |frame| lattice.vectors(plane, frame).unwrap().field.values()[0];
-    assert_eq!((shown(None), shown(Some(Frame::Lps))), ([1.0, 2.0], [-1.0, -2.0]));
-}
-
-/// FSL reverses nothing where nobody says how a volume lies.
-#[test]
-fn volumes_without_an_affine_are_not_reversed_for_fsl() {
-    let mut file = nifti_voxel(RAS, [4, 1, 1, 1, 6, 1, 1, 1], 0, &[0.0; 6], None);
-    assert!(nifti::read(&file).unwrap().reverses_x_for_fsl());
-    file[254..256].copy_from_slice(&0_i16.to_le_bytes());
-    assert!(!nifti::read(&file).unwrap().reverses_x_for_fsl());
 }
 
 /// What a plane does not have is refused, not shown as zero; two components of a model in a plane are along its axes.
@@ -921,29 +490,4 @@ fn planes_that_are_tilted_against_their_components_are_known() {
     let tensors = lattice_from_image(&upright, None, Wanted::Tensors).unwrap();
     let fault = tensors.tensors(Reading::default()).unwrap().slice(PlaneChoice::default()).unwrap_err();
     assert!(fault.to_string().contains("--order xx,zz,xz"), "{fault}");
-}
-
-#[test]
-fn nrrd_axes_may_be_given_by_their_ranges() {
-    let head = |more: &str| {
-        let text = format!(
-            "NRRD0004\ntype: float\ndimension: 3\nsizes: 6 3 2\nkinds: 3D-symmetric-matrix domain domain\nencoding: ascii\n\
-             axis mins: nan 1 10\naxis maxs: nan 4 14\n{more}\n\n{}",
-            "1 0 0 1 0 1 ".repeat(6)
-        );
-        let lattice = nrrd::read(text.as_bytes(), None).unwrap();
-        ((lattice.axes[0][0], lattice.axes[1][1], lattice.origin), lattice.remarks)
-    };
-    let (node, cell) = ((1.5, 4.0, [1.0, 10.0, 0.0]), (1.0, 2.0, [1.5, 11.0, 0.0]));
-    assert_eq!(head("centerings: ??? node node"), (node, vec![]));
-    assert_eq!(head("centerings: ??? cell cell"), (cell, vec![]));
-    // Spacings tell, too.
-    assert_eq!(head("spacings: nan 1.5 4"), (node, vec![]));
-    assert_eq!(head("spacings: nan 1 2"), (cell, vec![]));
-    let (at, remarks) = head("content: field");
-    assert_eq!(at, cell);
-    assert!(
-        remarks.len() == 1 && remarks[0].contains("of axis 2, 3 are taken as the outer borders"),
-        "{remarks:?}"
-    );
 }

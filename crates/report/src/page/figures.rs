@@ -25,8 +25,8 @@ pub(super) fn figures(slug: &str, figures: &[PictureSummary], pictures: &Picture
 }
 
 fn figure(slug: &str, figure: &PictureSummary, pictures: &Pictures<'_>) -> Markup {
-    let path_of = |ending: &str| path(slug, &format!("{}.{ending}", figure.name));
-    let address_of = |ending: &str| address(&path_of(ending));
+    let path_of = |extension: &str| path(slug, &format!("{}.{extension}", figure.name));
+    let address_of = |extension: &str| address(&path_of(extension));
     let pngs = pictures(&path_of("png")).unwrap_or_default();
     let inside = |png: &Vec<u8>| format!("data:image/png;base64,{}", STANDARD.encode(png));
     let panels = if figure.panels.len() == pngs.len() { &figure.panels[..] } else { &[] };

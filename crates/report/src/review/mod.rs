@@ -373,7 +373,7 @@ impl NumberReview {
 /// A figure before and after.
 #[derive(Clone, Debug)]
 struct FigureReview {
-    /// Path without the experiment's folder and the ending.
+    /// Path without the experiment's folder and the extension.
     name: String,
     state: State,
     /// Mean difference of a pixel over the full range; infinite where one is missing.

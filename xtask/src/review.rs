@@ -23,7 +23,7 @@ pub(crate) struct ReviewArgs {
     /// revision.
     #[arg(long, value_name = "SLUG")]
     only: Vec<String>,
-    /// Largest relative change of a number that is no movement.
+    /// Largest relative change at which a number still counts as unmoved.
     #[arg(long, value_name = "REL", default_value = "1e-9", value_parser = parse_tolerance, allow_hyphen_values = true)]
     tolerance: f64,
 }

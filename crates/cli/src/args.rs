@@ -5,6 +5,7 @@ pub(crate) mod experiments;
 pub(crate) mod fields;
 pub(crate) mod light;
 pub(crate) mod reading;
+pub(crate) mod shell;
 pub(crate) mod style;
 pub(crate) mod values;
 
@@ -14,6 +15,7 @@ use experiments::{CheckArgs, ReproduceArgs, ReviewArgs, RunArgs};
 use fields::FieldCommand;
 use light::{BenchArgs, LtgArgs, MergeArgs, PropagateArgs};
 use reading::{CompareArgs, ConvertArgs, InfoArgs};
+use shell::{CompletionsArgs, ManArgs};
 
 /// Shows 2D tensor fields by letting light run through them.
 #[derive(Debug, Parser)]
@@ -62,6 +64,10 @@ pub(crate) enum Command {
     Review(ReviewArgs),
     /// The engine's speed beside the limits of this machine.
     Bench(BenchArgs),
+    /// The completion script of a shell, on standard output.
+    Completions(CompletionsArgs),
+    /// The manual pages of all commands, as files for `man`.
+    Man(ManArgs),
 }
 
 #[cfg(test)]

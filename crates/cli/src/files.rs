@@ -107,8 +107,8 @@ pub(crate) fn abandon() {
 
 /// A folder for files that belong together, which become visible all at once.
 ///
-/// Each waits under a temporary name until [`Self::finish`]; without it they are gone, and so is the folder where it
-/// was made for them. What was in the folder before stays until then.
+/// Each file has a temporary name until [`Self::finish`]. If that is never called, the files are removed, and so is the
+/// folder if it was created for them. Earlier contents of the folder stay until `finish`.
 pub(crate) struct Staging {
     folder: PathBuf,
     /// Whether the folder was made for the files.
@@ -267,7 +267,8 @@ pub(crate) fn check_writable(path: &Path) -> Result<(), CliError> {
         let problem = format!("there is no folder {}: expected one that exists", folder.display());
         return Err(CliError::input(&path.display().to_string(), problem));
     }
-    Temporary::new(folder_of(path), TEMPORARY).map(drop).map_err(|source| CliError::File {
+    // Without a name where the system can: nothing stays of it, even if the program is killed at this moment.
+    tempfile::tempfile_in(folder).map(drop).map_err(|source| CliError::File {
         path: path.display().to_string(),
         action: "writing",
         source,
@@ -279,7 +280,7 @@ pub(crate) fn check_apart(inputs: &[String], outputs: &[PathBuf]) -> Result<(), 
     let places: Vec<PathBuf> = inputs.iter().map(|input| place_of(Path::new(input))).collect();
     match outputs.iter().find(|output| places.contains(&place_of(output))) {
         Some(output) => {
-            let problem = "is an input, which would be lost: expected another name";
+            let problem = "is also an input and would be overwritten: expected another name";
             Err(CliError::input(&output.display().to_string(), problem))
         }
         None => Ok(()),

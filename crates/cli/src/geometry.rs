@@ -16,7 +16,7 @@ pub(crate) fn to_json(geometry: &PlaneGeometry) -> Value {
     })
 }
 
-/// The place of such an object, in the same bits; `None` for another object. Null, and what is not there, lie nowhere.
+/// The place of such an object, in the same bits; `None` for another object. Null or a missing value means no position.
 pub(crate) fn from_json(value: Option<&Value>) -> Option<PlaneGeometry> {
     let Some(value) = value.filter(|v| !v.is_null()) else { return Some(PlaneGeometry::UNPLACED) };
     let geometry = PlaneGeometry::new(

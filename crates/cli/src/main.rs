@@ -60,6 +60,8 @@ fn dispatch(cli: Cli) -> Result<u8, CliError> {
         Command::Compare(a) => commands::compare::compare(&a),
         Command::Review(a) => commands::review::review(&a),
         Command::Bench(a) => commands::bench::bench(&a),
+        Command::Completions(a) => commands::shell::completions(&a),
+        Command::Man(a) => commands::shell::man(&a),
     }
 }
 

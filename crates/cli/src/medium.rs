@@ -47,7 +47,7 @@ impl MediumInput {
             return Input::open_for_squares(text, reading).map(Self::Tensors);
         }
         if reading.reading() != Reading::default() {
-            let problem = "is a scene and has no tensors to read: expected it without options for reading";
+            let problem = "is a scene, which has no tensors to read: expected no reading options";
             return Err(CliError::input(text, problem));
         }
         let (scene, files) = read_scene(text)?;
@@ -111,7 +111,8 @@ impl MediumInput {
                 (asked.total_anisotropy.is_some(), "--total-anisotropy"),
             ];
             if let Some((_, option)) = refused.iter().find(|(asked, _)| *asked) {
-                let problem = "a scene's crystals have one of their own: expected none";
+                let problem =
+                    "cannot be set for a scene, whose crystals set their own: expected no such option";
                 return Err(CliError::input(option, problem));
             }
         }

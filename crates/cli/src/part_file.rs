@@ -355,7 +355,7 @@ fn decoded(part: part::Part) -> Result<PartFile, (usize, String)> {
         let number = header.pointer(pointer).and_then(Value::as_f64);
         number.ok_or_else(|| lacks(&format!("a number at {pointer}")))
     };
-    let meaning = |e: &dyn std::fmt::Display| (start, format!("the header has no meaning: {e}"));
+    let meaning = |e: &dyn std::fmt::Display| (start, format!("the header cannot be interpreted: {e}"));
     let slices = header.pointer("/parameters/slices").and_then(Value::as_array);
     let slices: Option<Vec<usize>> =
         slices.and_then(|s| s.iter().map(|t| t.as_u64().and_then(|t| usize::try_from(t).ok())).collect());

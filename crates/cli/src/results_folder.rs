@@ -32,7 +32,7 @@ impl ResultsFolder {
         let folder = Self { path: path.to_path_buf(), about };
         let Some(there) = folder.summary()? else {
             if folder.page().exists() {
-                let problem = "is no report of tigereye: expected a folder without such a file (--out)";
+                let problem = "is not a tigereye report: expected a folder without such a file (--out)";
                 return Err(CliError::input(&folder.page().display().to_string(), problem));
             }
             return Ok(folder);
@@ -121,7 +121,7 @@ fn files_of(experiment: &ExperimentSummary) -> impl Iterator<Item = (FilePath, &
     experiment.pictures.iter().filter_map(move |figure| Some((path(&figure.name)?, figure)))
 }
 
-/// What is still missing: what was left out earlier or is now, and is not there.
+/// Experiments still missing: skipped in an earlier run or in this one, and not in the folder.
 fn left_out(earlier: &Summary, now: &[LeftOut]) -> Vec<LeftOut> {
     let of_earlier = earlier.about.left_out.iter().filter(|l| !now.iter().any(|n| n.slug == l.slug));
     let missing = of_earlier.chain(now).filter(|l| !earlier.experiments.iter().any(|e| e.slug == l.slug));

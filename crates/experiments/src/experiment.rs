@@ -1,4 +1,4 @@
-//! What may stand in an experiment file.
+//! The contents of an experiment file.
 
 use crate::form::{FieldSource, Finite, Named, NonNegative, Placed, Positive, Scope, StyleSource};
 use crate::panels::Panel;

@@ -1,4 +1,4 @@
-//! What names stand for once they are looked up.
+//! Ids that names resolve to.
 
 /// A tensor field of the experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,4 +1,4 @@
-//! Text to what it says, with the place of the first fault.
+//! Parses text into values, with the position of the first fault.
 
 use crate::fault::SpecError;
 use crate::form::{FORMAT, Placed, key_and_value, nested, options, words_of_fault};

@@ -375,6 +375,6 @@ fn name_files_beside(source: &mut FieldSource, path: &str, host: &dyn Host) {
                 *name = beside(path, name, host);
             }
         }
-        _ => {}
+        FieldSource::Generator { .. } | FieldSource::Axes { .. } | FieldSource::Components { .. } => {}
     }
 }

@@ -28,7 +28,7 @@ pub struct SheetOptions {
     pub title: String,
     /// How tensors become transmission profiles.
     pub rule: ProfileRule,
-    /// What a cell does to light from several sides.
+    /// How a cell scatters light that arrives from several sides.
     pub scattering: ScatteringRule,
     /// The cell that shines; where nobody says, the one nearest to the middle whose tensor is not zero.
     pub light: Option<Cell>,

@@ -41,7 +41,7 @@ pub enum InputError {
     },
     /// Numbers or vectors where tensors are needed.
     #[error(
-        "holds {components} a voxel: expected tensors, or --derive gradient, strain-rate, hessian, structure or orientation"
+        "holds {components} per voxel: expected tensors, or --derive gradient, strain-rate, hessian, structure or orientation"
     )]
     NoTensors {
         /// Words for what is there.
@@ -49,12 +49,12 @@ pub enum InputError {
     },
     /// Text with vectors at positions, where tensors or numbers are needed.
     #[error(
-        "is a table of vectors at positions (x, y, u, v), no 2x2 blocks: expected --derive gradient or strain-rate"
+        "is a table of vectors at positions (x, y, u, v), not 2x2 blocks: expected --derive gradient or strain-rate"
     )]
     VectorTable,
     /// Text with points, one a line, whose columns have no names.
     #[error(
-        "is a table without names of its columns, one point a line, no 2x2 blocks: expected a line above the numbers with names \
+        "is a table without column names (one point per line), not 2x2 blocks: expected a line above the numbers with names \
          such as x,y,S11,S22,S12 (or --derive gradient for x, y, u, v)"
     )]
     UnnamedTable,
@@ -62,7 +62,7 @@ pub enum InputError {
     #[error("is a picture: expected --derive structure, orientation or hessian")]
     Picture,
     /// Tuples that cannot be differentiated as asked.
-    #[error("holds {components} numbers a voxel: expected {expected} for --derive {name}")]
+    #[error("holds {components} numbers per voxel: expected {expected} for --derive {name}")]
     Tuples {
         /// Numbers a voxel.
         components: usize,

@@ -205,7 +205,7 @@ fn mask_lattice(
         other => other.map_err(|e| fault(e.words_of_mask()))?,
     };
     if lattice.components != 1 {
-        return Err(fault(format!("{} numbers a voxel: expected one", lattice.components)));
+        return Err(fault(format!("{} numbers per voxel: expected one", lattice.components)));
     }
     Ok((lattice, bytes))
 }
@@ -397,7 +397,7 @@ fn assumptions_of_tensors(volume: &TensorVolume) -> Vec<String> {
         if order.components() == 4 && asymmetric > MOSTLY {
             let percent = 100.0 * asymmetric;
             all.push(format!(
-                "WARNING: {percent:.0} % of the tensors are asymmetric in this order, as plane strain is"
+                "WARNING: {percent:.0} % of the tensors are asymmetric in this order, as happens when plane-strain components (xx,yy,zz,xy) are read in it"
             ));
         }
     }
@@ -429,7 +429,7 @@ fn assumptions_of_tensors(volume: &TensorVolume) -> Vec<String> {
     }
     if let Some((value, count)) = filled(volume) {
         all.push(format!(
-            "WARNING: {count} tensors have {value} for every component, as missing data have: a --mask leaves them out"
+            "WARNING: {count} tensors have {value} for every component, a common marker of missing data: use --mask to exclude them"
         ));
     }
     if volume.suggests_engineering_shears() {

@@ -20,18 +20,19 @@ pub struct Oddity {
     pub first: Option<Cell>,
 }
 
-/// Neighbours that differ by more than this part of the larger one, measured by their largest component, ...
+/// Neighbours that differ by more than this fraction of the larger one, measured by their largest component, ...
 const JUMP: f64 = 0.5;
 /// ... are a discontinuity where the median of these differences is smaller by this factor.
 const ABOVE_MEDIAN: f64 = 4.0;
 /// Deviation of a determinant from 1 that is more than rounding of single precision.
 const DETERMINANT: f64 = 1e-6;
-/// Semi-axes that differ by less than this part are equal.
+/// Semi-axes that differ by less than this fraction count as equal.
 const ISOTROPIC: f64 = 1e-6;
 /// Cells of a symmetric field that are unlike all others in sign are noise or a wrong order of components up to this
 /// share.
 const FEW: f64 = 0.05;
-/// A field whose components xy and yx differ by less than this part of the largest of them was meant to be symmetric.
+/// A field whose components xy and yx differ by less than this fraction of the largest of them was meant to be
+/// symmetric.
 const NEARLY: f64 = 0.05;
 
 /// Likely mistakes, then notes, the gravest first. A field without any has tensors that are symmetric, positive
@@ -112,7 +113,7 @@ fn oddities(field: &Field<Tensor2>) -> Vec<Oddity> {
         of(
             "asymmetric",
             &|t| regular(t) && !symmetric(t),
-            "are not symmetric: light uses the ellipse they make of a circle, whose axes are not the eigenvectors",
+            "are not symmetric: light uses the ellipse into which they map a circle, whose axes are not the eigenvectors",
         ),
         of("isotropic", &|t| regular(t) && isotropic(t), "have no direction: light spreads evenly from them"),
         thin(field),
@@ -172,7 +173,9 @@ fn outliers(field: &Field<Tensor2>) -> Option<Oddity> {
     let mut odd = grid.iter().filter(is_outlier);
     let first = odd.next()?;
     let count = 1 + odd.count();
-    let words = format!("{count} single cells differ by more than half from all around them, which agree");
+    let words = format!(
+        "{count} single cells differ by more than half from all their neighbours, which agree with each other"
+    );
     Some(Oddity { kind: "outlier", is_likely_mistake: true, words, count, first: Some(first) })
 }
 

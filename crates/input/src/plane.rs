@@ -69,25 +69,26 @@ fn projected(volume: &TensorVolume, reading: &Reading) -> Result<PlaneField, Inp
 
 fn derived(lattice: &Lattice, reading: &Reading, how: Derivation) -> Result<PlaneField, InputError> {
     let (sigma, window) = (how.sigma, how.window.unwrap_or(Derived::USUAL_WINDOW));
-    let (found, samples, cut) = if how.kind.takes_vectors() {
+    let of_vectors = |derive: fn(&Field<Option<[f64; 2]>>, [f64; 2], f64) -> Field<Option<Tensor2>>| {
         let slice = lattice.vectors(reading.choice, reading.frame)?;
         let samples = Samples::of(&slice, lattice, |v| v.iter().all(|v| v.is_finite()));
-        let spacing = slice.cut.geometry.spacing();
-        let found = match how.kind {
-            Derived::StrainRate => strain_rate_tensors(&samples.there, spacing, sigma),
-            _ => gradient_tensors(&samples.there, spacing, sigma),
-        };
-        (found, samples.map(), slice.cut)
-    } else {
+        let found = derive(&samples.there, slice.cut.geometry.spacing(), sigma);
+        Ok::<_, InputError>((found, samples.map(), slice.cut))
+    };
+    let of_numbers = |derive: &dyn Fn(&Field<Option<f64>>, [f64; 2]) -> Field<Option<Tensor2>>| {
         let slice = lattice.scalars(reading.choice)?;
         let samples = Samples::of(&slice, lattice, |v| v.is_finite());
-        let spacing = slice.cut.geometry.spacing();
-        let found = match how.kind {
-            Derived::Hessian => hessian_tensors(&samples.there, spacing, sigma),
-            Derived::Orientation => orientation_tensors(&samples.there, spacing, sigma, window),
-            _ => structure_tensors(&samples.there, spacing, sigma, window),
-        };
-        (found, samples.map(), slice.cut)
+        let found = derive(&samples.there, slice.cut.geometry.spacing());
+        Ok::<_, InputError>((found, samples.map(), slice.cut))
+    };
+    let (found, samples, cut) = match how.kind {
+        Derived::Gradient => of_vectors(gradient_tensors)?,
+        Derived::StrainRate => of_vectors(strain_rate_tensors)?,
+        Derived::Hessian => of_numbers(&|image, spacing| hessian_tensors(image, spacing, sigma))?,
+        Derived::Structure => of_numbers(&|image, spacing| structure_tensors(image, spacing, sigma, window))?,
+        Derived::Orientation => {
+            of_numbers(&|image, spacing| orientation_tensors(image, spacing, sigma, window))?
+        }
     };
     let mut story = lattice.story();
     story.extend(lattice.words_of_vectors(reading.frame));

@@ -99,13 +99,19 @@ impl Derived {
     /// Whether it is made of vectors, not of single numbers.
     #[must_use]
     pub const fn takes_vectors(self) -> bool {
-        matches!(self, Self::Gradient | Self::StrainRate)
+        match self {
+            Self::Gradient | Self::StrainRate => true,
+            Self::Hessian | Self::Structure | Self::Orientation => false,
+        }
     }
 
     /// Whether it is averaged over a window.
     #[must_use]
     pub const fn has_window(self) -> bool {
-        matches!(self, Self::Structure | Self::Orientation)
+        match self {
+            Self::Structure | Self::Orientation => true,
+            Self::Gradient | Self::StrainRate | Self::Hessian => false,
+        }
     }
 
     /// The window where nobody says another, cells.

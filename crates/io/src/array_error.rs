@@ -34,7 +34,7 @@ pub enum ArrayError {
         unit: &'static str,
     },
     /// An array whose data end too early.
-    #[error("byte {byte}: array `{array}` is cut off: expected {needed} more bytes, {present} are there")]
+    #[error("byte {byte}: array `{array}` is truncated: expected {needed} more bytes, found {present}")]
     Truncated {
         /// Name of the array.
         array: String,

@@ -21,7 +21,7 @@ pub(crate) fn is_gzip(bytes: &[u8]) -> bool {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum DataError {
     /// Data that end too early.
-    #[error("byte {byte}: the data are cut off: expected {needed} bytes, {present} are there")]
+    #[error("byte {byte}: the data are truncated: expected {needed} bytes, found {present}")]
     Truncated {
         /// Where the data start.
         byte: usize,

@@ -114,7 +114,7 @@ pub fn read_png(bytes: &[u8]) -> Result<Lattice, IoError> {
     })
 }
 
-/// What is said of pixels that are not opaque.
+/// The message about pixels that are not opaque.
 fn transparent(opacity: &[f64]) -> Vec<String> {
     let all = opacity.len();
     let clear = opacity.iter().filter(|alpha| **alpha == 0.0).count();

@@ -7,7 +7,7 @@ pub(crate) const TOLERANCE: f64 = 1e-3;
 /// The same while counting, where steps are not yet known to the last digit.
 const COARSE: f64 = 0.25;
 
-/// What is said of a plane of positions, whose format does not say which way its vertical `axis` runs.
+/// The message about a plane of positions whose format does not state which way its vertical `axis` runs.
 pub(crate) fn taken_upwards(axis: char) -> String {
     format!("{axis} taken to run upwards; where a file has {axis} downwards the picture is upside down")
 }

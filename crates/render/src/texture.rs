@@ -52,7 +52,7 @@ pub struct TextureOptions {
     pub overlays: Vec<Overlay>,
     /// Label in the legend for samples whose value is NaN; by default `no texture`.
     pub missing: Option<String>,
-    /// What of all this is chosen otherwise; colours are those of the tint.
+    /// Settings of the user, which override the options above; its colours apply to the tint.
     pub style: Style,
 }
 

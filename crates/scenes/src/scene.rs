@@ -10,8 +10,8 @@ use tigereye_core::{
 /// What a part of a scene is made of.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Material {
-    /// Passes this part of the light on, in all directions alike: 1 for empty space, with which a part cuts a door into
-    /// those before it.
+    /// Passes this fraction of the light on, equally in all directions: 1 for empty space, with which a part cuts a
+    /// door into earlier parts.
     Clear {
         /// The part, 0 to 1.
         transmittance: f64,
@@ -20,7 +20,7 @@ pub enum Material {
     Absorber,
     /// Reflects like a mirror, on both sides.
     Mirror {
-        /// The part of the light that is sent back, 0 to 1.
+        /// The fraction of the light that is reflected, 0 to 1.
         reflectance: f64,
         /// Direction of the mirror's line, degrees. `None`: along the surface of the shape, and where that has no
         /// direction the cell faces whatever light arrives.
@@ -28,7 +28,7 @@ pub enum Material {
     },
     /// Reflects like a diffuse wall, on both sides.
     Diffuse {
-        /// The part of the light that is sent back, 0 to 1.
+        /// The fraction of the light that is reflected, 0 to 1.
         reflectance: f64,
         /// Direction of the wall's line, degrees. `None`: along the surface of the shape, and where that has no
         /// direction the cell faces whatever light arrives.

@@ -24,8 +24,8 @@ pub(crate) trait Number:
     const SETTLED: f64;
     /// A pulse whose light stays longer than so many steps has no stationary state within reach of these numbers.
     const RESIDENCE: f64;
-    /// Light of which less than this part escapes per passage between two halves of a block is trapped: rounding hides
-    /// the rest.
+    /// Light counts as trapped if less than this fraction escapes per passage between two halves of a block: smaller
+    /// losses are hidden by rounding.
     const SMALLEST_PIVOT: f64;
 
     fn narrowed(value: f64) -> Self;

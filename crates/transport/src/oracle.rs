@@ -7,7 +7,7 @@ use crate::{Emission, Engine, Observer, Outcome, Problem, ScatteringRule, StepVi
 use std::ops::ControlFlow;
 use tigereye_core::{Cell, Field, LightDistribution, StopReason, Work};
 
-/// Below this part of what arrives nothing passes: `n_f` would be infinite, and what is left of the light is no number.
+/// Nothing passes below this fraction of the arriving light: `n_f` would be infinite and the result NaN.
 const NOTHING_PASSES: f64 = 1e-290;
 
 /// Propagates whole profiles of S samples (eqs. 3.12 to 3.14).

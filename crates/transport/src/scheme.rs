@@ -194,7 +194,8 @@ mod tests {
                 let scheme = scheme(s, shared);
                 for t in 0..s {
                     let w = scheme.weights(t);
-                    // Exactly: e2 is 1 - e1 and the halves of e1 meet.
+                    // The sum is exactly 1: e2 is computed as 1 - e1, and where two overlaps meet each face cone has e1
+                    // / 2.
                     assert_eq!(w.iter().sum::<f64>(), 1.0, "S = {s}, t = {t}: {w:?}");
                 }
             }

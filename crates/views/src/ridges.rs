@@ -19,7 +19,7 @@ const MAX_SAMPLES_A_CELL: usize = 64;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RidgesError {
     /// There is no array of scalars, or none of the given name.
-    #[error("expected an array of one number a point{}, found {found}", wanted.as_ref().map_or(String::new(), |w| format!(" called {w}")))]
+    #[error("expected an array of one number per point{}, found {found}", wanted.as_ref().map_or(String::new(), |w| format!(" called {w}")))]
     NoArray {
         /// The name asked for.
         wanted: Option<String>,
@@ -27,7 +27,7 @@ pub enum RidgesError {
         found: String,
     },
     /// Several arrays of single numbers.
-    #[error("several arrays of one number a point: {found} (option --array)")]
+    #[error("several arrays of one number per point: {found} (option --array)")]
     Ambiguous {
         /// Their names.
         found: String,

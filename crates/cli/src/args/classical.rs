@@ -25,7 +25,7 @@ pub(crate) enum MethodName {
 pub(crate) struct AxesArgs {
     #[arg(help = input_help())]
     pub(crate) input: String,
-    /// The axes to follow; by default eigen where the field is symmetric (but for rounding), half otherwise.
+    /// The axes to follow; by default eigen if the field is symmetric (apart from rounding), otherwise half.
     #[arg(long, value_parser = choice::<Axes>())]
     axes: Option<Axes>,
     /// Which axis is the major one where signs are mixed; by default eigenvectors by value, semi-axes by magnitude.
@@ -59,8 +59,8 @@ pub(crate) struct LinesArgs {
     /// Which lines.
     #[arg(long, default_value = Family::Major.word(), value_parser = families())]
     pub(crate) family: &'static [Family],
-    /// Distance of the lines, cells (sides of the smaller length where cells are not square), from 0.1; by default a
-    /// fortieth of the longer side.
+    /// Distance between lines, in cells (in units of the smaller side where cells are not square), at least 0.1; by
+    /// default a fortieth of the field's longer side.
     #[arg(long, value_name = "CELLS", value_parser = parse_separation, conflicts_with = "seeds")]
     pub(crate) separation: Option<f64>,
     /// A point that a line goes through, in cells from the centre of the upper left one, y downwards; may be repeated.
@@ -78,12 +78,12 @@ pub(crate) struct LinesArgs {
     /// Longest line to each side of its seed, cells (smaller sides); by default four times the longer side.
     #[arg(long, value_name = "CELLS", value_parser = parse_length)]
     pub(crate) length: Option<f64>,
-    /// Lines end where the axes differ by less than this part of the longer one; with --inertia it only says where they
-    /// begin.
+    /// Lines end where the axes differ by less than this fraction of the longer one; with --inertia, it only limits
+    /// where they may begin.
     #[arg(long, value_name = "F", default_value = "0.001", value_parser = parse_share)]
     pub(crate) least_anisotropy: f64,
-    /// Inertia of tensorlines, which cross round tensors: the weight of the tensor there, from 0 (straight on) to 1. It
-    /// acts once a step, so that --step matters.
+    /// Inertia, for tensorlines, which pass through isotropic tensors: the weight of the tensor, from 0 (straight on)
+    /// to 1. It acts once per step, so results depend on --step.
     #[arg(long, value_name = "W", value_parser = parse_share)]
     pub(crate) inertia: Option<f64>,
     /// Hyperstreamlines: half of the width, cells (smaller sides), that the largest semi-axis or eigenvalue of the
@@ -121,7 +121,7 @@ pub(crate) struct LicArgs {
     /// Outputs by their extensions: .png, .svg, .pdf, .vti.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
-    /// Smear along both axes, along each as far as it is long (HyperLIC).
+    /// Smear along both axes, in proportion to their lengths (HyperLIC).
     #[arg(long, conflicts_with = "family")]
     pub(crate) hyper: bool,
     /// Along which axis.
@@ -130,7 +130,7 @@ pub(crate) struct LicArgs {
     /// How far noise is smeared to each side, cells (smaller sides); with --hyper along the longer axis.
     #[arg(long, value_name = "CELLS", default_value = "5", value_parser = parse_smear)]
     pub(crate) half_length: f64,
-    /// Samples a cell along its smaller side; about as far apart along the other.
+    /// Samples per cell along its smaller side; the spacing along the other side is about the same.
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = parse_samples)]
     pub(crate) samples: usize,
     /// Seed of the noise.
@@ -179,7 +179,7 @@ pub(crate) struct GlyphsArgs {
     /// Outputs by their extensions: .vtp, .png, .svg, .pdf.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
-    /// What stands for a tensor.
+    /// The shape that represents a tensor.
     #[arg(long, default_value = GlyphKind::Ellipse.word(), value_parser = choice::<GlyphKind>())]
     pub(crate) kind: GlyphKind,
     /// Sharpness of superquadrics; 3 by default.
@@ -188,8 +188,8 @@ pub(crate) struct GlyphsArgs {
     /// How glyphs are scaled against each other.
     #[arg(long, default_value = GlyphScale::Field.word(), value_parser = choice::<GlyphScale>())]
     pub(crate) scale: GlyphScale,
-    /// What colours mean; by default the signs where the field is symmetric (but for rounding), the anisotropy
-    /// otherwise.
+    /// What colours mean; by default the signs if the field is symmetric (apart from rounding), otherwise the
+    /// anisotropy.
     #[arg(long, value_parser = choice::<GlyphColour>())]
     pub(crate) colour: Option<GlyphColour>,
     /// A glyph for every n-th cell; by default as many as stay readable, and all in a .vtp.
@@ -221,21 +221,21 @@ pub(crate) struct RidgesArgs {
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, value_parser = parse_level,
           conflicts_with_all = ["least_value", "least_strength", "least_length", "direction_length", "samples"])]
     pub(crate) contour: Option<f64>,
-    /// Ridges lie above this part of the range of values.
+    /// Only ridges above this fraction of the range of values.
     #[arg(long, value_name = "F", default_value = "0", value_parser = parse_share)]
     pub(crate) least_value: f64,
-    /// Ridges are at least as strong as this part of the strongest curvature.
+    /// Only ridges at least as strong as this fraction of the strongest curvature.
     #[arg(long, value_name = "F", default_value = "0.05", value_parser = parse_share)]
     pub(crate) least_strength: f64,
-    /// Ridges are at least so many cells long, or square cells large; sides of the smaller length where cells are not
-    /// square.
+    /// Shortest ridge line, in cells, or smallest ridge surface, in square cells; in units of the smaller side where
+    /// cells are not square.
     #[arg(long, value_name = "CELLS", default_value = "2", value_parser = parse_extent)]
     pub(crate) least_length: f64,
     /// Distance between two layers, in cells (smaller sides), when directions across ridges are determined: 1 by
     /// default for the directions of a gradient, and the file's own distance otherwise.
     #[arg(long, value_name = "CELLS", value_parser = parse_step)]
     pub(crate) direction_length: Option<f64>,
-    /// Steps a cell in which ridges are looked for; 2 for a layer and 1 for surfaces by default.
+    /// Steps per cell in the search for ridges; 2 for a layer and 1 for surfaces by default.
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(crate) samples: Option<usize>,
     /// Summary as JSON on standard output.

@@ -10,7 +10,7 @@ pub(crate) const DEFAULT_OUT: &str = "results";
 
 #[derive(Debug, Args)]
 pub(crate) struct ReproduceArgs {
-    /// Folder for the report, figures and data; experiments that are there already stay.
+    /// Folder for the report, figures and data; experiments already in it are kept.
     #[arg(long, value_name = "DIR", default_value = DEFAULT_OUT)]
     pub(crate) out: PathBuf,
     /// Only the experiment of this name, or all whose names begin so (`fig-4-5`); may be repeated.
@@ -34,7 +34,7 @@ pub(crate) struct RunArgs {
     /// Experiment files.
     #[arg(required = true, value_name = "FILE.ron")]
     pub(crate) files: Vec<PathBuf>,
-    /// Folder for the report, figures and data; experiments that are there already stay.
+    /// Folder for the report, figures and data; experiments already in it are kept.
     #[arg(long, value_name = "DIR", default_value = DEFAULT_OUT)]
     pub(crate) out: PathBuf,
     /// Also the runs that are marked `scope: Full`.
@@ -65,7 +65,7 @@ pub(crate) struct ReviewArgs {
     /// Only the experiment of this name, its file without folder and extension; repeatable.
     #[arg(long, value_name = "SLUG", conflicts_with = "snapshots")]
     pub(crate) only: Vec<String>,
-    /// Largest relative change of a number that is no movement.
+    /// Largest relative change at which a number still counts as unmoved.
     #[arg(long, value_name = "REL", default_value = "1e-9", value_parser = parse_threshold, allow_hyphen_values = true)]
     pub(crate) tolerance: f64,
     /// Compare the pending snapshots (*.snap.new) of a folder with the accepted ones beside them.

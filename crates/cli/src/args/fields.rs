@@ -54,7 +54,7 @@ pub(crate) struct FieldShowArgs {
     /// Direction of the gradient, degrees, a multiple of 22.5.
     #[arg(long, value_name = "DEG", default_value_t = 90.0)]
     pub(crate) slice_deg: f64,
-    /// What a cell does to light from several sides.
+    /// How a cell scatters light that arrives from several sides.
     #[arg(long, default_value = ScatteringRule::Joint.word(), value_parser = choice::<ScatteringRule>())]
     pub(crate) scattering: ScatteringRule,
     #[command(flatten)]
@@ -69,7 +69,7 @@ pub(crate) struct FieldShowArgs {
 pub(crate) struct FieldLintArgs {
     #[arg(help = input_help())]
     pub(crate) input: String,
-    /// Also list what is worth knowing and no mistake: shares of zero, indefinite, asymmetric tensors and the like.
+    /// Also list notes that need not be mistakes: shares of zero, indefinite and asymmetric tensors, and similar.
     #[arg(long)]
     pub(crate) all: bool,
     /// As JSON on standard output.

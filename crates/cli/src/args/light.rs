@@ -55,7 +55,7 @@ pub(crate) struct SchemeArgs {
     /// Angular samples S, a multiple of 8.
     #[arg(long, value_name = "N", default_value = "32", value_parser = parse_directions)]
     pub(crate) directions: Directions,
-    /// What a cell does to light from several sides.
+    /// How a cell scatters light that arrives from several sides.
     #[arg(long, default_value = ScatteringRule::Joint.word(), value_parser = choice::<ScatteringRule>())]
     pub(crate) scattering: ScatteringRule,
     /// Stop when the stopping rule's measure falls below F, 0.5 by default; 0 never stops early.
@@ -182,8 +182,8 @@ pub(crate) struct LtgArgs {
     /// Seed of the sketches; 0 by default.
     #[arg(long, value_name = "K", value_parser = parse_seed, allow_hyphen_values = true)]
     pub(crate) seed: Option<u64>,
-    /// Write what there is of an estimate to FILE (.vti, .npy, .png, .svg, .pdf) as soon as there is some, and again
-    /// each time the error has halved.
+    /// Write the estimate so far to FILE (.vti, .npy, .png, .svg, .pdf) as soon as there is one, and again each time
+    /// the error has halved.
     #[arg(long, value_name = "FILE")]
     pub(crate) preview: Option<PathBuf>,
     #[command(flatten)]
@@ -229,7 +229,7 @@ pub(crate) struct BenchArgs {
     /// Sides of the square fields.
     #[arg(long, value_name = "A,B,C", value_delimiter = ',', default_value = "14,51,101,201", value_parser = parse_side)]
     pub(crate) cells: Vec<usize>,
-    /// Seconds for each number; each of the three numbers of a row takes so long, at the least.
+    /// Seconds to spend on each measurement; each of the three numbers in a row takes at least this long.
     #[arg(long, value_name = "F", default_value = "1", value_parser = parse_seconds)]
     pub(crate) seconds: f64,
     /// As JSON on standard output.

@@ -37,24 +37,26 @@ pub(crate) struct ReadingArgs {
     /// Part of the plane: columns X0 to X1-1, rows Y0 to Y1-1, row 0 on top.
     #[arg(long, value_name = "X0:X1,Y0:Y1", value_parser = Crop::parse)]
     crop: Option<Crop>,
-    /// Number of cells wanted, after cropping; tensors are interpolated, or averaged where cells become fewer.
+    /// Number of cells after cropping; tensors are interpolated, or averaged if there are fewer cells than before.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     resample: Option<[usize; 2]>,
     /// Tensors of an image: gradient or rate of strain of vectors; Hessian, structure tensor (light runs across
     /// stripes) or orientation tensor (along them) of numbers.
     #[arg(long, value_enum)]
     derive: Option<DerivedName>,
-    /// Gaussian that derivatives are taken at, cells; 0 for gradients and 1 for images by default.
+    /// Standard deviation of the Gaussian with which derivatives are taken, cells; by default 0 for gradients and 1 for
+    /// images.
     #[arg(long, value_name = "CELLS", value_parser = parse_sigma, requires = "derive")]
     sigma: Option<f64>,
-    /// Gaussian window that structure and orientation tensors are averaged over, cells; 4 by default.
+    /// Standard deviation of the Gaussian window over which structure and orientation tensors are averaged, cells; 4 by
+    /// default.
     #[arg(long, value_name = "CELLS", value_parser = parse_sigma, requires = "derive")]
     window: Option<f64>,
-    /// File of one number a voxel; tensors become zero where it is not above --mask-above.
+    /// File of one number per voxel; tensors become zero where the number does not exceed --mask-above.
     #[arg(long, value_name = "FILE")]
     mask: Option<String>,
-    /// Array of the mask's file, where it has several; without this, the one called mask, valid or the like, or the
-    /// active one.
+    /// Array of the mask file, if it has several; by default the one called mask, valid, validity or confidence, or
+    /// else the active one.
     #[arg(long, value_name = "NAME", requires = "mask")]
     mask_array: Option<String>,
     /// What a mask, or the confidence in an NRRD file, must exceed.
@@ -127,7 +129,7 @@ pub(crate) enum NotFinite {
     /// The file is refused.
     #[default]
     Refuse,
-    /// They become zero tensors, which transmit nothing; how many is said.
+    /// They become zero tensors, which transmit nothing; their number is reported.
     Zero,
 }
 

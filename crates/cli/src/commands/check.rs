@@ -27,7 +27,7 @@ pub(crate) fn check(args: &CheckArgs) -> Result<u8, CliError> {
         // The full run is the stricter one: every run, figure and check is looked at.
         match Source::from_file(path).and_then(|source| prepare(&source, true)) {
             Ok(Prepared::Lacks(file)) => {
-                let words = format!("{}: read, but it needs {file}, which is not there\n", path.display());
+                let words = format!("{}: valid, but it needs {file}, which is missing\n", path.display());
                 print_text(&words)?;
             }
             Ok(Prepared::Ready(plan)) => {

@@ -82,7 +82,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
                 Source::Generated(_) => (ScalarType::Float64, None),
             };
             if args.invariants {
-                let problem = "are those of a volume of 3 x 3 tensors: expected a file that holds one, whole";
+                let problem = "need a whole volume of 3 x 3 tensors: expected such a file, without a slice";
                 return Err(CliError::input("--invariants", problem));
             }
             let input = Input::of(source, &args.reading)?;
@@ -137,7 +137,7 @@ pub(crate) fn convert(args: &ConvertArgs) -> Result<u8, CliError> {
     Ok(0)
 }
 
-/// What is said where a volume is written along its own axes, without its place in the world.
+/// The message for a volume that is written along its own axes, without its position in the world.
 fn unplaced(writer: VolumeWriter, volume: &TensorVolume, frame: Frame) -> Option<&'static str> {
     let lattice = volume.lattice();
     let is_placed = lattice.origin != [0.0; 3] || lattice.has_turned_axes();
@@ -147,7 +147,7 @@ fn unplaced(writer: VolumeWriter, volume: &TensorVolume, frame: Frame) -> Option
     )
 }
 
-/// What is said where the world is a patient's and the format has no name for its axes.
+/// The message for a patient's world whose axes the format cannot name.
 fn unnamed_space(writer: VolumeWriter, world: &World) -> Option<String> {
     let World::Scanner(space) = world else { return None };
     let is_named = world.is_of_patient();

@@ -73,7 +73,9 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     } else if count == 0 {
         let grid = input.field.grid();
         print_text(match grid.width().min(grid.height()) {
-            1 => "a field of one row or column has no neighbours that part: there are no exponents\n",
+            1 => {
+                "in a field of one row or column no neighbouring lines can separate: there are no exponents\n"
+            }
             _ if found.left > 0.0 => {
                 "all lines leave the field before their length: expected a smaller --length\n"
             }

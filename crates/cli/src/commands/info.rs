@@ -185,8 +185,7 @@ fn as_text(facts: &Value) -> String {
             number(&r["mean"])
         );
     }
-    text += "  2D: anisotropy of the semi-axes, |s1 - s2| / sqrt(s1^2 + s2^2); FA: as of a volume with a third row and column \
-             of zeros\n";
+    text += "  2D: anisotropy of the semi-axes, |s1 - s2| / sqrt(s1^2 + s2^2); FA: that of a 3D tensor with a third row and column of zeros\n";
     text += &lattice::shares_as_text(facts);
     if let Some(fraction) = facts["suggested_local_above"].as_f64() {
         let _ = writeln!(

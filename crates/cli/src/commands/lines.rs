@@ -59,14 +59,15 @@ pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
         let has_axes = |t: &Tensor2| axes.of(t, request.options.least_anisotropy).is_some();
         print_text(&match plain.values().iter().any(has_axes) {
             true => {
-                "no line is long enough: lines leave the field at once, or end where axes do\n".to_owned()
+                "no line is long enough: lines leave the field at once, or end where the axes are undefined\n"
+                    .to_owned()
             }
             false => format!("no tensor has {}\n", axes.words()),
         })?;
     } else {
         let count = counted(found.lines.len(), "line");
         let unit = drawing::unit(&request.following);
-        print_text(&format!("{count} along {}; {length:.1} {unit} long together\n", axes.words()))?;
+        print_text(&format!("{count} along {}; total length {length:.1} {unit}\n", axes.words()))?;
     }
     Ok(0)
 }

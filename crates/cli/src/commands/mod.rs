@@ -22,6 +22,7 @@ pub(crate) mod propagate;
 pub(crate) mod reproduce;
 pub(crate) mod review;
 pub(crate) mod ridges;
+pub(crate) mod shell;
 pub(crate) mod topology;
 pub(crate) mod volume;
 

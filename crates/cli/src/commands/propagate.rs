@@ -469,7 +469,7 @@ fn watts(value: f64) -> String {
     if value < 1e9 { format!("{value:.6}") } else { format!("{value:.6e}") }
 }
 
-/// Says what a propagation did, unless it is asked for as JSON: the summary.
+/// Prints a summary of the propagation, unless JSON was requested; returns the summary as JSON.
 fn report(
     args: &PropagateArgs,
     problem: &Problem<'_>,

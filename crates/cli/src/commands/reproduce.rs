@@ -266,7 +266,7 @@ fn prepared(sources: &[Source], full: bool) -> Result<(Vec<Ready<'_>>, Vec<LeftO
     for LeftOut { slug, needs } in &left_out {
         let where_to =
             if needs.starts_with(REFERENCE) { " (TIGEREYE_REFERENCE names the folder)" } else { "" };
-        eprintln!("left out: {slug} needs {needs}, which is not there{where_to}");
+        eprintln!("skipped: {slug} needs {needs}, which is missing{where_to}");
     }
     if prepared.is_empty() && !left_out.is_empty() {
         return Err(CliError::Input("no experiment is left to run".to_owned()));

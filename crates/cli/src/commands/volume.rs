@@ -168,7 +168,7 @@ pub(super) fn sentence(summary: &Value, stop: &Value) -> String {
     let limited = match summary["limited"].as_u64() {
         None | Some(0) => String::new(),
         Some(n) if stop == StopMeasure::Stationary.word() => {
-            format!("; {n} sources did not converge within {CAUGHT} steps, and have the light after these")
+            format!("; {n} sources did not converge within {CAUGHT} steps, and keep the light they had then")
         }
         Some(n) => format!("; {n} sources met --max-iterations before the threshold"),
     };

@@ -167,7 +167,7 @@ fn tables_of_vectors_give_their_gradient() {
             near(t, [0.0, -0.01, 0.02, 0.0], name);
         }
         place.refuses(&["info", name], &[name, "table", "--derive gradient"]);
-        let words = if name == "plain.txt" { "names of its columns" } else { "several arrays fit: `u`" };
+        let words = if name == "plain.txt" { "without column names" } else { "several arrays fit: `u`" };
         place.refuses(&["info", name, "--derive", "hessian"], &[name, words]);
         let facts = place.succeeds(&["info", name, "--derive", "strain-rate", "--json"]).json();
         assert_eq!(facts["spacing"], serde_json::json!([16.0, 16.0]));

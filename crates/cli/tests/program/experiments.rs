@@ -415,7 +415,7 @@ fn experiments_without_their_data_are_left_out() {
     place.write("whole.ron", experiment(""));
     let run = place.tigereye(&["run", "lacking.ron", "whole.ron", "--out", "r"]);
     assert_eq!(run.code, 0, "{}", run.stderr);
-    assert!(run.stderr.contains("left out: lacking needs reference/none.vtp"), "{}", run.stderr);
+    assert!(run.stderr.contains("skipped: lacking needs reference/none.vtp"), "{}", run.stderr);
     let summary: serde_json::Value = serde_json::from_slice(&place.read("r/summary.json")).unwrap();
     assert_eq!(summary["experiments"].as_array().unwrap().len(), 1);
     let page = String::from_utf8(place.read("r/index.html")).unwrap();

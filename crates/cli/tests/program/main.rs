@@ -24,6 +24,7 @@ mod reports;
 mod results;
 mod review;
 mod scenes;
+mod shell;
 mod streams;
 mod support;
 mod volumes;

@@ -182,21 +182,21 @@ fn the_array_of_a_mask_is_said_and_may_be_named() {
     place.write("two.vtk", head.to_owned() + &array("mask", &edge) + &array("valid", &corner));
     let zeros = |options: &[&str], words: &str| {
         let run = place.says(&[&["convert", "t.vtk", "o.npy", "--force"], options].concat(), words);
-        assert!(words.is_empty() != run.stderr.contains("left aside"), "{}", run.stderr);
+        assert!(words.is_empty() != run.stderr.contains("ignored"), "{}", run.stderr);
         let field = npy::read_tensors(&place.read("o.npy")).unwrap();
         field.values().iter().filter(|t| t.is_zero()).count()
     };
-    assert_eq!(zeros(&["--mask", "named.vtk"], "took `Brain_mask`; left aside: `p` (--mask-array)"), 1);
-    assert_eq!(zeros(&["--mask", "plain.vtk"], "took the active scalars `p`; left aside: `q`"), 3);
+    assert_eq!(zeros(&["--mask", "named.vtk"], "took `Brain_mask`; ignored: `p` (--mask-array)"), 1);
+    assert_eq!(zeros(&["--mask", "plain.vtk"], "took the active scalars `p`; ignored: `q`"), 3);
     assert_eq!(zeros(&["--mask", "plain.vtk", "--mask-array", "q"], ""), 1);
     place.refuses(&["info", "t.vtk", "--mask", "two.vtk"], &["several arrays fit", "(option --mask-array)"]);
     place.refuses(&["info", "t.vtk", "--mask", "two.vtk", "--mask-array", "r"], &["no array `r`"]);
     // Inside a table of data such a column would leave points out.
     let line = |i: usize| format!("{},{},{},7\n", i % 3, i / 3, if i == 0 { 0 } else { 1 });
     place.write("m.csv", "x,y,mask,T\n".to_owned() + &(0..9).map(line).collect::<String>());
-    let run = place
-        .says(&["convert", "t.vtk", "o.npy", "--force", "--mask", "m.csv"], "took `mask`; left aside: `T`");
-    assert!(run.stderr.contains("points stay where it is above 0"), "{}", run.stderr);
+    let run =
+        place.says(&["convert", "t.vtk", "o.npy", "--force", "--mask", "m.csv"], "took `mask`; ignored: `T`");
+    assert!(run.stderr.contains("points are kept where it is above 0"), "{}", run.stderr);
     place.refuses(&["info", "t.vtk", "--mask", "m.csv", "--mask-above", "1"], &["leaves nothing", "above 1"]);
 }
 
@@ -212,10 +212,10 @@ fn the_array_that_is_derived_from_is_said() {
     place.write("s.vtk", head.to_owned() + &scalars("a") + &scalars("b"));
     place.says(
         &["convert", "v.vtk", "o.npy", "--force", "--derive", "gradient"],
-        "took the active vectors `U`; left aside: `W` (--array)",
+        "took the active vectors `U`; ignored: `W` (--array)",
     );
     place.says(
         &["convert", "s.vtk", "o.npy", "--force", "--derive", "hessian"],
-        "took the active scalars `a`; left aside: `b` (--array)",
+        "took the active scalars `a`; ignored: `b` (--array)",
     );
 }

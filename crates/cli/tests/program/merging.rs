@@ -148,7 +148,10 @@ fn results_of_other_settings_are_refused() {
 fn what_is_no_report_is_not_replaced() {
     let place = place_with_report();
     place.write("site/index.html", "<p>My home page</p>");
-    place.refuses(&["run", "files/a.ron", "--out", "site"], &["site/index.html: is no report", "--out"]);
+    place.refuses(
+        &["run", "files/a.ron", "--out", "site"],
+        &["site/index.html: is not a tigereye report", "--out"],
+    );
     place.write("odd/summary.json", "a diary");
     place.refuses(&["run", "files/a.ron", "--out", "odd"], &["odd/summary.json: ", "--out"]);
 }

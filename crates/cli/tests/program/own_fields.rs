@@ -87,7 +87,7 @@ fn field_files_stand_where_generators_do() {
     assert!(field["assumptions"].to_string().contains("[row][column]"), "{field:#}");
     place.refuses(
         &["convert", "in/data.field.ron", "in/data.npy", "--force"],
-        &["in/data.npy", "is an input"],
+        &["in/data.npy", "is also an input"],
     );
     place.says(&["field", "show", "in/data.field.ron", "-o", "sheet.svg"], "took row 0 on top");
     assert!(String::from_utf8(place.read("sheet.svg")).unwrap().contains("HEADING"));

@@ -62,7 +62,7 @@ fn vectors_give_their_gradient_and_numbers_their_hessian() {
     place.write("six.nii", nifti_of_six());
     place.refuses(
         &["info", "six.nii", "--derive", "hessian"],
-        &["six.nii", "6 numbers a voxel: expected one"],
+        &["six.nii", "6 numbers per voxel: expected one"],
     );
     place.refuses(&["info", "hill.npy"], &["hill.npy", "expected (H, W, 2, 2)"]);
     place.refuses(&["info", "hill.npy", "--derive", "hessian", "--sigma", "101"], &["0 to 100"]);
@@ -177,8 +177,8 @@ fn doubtful_readings_are_told() {
         "{}",
         run.stderr
     );
-    place.refuses(&["ltg", "three.npy", "-o", "./three.npy"], &["is an input"]);
-    place.refuses(&["convert", "three.npy", "./three.npy", "--force"], &["is an input"]);
+    place.refuses(&["ltg", "three.npy", "-o", "./three.npy"], &["is also an input"]);
+    place.refuses(&["convert", "three.npy", "./three.npy", "--force"], &["is also an input"]);
 }
 
 /// Two masks of one size, of which one lies elsewhere in the world.
@@ -244,14 +244,17 @@ fn nothing_that_was_read_is_overwritten() {
     let header = "NRRD0004\ntype: float\ndimension: 3\nsizes: 6 2 2\nkinds: 3D-symmetric-matrix domain domain\n\
                   encoding: ascii\ndata file: d.nrrd\n";
     place.write("d.nhdr", header);
-    place.refuses(&["convert", "t.npy", "m.npy", "--mask", "m.npy", "--force"], &["m.npy", "is an input"]);
-    place.refuses(&["convert", "d.nhdr", "d.nrrd", "--force"], &["d.nrrd", "is an input"]);
-    place.refuses(&["ltg", "t.npy", "--mask", "m.npy", "-o", "m.npy"], &["m.npy", "is an input"]);
-    place.refuses(&["propagate", "t.npy", "--light", "1,1", "-o", "./t.npy"], &["t.npy", "is an input"]);
+    place.refuses(
+        &["convert", "t.npy", "m.npy", "--mask", "m.npy", "--force"],
+        &["m.npy", "is also an input"],
+    );
+    place.refuses(&["convert", "d.nhdr", "d.nrrd", "--force"], &["d.nrrd", "is also an input"]);
+    place.refuses(&["ltg", "t.npy", "--mask", "m.npy", "-o", "m.npy"], &["m.npy", "is also an input"]);
+    place.refuses(&["propagate", "t.npy", "--light", "1,1", "-o", "./t.npy"], &["t.npy", "is also an input"]);
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink(place.path("t.npy"), place.path("link.npy")).unwrap();
-        place.refuses(&["convert", "link.npy", "t.npy", "--force"], &["t.npy", "is an input"]);
+        place.refuses(&["convert", "link.npy", "t.npy", "--force"], &["t.npy", "is also an input"]);
     }
 }
 

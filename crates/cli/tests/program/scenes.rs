@@ -128,7 +128,7 @@ fn bad_scenes_are_refused_with_their_place() {
     );
     place.refuses(
         &["propagate", "room.scene.ron", "--slice", "z=1", "-o", "l.npy"],
-        &["room.scene.ron", "without options"],
+        &["room.scene.ron", "no reading options"],
     );
     place.refuses(
         &["ltg", "room.scene.ron", "--normalization", "global", "-o", "l.npy"],

@@ -322,7 +322,7 @@ fn invariants_are_arrays_beside_the_tensors() {
         place.refuses(&[&["convert", "v.nrrd"], options, &["--invariants"]].concat(), &[words]);
     };
     refuses(&["o.nii"], "expected .vti, .vtp or .vtk");
-    refuses(&["p.vti", "--slice", "z=0"], "expected a file that holds one, whole");
+    refuses(&["p.vti", "--slice", "z=0"], "need a whole volume of 3 x 3 tensors");
     place.refuses(&["convert", "inverse:size=5", "p.vti", "--invariants"], &["volume of 3 x 3 tensors"]);
 }
 

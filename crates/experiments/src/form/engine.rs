@@ -6,7 +6,7 @@ use serde::de::{Deserializer, EnumAccess, Error, VariantAccess, Visitor};
 use std::fmt;
 use tigereye_transport::{ENGINES, EightLobe, Engine};
 
-/// What computes a distribution: one of [`ENGINES`] by its [`Engine::id`], [`EightLobe`] where nothing is said.
+/// What computes a distribution: one of [`ENGINES`] by its [`Engine::id`], [`EightLobe`] by default.
 #[derive(Clone, Copy)]
 pub struct EngineChoice(&'static (dyn Engine + Sync));
 

@@ -78,7 +78,7 @@ pub enum FieldSource {
         /// Meaning of the shear components: `tensor` (the default) or `engineering`.
         #[serde(default)]
         shear: Option<String>,
-        /// Axes that the components refer to: `voxel`, `world`, `measurement` or `fsl`.
+        /// Axes that the components refer to: `voxel`, `world`, `measurement`, `fsl` or `lps`.
         #[serde(default)]
         frame: Option<String>,
         /// Slice of a volume, `z=10`.

@@ -1,7 +1,7 @@
-//! What may stand in the project's files: the values that experiments, fields and scenes are made of.
+//! The contents of the project's files: the values that make up experiments, fields and scenes.
 //!
 //! Strict: unknown keys, missing keys, wrong types and numbers out of range are errors with line and column. Keys carry
-//! their units. What an experiment as a whole may hold stands in [`crate::experiment`]; its runs, panels, tables and
+//! their units. The contents of an experiment as a whole are in [`crate::experiment`]; its runs, panels, tables and
 //! quantities have a file each.
 
 mod choices;

@@ -44,7 +44,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
                 let mut found = Named(Vec::new());
                 while let Some(name) = map.next_key::<Placed<String>>()? {
                     if found.get(&name).is_some() {
-                        return Err(A::Error::custom(format!("the name \"{name}\" stands here twice")));
+                        return Err(A::Error::custom(format!("the name \"{name}\" is used twice here")));
                     }
                     let value = map.next_value()?;
                     found.0.push((name, value));

@@ -1,4 +1,4 @@
-//! What may stand in a scene's file, `NAME.scene.ron`.
+//! The contents of a scene file, `NAME.scene.ron`.
 
 use super::choices::NormalizationRule;
 use super::field_source::FieldSource;

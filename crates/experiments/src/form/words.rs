@@ -72,7 +72,7 @@ pub(crate) fn words_of_fault(error: &ron::Error, text: &str) -> String {
         }
         E::MissingStructField { field, outer } => format!("the key `{field}` is missing{}", within(outer)),
         E::DuplicateStructField { field, outer } => {
-            format!("the key `{field}` stands here twice{}", within(outer))
+            format!("the key `{field}` appears twice here{}", within(outer))
         }
         other => shortened(&other.to_string()),
     }

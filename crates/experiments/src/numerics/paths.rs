@@ -50,7 +50,7 @@ impl<'a> LitScene<'a> {
     }
 }
 
-/// Of the cells with a path to the first light of a run, the part from which the brightest path is a shortest one.
+/// The fraction of the cells with a path to the first light of a run whose brightest path is also a shortest one.
 pub(crate) fn solved_part(light: &Outcome) -> Result<f64, Unavailable> {
     let LitScene { open, energy, source } = LitScene::of(light)?;
     let (shortest, brightest) = (steps_to(open, source), climbing_steps(&energy, open, source));

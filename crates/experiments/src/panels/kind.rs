@@ -17,7 +17,7 @@ pub(crate) type Picture = Box<dyn Fn(&Drawing<'_>) -> Result<Scene, Unavailable>
 /// The curves behind a picture.
 pub(crate) type Curves = Box<dyn Fn(&Results<'_>) -> Result<Vec<Curve>, Unavailable> + Send + Sync>;
 
-/// What stands in the experiment file, and how it is drawn.
+/// The form in the experiment file, and how it is drawn.
 pub(crate) trait PanelKind {
     /// Looks up names, checks cells and steps, and parses expressions; `None` where something is wrong, which is
     /// reported.

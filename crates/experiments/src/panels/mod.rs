@@ -1,4 +1,4 @@
-//! Pictures of figures, a kind a file: what stands in the experiment file, what its names stand for, and how it is
+//! Pictures of figures, one file per kind: its form in the experiment file, what its names refer to, and how it is
 //! drawn.
 //!
 //! A panel is added by its file, which implements `PanelKind`, and its line in `panels!`.

@@ -7,7 +7,7 @@ use crate::unavailable::Unavailable;
 /// A number of the results, every name looked up; or why it is not to be had.
 pub(crate) type Measure = Box<dyn Fn(&Results<'_>) -> Result<f64, Unavailable> + Send + Sync>;
 
-/// What stands in the experiment file, and how its number is measured.
+/// The form in the experiment file, and how its number is measured.
 pub(crate) trait QuantityKind {
     /// Looks up names, checks cells and steps, and parses expressions; `None` where something is wrong, which is
     /// reported.

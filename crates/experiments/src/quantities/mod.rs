@@ -1,4 +1,4 @@
-//! Numbers that checks are about, a kind a file: what stands in the experiment file, what its names stand for, and its
+//! Numbers that checks test, one file per kind: its form in the experiment file, what its names refer to, and its
 //! value.
 //!
 //! A quantity is added by its file, which implements `QuantityKind`, and its line in

@@ -38,7 +38,7 @@ impl QuantityKind for RidgeColumnError {
     }
 }
 
-/// Value in a column relative to the mean of its slice's inner cells, averaged over rows (both ends included).
+/// Mean of a column over a range of rows (both ends included), divided by the mean over the slice's inner cells.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct RidgeContrast {

@@ -70,7 +70,7 @@ impl Ftle {
         };
         let samples = self.samples;
         if !(1..=MAX_SAMPLES_A_CELL).contains(&samples) {
-            run.fault(&format!(": {samples} samples a cell: expected 1 to {MAX_SAMPLES_A_CELL}"));
+            run.fault(&format!(": {samples} samples per cell: expected 1 to {MAX_SAMPLES_A_CELL}"));
             return None;
         }
         let named = run.media.field(field);

@@ -48,7 +48,8 @@ pub struct Gradient {
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
-    /// What a cell does to light from several sides. With linear scattering, every pulse is solved to its stationary
+    /// How a cell scatters light that arrives from several sides. With linear scattering, every pulse is solved to its
+    /// stationary
     /// state.
     #[serde(default)]
     scattering: Chosen<ScatteringRule>,

@@ -46,7 +46,7 @@ pub struct Light {
     /// Cone weights of the overlap.
     #[serde(default)]
     weights: Chosen<SharedWeights>,
-    /// What a cell does to light from several sides.
+    /// How a cell scatters light that arrives from several sides.
     #[serde(default)]
     scattering: Chosen<ScatteringRule>,
     /// The lights; by default those of the scene.

@@ -1,4 +1,4 @@
-//! Computations of an experiment, a kind a file: what may stand in the experiment file, its plan, its outcome with
+//! Computations of an experiment, one file per kind: its form in the experiment file, its plan, and its outcome with
 //! digest, counters and data.
 //!
 //! A kind is added by its file, its line in `runs!`, an id in `ids` and, where snapshots are to remember it,

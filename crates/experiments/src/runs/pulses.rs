@@ -149,7 +149,9 @@ impl Pulses {
         let mut samples = Vec::new();
         for deg in &self.angles_deg {
             match sample_of(deg.get(), setup.directions) {
-                Ok(t) if samples.contains(&t) => run.fault(&format!(": {} degrees stand twice", deg.get())),
+                Ok(t) if samples.contains(&t) => {
+                    run.fault(&format!(": {} degrees is listed twice", deg.get()))
+                }
                 Ok(t) => samples.push(t),
                 Err(problem) => run.fault(&format!(": {problem}")),
             }
@@ -316,7 +318,7 @@ fn distance(a: &[[f64; 8]], b: &[[f64; 8]]) -> f64 {
     share(a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b).abs()).sum(), energy(b))
 }
 
-/// A part of a whole; nothing is no part of anything, of the light of a pulse that no cell passes on too.
+/// `part / whole`, but 0 if the part is 0, even if the whole is 0 too (a pulse that no cell passes on).
 fn share(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part / whole }
 }

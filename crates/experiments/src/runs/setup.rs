@@ -25,7 +25,7 @@ pub(crate) struct Setup {
     pub(crate) rule: ProfileRule,
     /// Cone weights of the overlap.
     pub(crate) weights: SharedWeights,
-    /// What a cell does to light from several sides.
+    /// How a cell scatters light that arrives from several sides.
     pub(crate) scattering: ScatteringRule,
     /// When each propagation ends.
     pub(crate) stopping: Stopping,

@@ -10,7 +10,8 @@ use serde::Deserialize;
 use tigereye_core::math;
 use tigereye_report::Column;
 
-/// Seconds of gradients of growing fields, method by method. Rows whose runs are not in scope are omitted.
+/// Computation time of the gradient, in seconds, for fields of increasing size, one series per method. Rows whose runs
+/// are not in scope are omitted.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Growth {

@@ -1,4 +1,4 @@
-//! Tables of results, a kind a file: what stands in the experiment file, what its names stand for, and its rows.
+//! Tables of results, one file per kind: its form in the experiment file, what its names refer to, and its rows.
 //!
 //! A table is added by its file, which implements `TableKind`, and its line in `tables!`.
 

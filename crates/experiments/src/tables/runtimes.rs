@@ -64,7 +64,8 @@ impl TableKind for Runtimes {
 }
 
 impl RuntimeRow {
-    /// The entries of a row whose run took some time, is of another scope, or is not there.
+    /// The entries of a row. `taken` holds the run's seconds; it is `Some(None)` if the run is out of scope, and `None`
+    /// if there is no such run.
     fn entries(&self, taken: Option<Option<f64>>) -> Vec<String> {
         let published_s = self.published_s.get();
         let seconds_taken = match taken {

@@ -350,7 +350,7 @@ fn pulses_start_from_cells_and_samples_that_exist() {
         ("(2, 3), (1, 1)", "", &["no pulse", "cells and angles"]),
         ("[0, 67.5]", "[]", &["no pulse", "cells and angles"]),
         ("[0, 67.5]", "[67.5, 60]", &["60 degrees is no sample of 16"]),
-        ("[0, 67.5]", "[0, 67.5, 360]", &["360 degrees stand twice"]),
+        ("[0, 67.5]", "[0, 67.5, 360]", &["360 degrees is listed twice"]),
     ] {
         let text = GOOD.replace(from, to);
         let found = faults(&text, true);

@@ -167,7 +167,7 @@ fn usual(image: &ImageData, wanted: Wanted) -> Result<Found<'_>, IoError> {
 /// Most arrays that a message names.
 const MOST_NAMED: usize = 12;
 
-/// What is said where the usual array of `image` was taken and there are others of its kind.
+/// The message for the case that the usual array of `image` was taken although there are others of its kind.
 pub(crate) fn left_aside(image: &ImageData, wanted: Wanted, chosen: &Found) -> Option<String> {
     let is_another = |(on, array): &(Association, &DataArray)| {
         let is_chosen = *on == chosen.0 && array.name == chosen.1.name;
@@ -183,7 +183,7 @@ pub(crate) fn left_aside(image: &ImageData, wanted: Wanted, chosen: &Found) -> O
     let more = others.len().saturating_sub(MOST_NAMED);
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
     let (name, option) = (&chosen.1.name, wanted.option());
-    Some(format!("took {how}`{name}`; left aside: `{named}`{more} ({option})"))
+    Some(format!("took {how}`{name}`; ignored: `{named}`{more} ({option})"))
 }
 
 /// The only one of those that fit, where there is any.

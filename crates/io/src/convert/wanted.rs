@@ -98,7 +98,7 @@ impl Wanted {
         matches!(self, Self::Scalars | Self::Mask)
     }
 
-    /// How well an array suits that is not a second choice: others of that kind are left aside where it is taken.
+    /// How well an array suits that is not a second choice: others of that kind are ignored where it is taken.
     pub(super) const fn certain(self) -> u8 {
         match self {
             Self::Tensors | Self::Mask => 2,

@@ -2,7 +2,7 @@
 //!
 //! Read: versions 1 to 5.1, ASCII and BINARY (big-endian); STRUCTURED_POINTS, and STRUCTURED_GRID or RECTILINEAR_GRID
 //! whose points form a lattice; all attributes of points and cells, arrays in FIELD, names of components in METADATA.
-//! Arrays of bits, strings and variants are passed over. Refused by name: other data sets.
+//! Arrays of bits, strings and variants are passed over. Refused with a specific message: other data sets.
 //!
 //! Written: version 3.0, BINARY, as STRUCTURED_POINTS, or as STRUCTURED_GRID where the axes are turned.
 //!

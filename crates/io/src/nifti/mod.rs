@@ -2,7 +2,8 @@
 //!
 //! Read: both byte orders, all integer and floating-point types of up to 64 bits, scaling, sform and qform; symmetric
 //! and general matrices as the standard has them (5-D, intents 1005 and 1004), and 4-D or 5-D images of several
-//! components, whose order the file does not state; ITK's, whose intent has no size. Refused by name: NIfTI-2, ANALYZE
+//! components, whose order the file does not state; ITK's, whose intent has no size. Refused with a specific message:
+//! NIfTI-2, ANALYZE
 //! and `.hdr`/`.img` pairs, complex and colour numbers, time series, and intents of something else than tensors and
 //! vectors (FSL's warps and their coefficients, points, colours).
 //!

@@ -176,8 +176,8 @@ fn laid_out(array: NpyArray, layout: Layout, warnings: Vec<String>) -> Lattice {
 }
 
 /// Takes an array out of the arrays of an archive, by name and bytes: the named one, the only one that fits, or the one
-/// whose components are arrays of their own. Arrays of positions (`positions.rs`) place it; the others are said to be
-/// left aside.
+/// whose components are arrays of their own. Arrays of positions (`positions.rs`) place it; a message lists the others
+/// as ignored.
 ///
 /// # Errors
 /// As [`read_lattice`] for the named or only array, as [`crate::volume::lattice_from_image`] for one out of several,
@@ -215,7 +215,7 @@ pub fn lattice_of_members(
         .collect();
     if !aside.is_empty() {
         lattice.remarks.push(format!(
-            "took `{}`; other arrays left aside: {}",
+            "took `{}`; ignored other arrays: {}",
             used.join(", "),
             aside.join(", ")
         ));
@@ -224,7 +224,7 @@ pub fn lattice_of_members(
     if !unplaced.is_empty() {
         let names = unplaced.join(", ");
         let placed = if placing.is_empty() { ": cells of size 1" } else { "" };
-        lattice.warnings.push(format!("positions {names} left aside{placed}"));
+        lattice.warnings.push(format!("positions {names} ignored{placed}"));
     }
     Ok(lattice)
 }

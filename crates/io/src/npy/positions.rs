@@ -17,7 +17,7 @@ const AXES: [[&str; 3]; 5] = [
 /// Arrays that say where cells lie by other rules.
 const OTHERS: [&str; 8] = ["points", "coords", "extent", "extents", "bounds", "spacing", "origin", "affine"];
 
-/// What is said of arrays with three axes of cells, which nothing names.
+/// The message about arrays with three axes of cells, none of which is named.
 pub(super) const AXES_OF_VOLUMES: &str = "took the axes of the array as x, y and z in this order; stacks of images are mostly [z][y][x], which \
      numpy.transpose turns round";
 

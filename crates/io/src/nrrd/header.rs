@@ -349,7 +349,7 @@ impl Header {
         let axes = || (0..self.sizes.len()).filter(|&a| !is_domain(a));
         axes()
             .find(|&a| named(a))
-            // Three or four numbers are a tensor only to whoever says their order.
+            // Three or four numbers are a tensor only if the user gives their order.
             .or_else(|| axes().find(|&a| is_tuple(a) && (fits(a) || matches!(size(a), 3 | 4))))
             .or_else(|| Some(0).filter(|&a| !is_domain(a) && fits(a)))
     }
@@ -460,7 +460,7 @@ impl Header {
         if is(samples - 1.0) { Some(true) } else { is(samples).then_some(false) }
     }
 
-    /// Where nothing is said samples lie in the middle of equal parts, as teem has it.
+    /// By default samples lie at the centres of cells, as in teem.
     fn is_node_centred(&self, axis: usize) -> bool {
         self.stated_node_centring(axis).unwrap_or(false)
     }
@@ -508,7 +508,7 @@ impl Header {
 
 const TYPES: &str = "a number type such as float, double, short or uint8";
 const ENCODINGS: &str = "raw, gzip or ascii";
-const KIND_NAMES: &str = "a tensor kind such as 3D-symmetric-matrix for one axis, or 6, 7 or 9 numbers on the first, or on one of kind list or vector (3 or 4 there with their order)";
+const KIND_NAMES: &str = "a tensor kind such as 3D-symmetric-matrix for one axis, or 6, 7 or 9 numbers on the first axis, or on one of kind list or vector (there also 3 or 4, if --order names them)";
 const VECTOR_NAMES: &str = "two or three numbers on an axis of kind vector, 2-vector, 3-vector, covariant-vector, 3-gradient or 3-normal";
 
 fn too_large(bytes: &[u8], line: usize, count: u128, limit: u64) -> LimitError {

@@ -1,7 +1,8 @@
 //! NRRD, "nearly raw raster data": `.nrrd`, and `.nhdr` whose data are in a file beside it.
 //!
 //! Read: raw, gzip and text data of all number types of up to 64 bits, both byte orders; the tensor kinds of the format
-//! (2D and 3D, symmetric or not, with or without mask); space directions, origin, measurement frame. Refused by name:
+//! (2D and 3D, symmetric or not, with or without mask); space directions, origin, measurement frame. Refused with a
+//! specific message:
 //! hex and bzip2, blocks, data spread over several files.
 //!
 //! Written: attached gzip data in the precision of the input, along the world's axes.

@@ -255,18 +255,18 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
         let _ = lattice.mask_by(&mask);
     }
     lattice.notes[0] = match header.line {
-        0 => "one point a line, columns x, y and a number by their places".to_owned(),
-        line => format!("one point a line, columns by their names in line {line}"),
+        0 => "one point per line, columns x, y and a number by position".to_owned(),
+        line => format!("one point per line, columns named in line {line}"),
     };
     if let Some(time) = &time {
         let others = of_other_times.len();
         let aside =
-            if others > 0 { format!("; {others} columns of other times left aside") } else { String::new() };
+            if others > 0 { format!("; {others} columns of other times ignored") } else { String::new() };
         lattice.notes.push(format!("columns at {time}{aside}"));
     }
     // Such a column leaves points out where it is not 0, if it stands beside the data.
     if wanted == Wanted::Mask && Validity::of(&lattice.array) == Some(Validity::Mask) {
-        let words = format!("of the column `{}`, points stay where it is above 0", lattice.array);
+        let words = format!("of the column `{}`, points are kept where it is above 0", lattice.array);
         lattice.remarks.push(words);
     }
     lattice.remarks.extend(validity.iter().filter_map(|&(at, validity)| {
@@ -278,14 +278,14 @@ pub fn read(bytes: &[u8], choice: ArrayChoice, wanted: Wanted) -> Result<Lattice
     if said.is_some_and(|(_, thousands)| thousands) {
         lattice
             .warnings
-            .push("every comma stands before three digits, as separators of thousands do".to_owned());
+            .push("every comma is followed by three digits, as a thousands separator would be".to_owned());
     }
     if !header.doubled.is_empty() {
         let name = |&c: &usize| names[c];
         let taken: Vec<&str> = places.iter().flatten().map(name).collect();
         let aside: Vec<&str> = header.doubled.iter().map(name).collect();
         let (taken, aside) = (taken.join(", "), aside.join(", "));
-        lattice.warnings.push(format!("positions of the columns {taken} taken; {aside} left aside"));
+        lattice.warnings.push(format!("positions taken from the columns {taken}; {aside} ignored"));
     }
     let is_pixel = |c: &usize| {
         header.columns[*c].unit.as_ref().is_some_and(|u| u.starts_with("px") || u.starts_with("pix"))
@@ -335,13 +335,13 @@ fn check_positions(points: &[[f64; 3]], lines: &[usize]) -> Result<(), TableErro
 /// Most columns that a message names.
 const MOST_NAMED: usize = 12;
 
-/// What is said of columns that are not read. Some may tell of points that are invalid.
+/// The message about columns that are not read. Some of them may mark invalid points.
 fn unread_words(unread: &[&str]) -> String {
     let named = unread[..unread.len().min(MOST_NAMED)].join(", ");
     let more = unread.len().saturating_sub(MOST_NAMED);
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
     format!(
-        "columns not read, whatever they say of the points: {named}{more} (points to leave out are written as nan)"
+        "columns not read, even if they mark invalid points: {named}{more} (write points to leave out as nan)"
     )
 }
 

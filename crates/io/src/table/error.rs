@@ -63,7 +63,7 @@ pub enum TableError {
     },
     /// A vector between the positions of the others.
     #[error(
-        "line {line}: {axis} = {value} is off the lattice: expected positions in equal steps (of {step} in the mean)"
+        "line {line}: {axis} = {value} is off the lattice: expected positions in equal steps (of {step} on average)"
     )]
     Position {
         /// Line, from 1.
@@ -97,7 +97,7 @@ pub enum TableError {
     },
     /// Vectors at few of the positions that their coordinates span.
     #[error(
-        "{vectors} vectors on a lattice of {width} x {height} positions: expected a vector at most of them"
+        "{vectors} vectors on a lattice of {width} x {height} positions: expected vectors at half of them or more"
     )]
     SparsePositions {
         /// Vectors in the file.

@@ -2,7 +2,7 @@
 
 /// Largest distance of a position from its lattice, relative to the step: text has few digits.
 const TOLERANCE: f64 = 0.02;
-/// Gaps between positions below this part of the largest are rounding.
+/// Gaps between positions below this fraction of the largest gap are rounding.
 const GAP: f64 = 0.25;
 /// Difference of a gap from whole steps, in steps, that is rounding.
 const MULTIPLE: f64 = 0.1;

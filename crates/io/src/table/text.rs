@@ -112,7 +112,7 @@ impl<'a> Text<'a> {
         self.lines[0].0
     }
 
-    /// What is said of commas in numbers, and whether they look like separators of thousands.
+    /// The message about commas in numbers, and whether they look like thousands separators.
     pub(super) fn decimal_commas(&self) -> Option<(&'static str, bool)> {
         let words = || self.lines.iter().flat_map(|(_, line)| self.separator.words(line)).map(|(_, w)| w);
         let with_comma = || words().filter(|w| parsed(w).is_some() && w.contains(&b','));

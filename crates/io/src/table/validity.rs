@@ -59,7 +59,7 @@ impl Validity {
         }
     }
 
-    /// What is said of a column of this name whose `values` leave points out, or flag them; `what` are the points.
+    /// The message about a column of this name whose `values` leave out or flag points; `what` names the points.
     pub(super) fn said(self, name: &str, values: &[f64], what: &str) -> Option<String> {
         let all = values.len();
         let (convention, count) = match self {

@@ -181,7 +181,7 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     }
     if !columns.unread.is_empty() {
         said.push(format!(
-            "columns not read, whatever they say of the vectors: {}",
+            "columns not read, even if they mark invalid vectors: {}",
             columns.unread.join(", ")
         ));
     }
@@ -198,7 +198,7 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
     if commas.is_some_and(|(_, thousands)| thousands) {
         lattice
             .warnings
-            .push("every comma stands before three digits, as separators of thousands do".to_owned());
+            .push("every comma is followed by three digits, as a thousands separator would be".to_owned());
     }
     lattice.warnings.extend(columns.unequal_units());
     lattice.remarks.push(y_up.to_owned());
@@ -480,7 +480,7 @@ mod tests {
         );
         refused(
             "0 0 0 0\n1 1 0 0\n2 2 0 0\n3 3 0 0\n",
-            "4 vectors on a lattice of 4 x 4 positions: expected a vector at most of them",
+            "4 vectors on a lattice of 4 x 4 positions: expected vectors at half of them or more",
         );
         // Decimal commas between tabs are not taken for two numbers.
         refused("1,5,0\t2\t3\t4\n", "line 1, column 1: expected a number, found `1,5,0`");
@@ -495,7 +495,7 @@ mod tests {
         assert!(said.contains("whatever they say of the vectors: number 5, number 6"), "{said}");
     }
 
-    /// A column of the lattice without a single vector leaves nodes out, and moves no other.
+    /// A lattice column or row without any vector becomes missing nodes; all other nodes keep their positions.
     #[test]
     fn whole_rows_and_columns_may_be_missing() {
         let at = (0..30).map(|i| (i % 6, i / 6)).filter(|(x, y)| *x != 2 && *y != 3);

@@ -312,9 +312,18 @@ impl Content {
     /// The axes that components are along where nothing else says it.
     #[must_use]
     pub fn frame(self, components: usize) -> (Frame, Known) {
-        // Tuples of other sizes are along the same axes as tensors.
-        let of_content = || CONVENTIONS.iter().find(|c| c.content == self);
-        self.convention(components).or_else(of_content).map_or(NRRD_FRAME, |c| c.frame)
+        self.convention(components).map_or_else(|| self.usual_frame(), |c| c.frame)
+    }
+
+    /// The axes of the format: those of tuples whose size has no row.
+    const fn usual_frame(self) -> (Frame, Known) {
+        match self {
+            Self::VtkTensors | Self::VtkArray => VTK_FRAME,
+            Self::NiftiSymmetric | Self::NiftiMatrix | Self::NiftiVector | Self::NiftiNumbers => NIFTI_FRAME,
+            Self::NrrdTensor | Self::NrrdNumbers => NRRD_FRAME,
+            Self::NumpyPlane | Self::NumpyMatrices => PLANE_FRAME,
+            Self::NumpyVolume => AXES_FRAME,
+        }
     }
 }
 
@@ -322,7 +331,7 @@ impl Content {
 #[must_use]
 pub fn documentation() -> String {
     let mut page = String::from(INTRODUCTION);
-    page += "\n## Where nothing is said\n\n";
+    page += "\n## Defaults when the file states nothing\n\n";
     page += "| content | numbers | order | known | components along | known | written so by |\n";
     page += "| --- | --- | --- | --- | --- | --- | --- |\n";
     for c in &CONVENTIONS {
@@ -353,14 +362,14 @@ const INTRODUCTION: &str = "\
 
 <!-- Made from crates/io/src/volume/convention.rs by `TIGEREYE_BLESS=1 cargo test -p tigereye-io --test files`. -->
 
-A tensor file holds several numbers a point, and few formats say which is which. `tigereye` decides in this order:
+A tensor file holds several numbers per point, and few formats say which is which. `tigereye` decides in this order:
 
 1. `--order`, `--components` and `--frame`, if given.
 2. The names of the components, where the file has them: `ComponentName` of VTK XML files, METADATA of legacy files, the label of an NRRD
    axis, or separate arrays whose names differ in their index pair only (`S_XX`, `S_YY`, `S_XY`). Spellings: `XX`, `xx`, `11`, `00`,
    `S11`, `SXX`, `sigma_xx`, `stress_XX`, with or without separators; digits count from 0 where a 0 occurs, else from 1.
 3. The format's own statement, such as an NRRD kind or a NIfTI intent.
-4. The tables below. What is *assumed* is said on standard error by every command, what is *stated* is not.
+4. The tables below. Every command reports on standard error what is *assumed*, but not what is *stated*.
 
 `info` prints what was decided and how it is known. Components named as principal values (`Min`, `Mid`, `Max`, `Sigma 1`) are refused:
 they have no directions. `voxel` is along the voxel axes, `world` along the axes of the file's space, `fsl` along the voxel axes with x

@@ -93,7 +93,7 @@ pub enum VolumeError {
         expected: &'static str,
     },
     /// A frame that the file does not describe.
-    #[error("the file has no measurement frame: expected frame voxel, world or fsl")]
+    #[error("the file has no measurement frame: expected frame voxel, world, fsl or lps")]
     NoMeasurementFrame,
     /// Voxel axes that are not at right angles, with tensors in another frame than theirs.
     #[error(

@@ -196,7 +196,8 @@ impl Lattice {
             (Frame::Fsl, _) => return Ok(self.reverses_x_for_fsl().then(|| self.fsl_signs())),
             (Frame::Measurement, Some(m)) => m,
             (Frame::Lps, _) => self.lps(),
-            _ => IDENTITY,
+            // A measurement frame that the file does not state was refused before.
+            (Frame::World, _) | (Frame::Measurement, None) => IDENTITY,
         };
         let directions = self.orthogonal_directions()?;
         if directions == measured {

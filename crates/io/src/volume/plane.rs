@@ -275,7 +275,9 @@ impl Lattice {
         let normal = unit([b * f - c * e, c * d - a * f, a * e - b * d]);
         let frame = match (frame, self.measurement) {
             (Frame::Measurement, Some(m)) => unit(column(&m, axis)),
-            _ => [0, 1, 2].map(|i| f64::from(u8::from(i == axis))),
+            (Frame::Measurement, None) | (Frame::Voxel | Frame::World | Frame::Fsl | Frame::Lps, _) => {
+                [0, 1, 2].map(|i| f64::from(u8::from(i == axis)))
+            }
         };
         (0..3).map(|i| normal[i] * frame[i]).sum::<f64>().abs()
     }

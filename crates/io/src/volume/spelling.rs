@@ -38,7 +38,7 @@ const fn alternatives(components: usize) -> &'static str {
     match components {
         9 => "an order of nine components: vtk, nrrd, dipy, or names such as xx,xy,xz,yx,yy,yz,zx,zy,zz",
         6 => "an order of six components: vtk, nrrd, dipy, fsl, mrtrix, itk, voigt, abaqus, or names",
-        4 => "an order of four components: nrrd (xx,xy,yx,yy), or names such as xx,yy,zz,xy",
+        4 => "an order of four components: nrrd (xx,xy,yx,yy), abaqus (xx,yy,zz,xy), or names",
         3 => "an order of three components: nrrd (xx,xy,yy), voigt (xx,yy,xy), or names",
         _ => "names of all components",
     }

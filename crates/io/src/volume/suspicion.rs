@@ -6,7 +6,7 @@ use tigereye_core::symmetric_eigenvalues3;
 
 /// Below this share of negative tensors nothing is suspected.
 const SUSPICIOUS_ABOVE: f64 = 0.02;
-/// Another order must leave less than this part of the negative tensors.
+/// Another order must leave less than this fraction of the negative tensors.
 const CLEARLY_FEWER: f64 = 0.25;
 /// Eigenvalues below this times the largest count as negative; fits clamp at zero and files hold f32.
 const ROUNDING: f64 = 1e-6;

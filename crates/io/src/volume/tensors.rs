@@ -213,7 +213,8 @@ impl TensorVolume {
             (Frame::Measurement, Some(m)) => m,
             (Frame::Lps, _) => self.lattice.lps(),
             (Frame::Fsl, _) => product(&self.lattice.orthogonal_directions()?, &self.lattice.fsl_signs()),
-            _ => self.lattice.orthogonal_directions()?,
+            // A measurement frame that the file does not state was refused before.
+            (Frame::Voxel, _) | (Frame::Measurement, None) => self.lattice.orthogonal_directions()?,
         };
         Ok((turn != IDENTITY).then_some(turn))
     }

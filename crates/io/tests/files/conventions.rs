@@ -175,7 +175,7 @@ fn the_tensor_is_taken_before_vectors_and_ids() {
     );
 }
 
-/// Colours and normals are no tensors, and a tensor beside the active one is said to be left aside.
+/// Colours and normals are no tensors, and a tensor beside the active one is reported as ignored.
 #[test]
 fn what_is_beside_the_tensor_is_known() {
     let mut image = ImageData::empty([2, 1, 1]);
@@ -192,7 +192,7 @@ fn what_is_beside_the_tensor_is_known() {
     image.point_active.tensors = Some("b".to_owned());
     let found = lattice_from_image(&image, None, Wanted::Tensors).unwrap();
     assert_eq!(found.array, "b");
-    assert!(found.remarks.iter().any(|r| r.contains("left aside: `a`")), "{:?}", found.remarks);
+    assert!(found.remarks.iter().any(|r| r.contains("ignored: `a`")), "{:?}", found.remarks);
     let named = lattice_from_image(&image, ArrayChoice::Named("a"), Wanted::Tensors).unwrap();
     assert_eq!((named.array.as_str(), named.remarks.len()), ("a", 0));
 }

@@ -91,11 +91,7 @@ fn positions_of_archives_place_their_cells() {
     let mut other = archives[0].clone();
     other[0] = member("x", &[4], vec![0.0; 4]);
     let lattice = npy::lattice_of_members(&other, ArrayChoice::Usual, Wanted::Tensors).unwrap();
-    assert!(
-        lattice.warnings.iter().any(|w| w.contains("positions x, y left aside")),
-        "{:?}",
-        lattice.warnings
-    );
+    assert!(lattice.warnings.iter().any(|w| w.contains("positions x, y ignored")), "{:?}", lattice.warnings);
 }
 
 /// Volumes with one array a component are told from volumes of tuples by the names, whatever the length of their last

@@ -144,7 +144,7 @@ fn segments(on_edges: &[[u32; 3]], [nx, ny]: [usize; 2]) -> Vec<[u32; 2]> {
 }
 
 impl RidgeLines {
-    /// Keeps those of `lines` that are long enough, longest first, with their points only.
+    /// Keeps the lines that are long enough, longest first, and only the points they use.
     fn with(self, lines: Vec<Polyline>, options: &RidgeOptions) -> Self {
         let cell = [options.cell[0], options.cell[1]];
         let mut measured: Vec<(f64, Polyline)> =

@@ -141,7 +141,8 @@ impl<'a> SketchedGradient<'a> {
     /// Adds the sketches of `shard` that `sums` lacks. The result does not depend on threads, memory or interruptions.
     ///
     /// # Errors
-    /// [`LtgError::Interrupted`] where the observer asked for it, in sketches; [`LtgError::Stopping`] with
+    /// [`LtgError::Interrupted`] if the observer requested it, with `done` and `total` counting sketches;
+    /// [`LtgError::Stopping`] with
     /// [`tigereye_transport::TransportError::Trapped`] where there is no stationary state.
     pub fn run(
         &self,

@@ -52,7 +52,7 @@ pub struct GlyphOptions {
     pub ribbons: Vec<Ribbon>,
     /// Points and lines over the glyphs and bands, such as tensor lines.
     pub overlays: Vec<Overlay>,
-    /// What of all this is chosen otherwise; a colour map or a quantity is that of the anisotropy.
+    /// Settings of the user, which override the options above; a colour map or a quantity applies to the anisotropy.
     pub style: Style,
 }
 

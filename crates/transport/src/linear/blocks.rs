@@ -61,7 +61,8 @@ pub(super) struct Block {
     pub(super) parent: usize,
 }
 
-/// All blocks of a grid: the whole first, the halves of one generation together.
+/// All blocks of a grid: the whole grid first, then generation by generation, with the blocks of one generation
+/// contiguous.
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     pub(super) shapes: Vec<Shape>,

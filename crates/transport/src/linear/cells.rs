@@ -49,7 +49,8 @@ impl<'a> LinearScattering<'a> {
         self.field
     }
 
-    /// `P[k][j]` of a cell: the part of the light in lobe j that leaves towards neighbour k. Columns add up to `Tbar`,
+    /// `P[k][j]` of a cell: the fraction of the light in lobe j that leaves towards neighbour k. Columns add up to
+    /// `Tbar`,
     /// or to the reflectance of a wall; those of lobes in which no light can arrive, inside a wall, are 0.
     #[must_use]
     pub fn matrix(&self, cell: Cell) -> [[f64; 8]; 8] {

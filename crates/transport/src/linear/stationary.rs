@@ -12,7 +12,7 @@ use crate::TransportError;
 use std::ops::ControlFlow;
 use tigereye_core::{Cell, NEIGHBOUR_OFFSETS, math};
 
-/// Sweeps after which a search ends: fields of ten thousand cells a side would settle by then.
+/// Limit on the sweeps of one search: enough for fields of ten thousand cells per side to settle.
 const MOST_SWEEPS: usize = 8000;
 /// What a plain step may still change, as a part of what the sources inject: where light is trapped, it grows until any
 /// change is a small part of it.

@@ -43,7 +43,7 @@ impl<T: Number, const N: usize> Source<T, N> {
         })
     }
 
-    /// The light emitted by part `c` of the lanes for arriving light `a`.
+    /// The light emitted in the `c`-th vector of lanes, given the arriving light `a`.
     #[inline(always)]
     pub(crate) fn passed<V: Vector<Number = T>>(
         &self,

@@ -78,7 +78,7 @@ pub(crate) struct Medium<'a, T, const N: usize> {
 }
 
 impl<T: Number, const N: usize> Medium<'_, T, N> {
-    /// The light emitted by part `c` of the lanes in a cell of any kind, for arriving light `a`.
+    /// The light emitted by a cell of any kind in the `c`-th vector of lanes, given the arriving light `a`.
     ///
     /// The source is checked first: a pulse inside a wall emits nothing.
     #[inline(always)]

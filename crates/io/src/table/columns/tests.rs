@@ -67,7 +67,7 @@ fn doubtful_columns_are_warned_of() {
         found.into_iter().next().unwrap()
     };
     let two = one("x,y,X,Y,S11,S22,S12\n", |x, y| format!("{x},{y},{y},{x},1,2,3"));
-    assert!(two.contains("columns x, y taken; X, Y left aside"), "{two}");
+    assert!(two.contains("positions taken from the columns x, y; X, Y ignored"), "{two}");
     let units = one("x,y,S11 [Pa],S22 [Pa],S12 [kPa]\n", |x, y| format!("{x},{y},1,2,3"));
     assert!(units.contains("Pa, Pa, kPa"), "{units}");
     for line in ["mm,mm,Pa,Pa,kPa", "[mm],[mm],[Pa],[Pa],[kPa]", "\"mm\",\"mm\",(Pa),(Pa),(kPa)"] {

@@ -67,15 +67,21 @@ fn projected(volume: &TensorVolume, reading: &Reading) -> Result<PlaneField, Inp
     Ok(plane)
 }
 
+/// Tensors from vectors with holes, the spacing of their cells, and the deviation of a Gaussian in cells.
+type FromVectors = fn(&Field<Option<[f64; 2]>>, [f64; 2], f64) -> Field<Option<Tensor2>>;
+
+/// Tensors from numbers with holes and the spacing of their cells.
+type FromNumbers<'a> = &'a dyn Fn(&Field<Option<f64>>, [f64; 2]) -> Field<Option<Tensor2>>;
+
 fn derived(lattice: &Lattice, reading: &Reading, how: Derivation) -> Result<PlaneField, InputError> {
     let (sigma, window) = (how.sigma, how.window.unwrap_or(Derived::USUAL_WINDOW));
-    let of_vectors = |derive: fn(&Field<Option<[f64; 2]>>, [f64; 2], f64) -> Field<Option<Tensor2>>| {
+    let of_vectors = |derive: FromVectors| {
         let slice = lattice.vectors(reading.choice, reading.frame)?;
         let samples = Samples::of(&slice, lattice, |v| v.iter().all(|v| v.is_finite()));
         let found = derive(&samples.there, slice.cut.geometry.spacing(), sigma);
         Ok::<_, InputError>((found, samples.map(), slice.cut))
     };
-    let of_numbers = |derive: &dyn Fn(&Field<Option<f64>>, [f64; 2]) -> Field<Option<Tensor2>>| {
+    let of_numbers = |derive: FromNumbers<'_>| {
         let slice = lattice.scalars(reading.choice)?;
         let samples = Samples::of(&slice, lattice, |v| v.is_finite());
         let found = derive(&samples.there, slice.cut.geometry.spacing());

@@ -1,6 +1,6 @@
 //! Memory that begins where a cache line does, so that whole vectors never straddle two lines.
 
-use crate::number::Number;
+use tigereye_simd::Number;
 
 const LINE_BYTES: usize = 64;
 

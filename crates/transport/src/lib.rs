@@ -10,7 +10,6 @@ mod kernel;
 mod light;
 mod limits;
 mod linear;
-mod number;
 mod oracle;
 mod pulses;
 mod real;
@@ -18,8 +17,8 @@ mod reduced;
 mod scattering;
 mod scheme;
 mod sectors;
-mod simd;
 mod stopping;
+mod tolerances;
 mod window;
 
 pub use engine::{Engine, Observer, Outcome, Problem, StepView};
@@ -38,7 +37,7 @@ pub use scattering::Scattering;
 pub use scheme::{
     ScatteringRule, Scheme, SharedWeights, half_angle_beta_rad, half_core_alpha_rad, sector_lobes,
 };
-pub use simd::{ArrayLoop, Level};
+pub use tigereye_simd::{ArrayLoop, Level};
 pub use stopping::{StopMeasure, Stopping, StoppingRule};
 
 /// Every engine, the oracle first. Laws of propagations are tested for each of them, and experiment files choose them

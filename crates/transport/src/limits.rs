@@ -4,7 +4,7 @@
 
 use crate::Real;
 use crate::aligned::Aligned;
-use crate::simd::{Level, Proven, Task, Vector};
+use tigereye_simd::{Level, Proven, Task, Vector};
 use core::hint::black_box;
 use core::marker::PhantomData;
 use tigereye_core::Grid;
@@ -43,7 +43,7 @@ impl<T: Real> Task for Arithmetic<T> {
 
 #[inline(always)]
 fn arithmetic_with<V: Vector>(proof: V::Proof, updates: u64) -> u64 {
-    let number = |x: f64| V::splat(proof, crate::number::Number::narrowed(black_box(x)));
+    let number = |x: f64| V::splat(proof, tigereye_simd::Number::narrowed(black_box(x)));
     let (factor, term) = (number(0.999), number(1e-3));
     let mut products = [term; PRODUCT_CHAINS];
     let mut sums = [term; SUM_CHAINS];
@@ -115,7 +115,7 @@ impl<T: Real> Task for Touch<'_, T> {
 
 #[inline(always)]
 fn touch_with<V: Vector>(proof: V::Proof, numbers: &mut [V::Number]) {
-    let one = V::splat(proof, crate::number::Number::narrowed(black_box(1.0)));
+    let one = V::splat(proof, tigereye_simd::Number::narrowed(black_box(1.0)));
     for line in numbers.as_chunks_mut::<16>().0 {
         for c in 0..16 / V::WIDTH {
             (V::load(proof, line, c) + one).store(line, c);

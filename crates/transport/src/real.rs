@@ -1,13 +1,14 @@
 //! The number types pulses can be computed in.
 
 use crate::scattering::Stored;
-use crate::simd::Vectors;
+use crate::tolerances::Tolerances;
+use tigereye_simd::Vectors;
 
 /// A floating-point number: `f64` or `f32`.
 ///
 /// Sums over the grid that decide when a propagation ends are taken in double precision in either case.
 #[expect(private_bounds, reason = "only the types with vectors at every level qualify")]
-pub trait Real: Vectors + Stored {
+pub trait Real: Vectors + Stored + Tolerances {
     /// Pulses that are propagated side by side: those a register of AVX-512 holds.
     const LANES: usize;
     /// Name on the command line and in reports.

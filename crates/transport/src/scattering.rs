@@ -8,7 +8,7 @@
 //! entries a row. And T is the same in opposite directions, so row k+4 repeats row k: twenty numbers a cell.
 
 use crate::Scheme;
-use crate::number::Number;
+use tigereye_simd::Number;
 use crate::pulses::{Passage, SectorSums, Walls};
 use std::sync::OnceLock;
 use tigereye_core::{Cell, Grid, TransmissionField};

@@ -12,9 +12,10 @@ use tigereye_fields::generators;
 const ALLOWED: &[(&str, &[&str])] = &[
     ("tigereye-core", &[]),
     ("tigereye-fields", &["tigereye-core"]),
-    ("tigereye-transport", &["tigereye-core"]),
+    ("tigereye-simd", &[]),
+    ("tigereye-transport", &["tigereye-core", "tigereye-simd"]),
     ("tigereye-ltg", &["tigereye-core", "tigereye-transport"]),
-    ("tigereye-lines", &["tigereye-core"]),
+    ("tigereye-lines", &["tigereye-core", "tigereye-simd"]),
     ("tigereye-scenes", &["tigereye-core"]),
     ("tigereye-render", &["tigereye-core"]),
     ("tigereye-io", &["tigereye-core"]),

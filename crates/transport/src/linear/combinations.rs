@@ -1,10 +1,10 @@
 //! L1 norms of linear combinations of distributions, over all cells and angular samples.
 
-use crate::number::Number;
+use tigereye_simd::Number;
 use crate::pulses::SectorSums;
 use crate::real::Real;
 use crate::scattering::Scattering;
-use crate::simd::{Level, Octet, Proven, Task};
+use tigereye_simd::{Level, Octet, Proven, Task};
 use core::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
 

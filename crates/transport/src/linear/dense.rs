@@ -5,7 +5,7 @@
 
 use super::parallel::Parallel;
 use crate::real::Real;
-use crate::simd::{Level, Proven, Task, Vector};
+use tigereye_simd::{Level, Proven, Task, Vector};
 use std::cmp::Ordering;
 use std::ops::Range;
 use std::sync::Mutex;

@@ -17,7 +17,7 @@ use super::dense::{Lanes, Packed, PackedSlice, Tiles, inverse_of_one_minus};
 use super::parallel::{Parallel, Serial};
 use crate::TransportError;
 use crate::real::Real;
-use crate::simd::{Level, Proven, Task, Vector};
+use tigereye_simd::{Level, Proven, Task, Vector};
 use std::ops::Range;
 use std::sync::{Mutex, OnceLock};
 use tigereye_core::{Cell, Grid};

@@ -1,6 +1,6 @@
 //! The history of Anderson mixing.
 
-use crate::number::Number;
+use tigereye_simd::Number;
 
 /// Number of remembered changes.
 pub(super) const DEPTH: usize = 3;

@@ -8,8 +8,8 @@
 //! sum over k four more.
 
 use crate::Scheme;
-use crate::number::Number;
-use crate::simd::Vector;
+use tigereye_simd::Number;
+use tigereye_simd::Vector;
 use core::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 /// One cell.

@@ -4,7 +4,7 @@ use super::PulseDistribution;
 use super::stream::{Medium, Stream};
 use crate::Stopping;
 use crate::scattering::Scattering;
-use crate::simd::Level;
+use tigereye_simd::Level;
 use crate::window::Window;
 use tigereye_core::Grid;
 

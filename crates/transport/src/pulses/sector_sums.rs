@@ -1,7 +1,7 @@
 //! The samples of a sector between two directions in symmetric pairs; [`super::difference`] has the derivation.
 
 use crate::Scheme;
-use crate::number::Number;
+use tigereye_simd::Number;
 use core::f64::consts::FRAC_1_SQRT_2;
 
 /// Two symmetric samples of a sector: `|v_i| + |v_{n-i}| = weight * max(|p_k + p_{k+1}|, ratio * |p_k - p_{k+1}|)`.

@@ -1,9 +1,9 @@
 //! N delta pulses of one cell, one in each lane.
 
 use crate::Scheme;
-use crate::number::Number;
+use tigereye_simd::Number;
 use crate::pulses::passage::{Passage, sum_of_eight};
-use crate::simd::Vector;
+use tigereye_simd::Vector;
 use tigereye_core::Cell;
 
 /// The pulses' own terms: each keeps one sample of the source cell at the value S.

@@ -17,8 +17,8 @@ use super::memory::{Lanes, Memory, Weights};
 use super::run::{Run, whole};
 use super::stream::{Lobes, Medium, Parity, Stream, load8, slot_mut};
 use crate::Real;
-use crate::number::Number;
-use crate::simd::Vector;
+use tigereye_simd::Number;
+use tigereye_simd::Vector;
 use tigereye_core::{Cell, Grid, Work};
 
 /// Number of pairs of sweeps between two mixings.

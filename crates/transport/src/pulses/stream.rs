@@ -17,12 +17,12 @@
 //! the rows.
 
 use crate::aligned::Aligned;
-use crate::number::Number;
+use tigereye_simd::Number;
 use crate::pulses::memory::Memory;
 use crate::pulses::passage::Passage;
 use crate::pulses::source::Source;
 use crate::pulses::walls::Walls;
-use crate::simd::Vector;
+use tigereye_simd::Vector;
 use crate::window::Window;
 use core::ops::Range;
 use tigereye_core::{Cell, Grid, NEIGHBOUR_OFFSETS};

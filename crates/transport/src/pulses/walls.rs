@@ -1,7 +1,7 @@
 //! Reflecting cells, in the form computed by the pulse lanes.
 
-use crate::number::Number;
-use crate::simd::Vector;
+use tigereye_simd::Number;
+use tigereye_simd::Vector;
 use tigereye_core::{Cell, Reflection, TransmissionField};
 
 /// All walls of a field.

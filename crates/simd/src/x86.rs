@@ -1,16 +1,16 @@
 //! Vectors in the registers of AVX2 and AVX-512.
 
-use super::vector::{HasAvx2, HasAvx512, Octet, Vector};
+use crate::vector::{HasAvx2, HasAvx512, Octet, Vector};
 use core::arch::x86_64::*;
 use core::ops::{Add, Div, Mul, Sub};
 
 /// One or two registers of AVX2.
 #[derive(Clone, Copy)]
-pub(crate) struct Avx2<R>(R);
+pub struct Avx2<R>(R);
 
 /// A register of AVX-512.
 #[derive(Clone, Copy)]
-pub(crate) struct Avx512<R>(R);
+pub struct Avx512<R>(R);
 
 /// A pointer to part `c` of width `W` of an array, which must have it.
 #[inline(always)]

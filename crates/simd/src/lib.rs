@@ -4,7 +4,7 @@
 //! mix: every level and every number of lanes gives the same bits. A processor without the instruction pays for it with
 //! a function call; all that have AVX2 in fact have it too.
 //!
-//! The crate's only `unsafe` is here and in `x86`. Its invariants:
+//! The project's only `unsafe` is here and in `x86`. Its invariants:
 //! - [`Level`]'s field cannot be set from outside, and [`Level::available`] lists a level only where the processor has
 //!   its instructions. So a function compiled for a level may be called once a `Level` says so.
 //! - A vector of a level is only made from that level's proof ([`HasAvx2`], [`HasAvx512`]), and a proof is only made
@@ -13,18 +13,19 @@
 //!   alignment. So they never leave them.
 #![allow(unsafe_code)]
 
+mod number;
 mod plain;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use crate::number::Number;
+pub use number::Number;
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::{__m256, __m256d, __m512, __m512d};
 use plain::Plain;
 #[cfg(target_arch = "x86_64")]
 use vector::{HasAvx2, HasAvx512};
-pub(crate) use vector::{Octet, Vector};
+pub use vector::{Octet, Vector};
 #[cfg(target_arch = "x86_64")]
 use x86::{Avx2, Avx512};
 
@@ -86,15 +87,21 @@ impl Level {
 }
 
 /// Vectors and octets of a number type at every level.
-pub(crate) trait Vectors: Number {
+pub trait Vectors: Number {
+    /// The vector of every processor.
     type Baseline: Vector<Number = Self, Proof = ()>;
+    /// The octet of every processor.
     type BaselineOctet: Octet<Number = Self, Proof = ()>;
+    /// The vector of AVX2.
     #[cfg(target_arch = "x86_64")]
     type Avx2: Vector<Number = Self, Proof = HasAvx2>;
+    /// The octet of AVX2.
     #[cfg(target_arch = "x86_64")]
     type Avx2Octet: Octet<Number = Self, Proof = HasAvx2>;
+    /// The vector of AVX-512.
     #[cfg(target_arch = "x86_64")]
     type Avx512: Vector<Number = Self, Proof = HasAvx512>;
+    /// The octet of AVX-512.
     #[cfg(target_arch = "x86_64")]
     type Avx512Octet: Octet<Number = Self, Proof: From<HasAvx512>>;
 }
@@ -126,7 +133,7 @@ impl Vectors for f32 {
 }
 
 /// A hot loop, written once for the vectors of every level.
-pub(crate) trait Task: Sized {
+pub trait Task: Sized {
     /// What it computes with.
     type Number: Vectors;
     /// What it gives.
@@ -161,7 +168,7 @@ impl<L: ArrayLoop> Task for Compiled<L> {
 }
 
 /// The vectors of a level, where the processor has its instructions.
-pub(crate) trait Proven<T>: Copy {
+pub trait Proven<T>: Copy {
     /// As wide as the level has them.
     type Vector: Vector<Number = T>;
     /// Eight numbers of the level.
@@ -224,7 +231,7 @@ impl Level {
     }
 
     /// Does a task with the widest vectors of this level that its lanes fill.
-    pub(crate) fn dispatch<K: Task>(self, task: K) -> K::Output {
+    pub fn dispatch<K: Task>(self, task: K) -> K::Output {
         #[cfg(target_arch = "x86_64")]
         #[target_feature(enable = "avx2,fma")]
         fn avx2<K: Task>(task: K) -> K::Output {

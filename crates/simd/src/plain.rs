@@ -1,12 +1,12 @@
 //! Vectors that every processor has: arrays.
 
-use super::vector::{Octet, Vector};
+use crate::vector::{Octet, Vector};
 use crate::number::Number;
 use core::ops::{Add, Div, Mul, Sub};
 
 /// The vector of every processor.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Plain<T, const W: usize>([T; W]);
+pub struct Plain<T, const W: usize>([T; W]);
 
 impl<T: Number, const W: usize> Plain<T, W> {
     #[inline(always)]

@@ -6,8 +6,8 @@ use core::ops::{Add, Div, Mul, Sub};
 /// Several numbers that are computed with at once.
 ///
 /// Methods of the wide vectors become single instructions only when inlined into a function compiled for their level:
-/// everything between [`Level::dispatch`](super::Level::dispatch) and them is `#[inline(always)]`.
-pub(crate) trait Vector:
+/// everything between [`Level::dispatch`](crate::Level::dispatch) and them is `#[inline(always)]`.
+pub trait Vector:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     /// What it holds.
@@ -33,7 +33,7 @@ pub(crate) trait Vector:
 }
 
 /// Eight numbers, one for each direction.
-pub(crate) trait Octet: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+pub trait Octet: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// What it holds.
     type Number: Number;
     /// Evidence that the processor has the instructions.
@@ -62,12 +62,12 @@ pub(crate) trait Octet: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Out
 /// Evidence of AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
 #[derive(Clone, Copy)]
-pub(crate) struct HasAvx2(pub(super) ());
+pub struct HasAvx2(pub(crate) ());
 
 /// Evidence of AVX-512 (foundation), AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
 #[derive(Clone, Copy)]
-pub(crate) struct HasAvx512(pub(super) ());
+pub struct HasAvx512(pub(crate) ());
 
 #[cfg(target_arch = "x86_64")]
 impl From<HasAvx512> for HasAvx2 {

@@ -434,12 +434,12 @@ mod tests {
         is_said(
             "x,y,u,v,status\n",
             &|x, y| format!("{x},{y},{x},1,0"),
-            "columns not read, whatever they say of the vectors: status",
+            "columns not read, even if they mark invalid vectors: status",
         );
         is_said(
             "",
             &|x, y| format!("{x} {y} {x} 1 0"),
-            "columns not read, whatever they say of the vectors: number 5",
+            "columns not read, even if they mark invalid vectors: number 5",
         );
         is_said(
             "x,y,u,v,mask\n",
@@ -476,7 +476,7 @@ mod tests {
         );
         refused(
             "0 0 3 4\n1 0 5 6\n2.5 0 1 1\n",
-            "line 2: x = 1 is off the lattice: expected positions in equal steps (of 1.25 in the mean)",
+            "line 2: x = 1 is off the lattice: expected positions in equal steps (of 1.25 on average)",
         );
         refused(
             "0 0 0 0\n1 1 0 0\n2 2 0 0\n3 3 0 0\n",
@@ -492,7 +492,7 @@ mod tests {
         let lattice = read(&table("", |x, y| format!("{x} {y} {x} {y} 0 {}", 3.0 + x))).unwrap();
         let said = [lattice.notes, lattice.remarks, lattice.warnings].concat().join("\n");
         assert!(!said.contains("left out") && said.contains("not read"), "{said}");
-        assert!(said.contains("whatever they say of the vectors: number 5, number 6"), "{said}");
+        assert!(said.contains("even if they mark invalid vectors: number 5, number 6"), "{said}");
     }
 
     /// A lattice column or row without any vector becomes missing nodes; all other nodes keep their positions.

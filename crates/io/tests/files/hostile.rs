@@ -89,7 +89,7 @@ fn messages_name_the_byte() {
     let data = file.iter().position(|&b| b == b'_').unwrap();
     // `byte_order` and `header_type` hold underscores too.
     let data = data + file[data..].windows(2).position(|w| w == b">_").unwrap() + 2;
-    let expected = format!("byte {data}: array `a` is cut off: expected 24 more bytes, 20 are there");
+    let expected = format!("byte {data}: array `a` is truncated: expected 24 more bytes, found 20");
     assert_eq!(vti::read(&file).unwrap_err().to_string(), expected);
 }
 

@@ -1,10 +1,15 @@
 //! Line integral convolution: noise smoothed along axes.
 
+#[cfg(test)]
+mod plain;
+mod smoothing;
+mod tracing;
+
 use crate::ftle::{MAX_SAMPLES_A_CELL, check_length, check_work};
 use crate::{Family, Interpolated, SamplingError, fine_grid};
-use core::f64::consts::PI;
-use rayon::prelude::*;
-use tigereye_core::{Cell, CellShape, Field, Grid, Point, SplitMix64, Vector, math};
+use smoothing::{Window, smoothed};
+use tigereye_core::{CellShape, Field, Grid, Point, SplitMix64, Vector};
+use tracing::Tracing;
 
 /// Options of a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,12 +40,8 @@ impl ConvolutionOptions {
 
 /// Steps per width of a sample.
 const STEPS_A_SAMPLE: f64 = 2.0;
-/// Tensors whose axes differ by less than this fraction of the longer one count as isotropic.
-const LEAST: f64 = 1e-3;
 /// Standard deviation of the texture's brightness about 1/2.
 const CONTRAST: f64 = 0.2;
-/// A line ends if its direction changes by more than 60 degrees within a step, so that the cosine falls below this.
-const LEAST_COSINE: f64 = 0.5;
 
 /// White noise, uniform in [0, 1), convolved along an axis with a Hann window (Cabral and Leedom, Imaging vector fields
 /// using line integral convolution, 1993), at samples finer than the cells ([`fine_grid`]). Lines end at the border and
@@ -57,9 +58,9 @@ pub fn convolved(
 ) -> Result<Field<f64>, SamplingError> {
     let (grid, step) = sampled(field, options)?;
     let noise = noise(grid, options.seed);
-    let walk = Walk { field, family, straight: None, step, samples: per_cell(field, options) };
-    let length = |_: Point| options.half_length;
-    Ok(rescaled(smoothed(&noise, &walk, &length)))
+    let tracing = Tracing { field, family, straight: None, step, samples: per_cell(field, options) };
+    let window = Window { longest: options.half_length, at: &|_| options.half_length };
+    Ok(rescaled(smoothed(&noise, &tracing, &window)))
 }
 
 /// Noise convolved along both axes, in proportion to their lengths: over `half_length` along the longer semi-axis (or
@@ -79,14 +80,16 @@ pub fn hyper_convolved(
     for (family, straight) in
         [(Family::Minor, Vector::new(0.0, -1.0)), (Family::Major, Vector::new(1.0, 0.0))]
     {
-        let walk = Walk { field, family, straight: Some(straight), step, samples: per_cell(field, options) };
+        let tracing =
+            Tracing { field, family, straight: Some(straight), step, samples: per_cell(field, options) };
         let length = |at: Point| {
             let Some(frame) = field.frame(at, 0.0) else { return options.half_length };
             let [own, other] = [family as usize, 1 - family as usize].map(|i| frame.values[i].abs());
             let longer = own.max(other);
             if longer > 0.0 { options.half_length * own / longer } else { 0.0 }
         };
-        texture = smoothed(&texture, &walk, &length);
+        let window = Window { longest: options.half_length, at: &length };
+        texture = smoothed(&texture, &tracing, &window);
     }
     Ok(rescaled(texture))
 }
@@ -113,83 +116,6 @@ fn noise(grid: Grid, seed: u64) -> Field<f64> {
     })
 }
 
-struct Walk<'a> {
-    field: &'a Interpolated<'a>,
-    family: Family,
-    /// The direction to take where the axis is undefined; without it, lines end there.
-    straight: Option<Vector>,
-    step: f64,
-    /// Samples per cell along x and y.
-    samples: [f64; 2],
-}
-
-impl Walk<'_> {
-    fn direction(&self, at: Point) -> Option<Vector> {
-        let found = self.field.direction(at, self.family, LEAST);
-        found.or_else(|| self.straight.filter(|_| self.field.at(at).is_some_and(|t| !t.is_zero())))
-    }
-
-    /// A step of the midpoint rule: the next point, and the direction there.
-    fn next(&self, at: Point, towards: Vector) -> Option<(Point, Vector)> {
-        let half = self.field.cell().ahead(at, towards, 0.5 * self.step);
-        let middle = along(self.direction(half)?, towards)?;
-        let to = self.field.cell().ahead(at, middle, self.step);
-        Some((to, along(self.direction(to)?, middle)?))
-    }
-
-    /// The sample nearest to a point.
-    fn sample(&self, texture: &Field<f64>, at: Point) -> f64 {
-        let grid = texture.grid();
-        let index = |v: f64, samples: f64, n: usize| ((v * samples).round().max(0.0) as usize).min(n - 1);
-        let [per_x, per_y] = self.samples;
-        *texture.at(Cell::new(index(at.x, per_x, grid.width()), index(at.y, per_y, grid.height())))
-    }
-}
-
-/// An axis with the sign that agrees with a direction; `None` if they differ by more than 60 degrees.
-fn along(d: Vector, towards: Vector) -> Option<Vector> {
-    let cosine = d.dot(towards);
-    if cosine.abs() < LEAST_COSINE {
-        return None;
-    }
-    Some(if cosine < 0.0 { -d } else { d })
-}
-
-/// The texture averaged along the lines through its samples, over `length` of each sample to both sides.
-fn smoothed(texture: &Field<f64>, walk: &Walk<'_>, length: &(dyn Fn(Point) -> f64 + Sync)) -> Field<f64> {
-    let grid = texture.grid();
-    let value = |i: usize| {
-        let cell = grid.cell(i);
-        let own = texture.values()[i];
-        let at = Point::new(cell.x as f64 / walk.samples[0], cell.y as f64 / walk.samples[1]);
-        match walk.field.at(at) {
-            Some(t) if !t.is_zero() => {}
-            _ => return f64::NAN,
-        }
-        let Some(start) = walk.direction(at) else { return own };
-        let half = length(at);
-        let steps = (half / walk.step) as usize;
-        let (mut sum, mut weights) = (own, 1.0);
-        for start in [start, -start] {
-            let (mut p, mut d) = (at, start);
-            for k in 1..=steps {
-                let Some((to, direction)) = walk.next(p, d) else { break };
-                (p, d) = (to, direction);
-                let sample = walk.sample(texture, p);
-                if sample.is_nan() {
-                    break;
-                }
-                let weight = 0.5 * (1.0 + math::cos(PI * k as f64 * walk.step / half));
-                sum += weight * sample;
-                weights += weight;
-            }
-        }
-        sum / weights
-    };
-    let values: Vec<f64> = (0..grid.cells()).into_par_iter().map(value).collect();
-    Field::from_fn(grid, |c| values[grid.index(c)])
-}
-
 /// Brightness rescaled to the usual mean and deviation.
 fn rescaled(texture: Field<f64>) -> Field<f64> {
     let finite = || texture.values().iter().copied().filter(|v| v.is_finite());
@@ -203,7 +129,8 @@ fn rescaled(texture: Field<f64>) -> Field<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tigereye_core::Tensor2;
+    use core::f64::consts::PI;
+    use tigereye_core::{Cell, Tensor2, math};
 
     fn field(size: [usize; 2], t: impl Fn(f64, f64) -> Tensor2) -> Field<Tensor2> {
         Field::from_fn(Grid::new(size[0], size[1]).expect("a size"), |c| t(c.x as f64, c.y as f64))
@@ -239,10 +166,10 @@ mod tests {
         let tensors = field([20, 6], |_, _| Tensor2::from_axes(0.0, 2.0, 1.0));
         let between = Interpolated::new(&tensors);
         let (half, samples) = (3.0, 2);
-        let walk =
-            Walk { field: &between, family: Family::Major, straight: None, step: 0.25, samples: [2.0; 2] };
+        let tracing =
+            Tracing { field: &between, family: Family::Major, straight: None, step: 0.25, samples: [2.0; 2] };
         let noise = noise(fine_grid(tensors.grid(), [samples; 2]).expect("samples"), 3);
-        let found = smoothed(&noise, &walk, &|_| half);
+        let found = smoothed(&noise, &tracing, &Window { longest: half, at: &|_| half });
         let grid = noise.grid();
         for cell in grid.iter() {
             let (mut sum, mut weights) = (0.0, 0.0);
@@ -258,6 +185,54 @@ mod tests {
                 }
             }
             assert!((found.at(cell) - sum / weights).abs() < 1e-12, "{cell:?}");
+        }
+    }
+
+    /// Correlation of two textures, and the ratio of their deviations, over the samples that both have.
+    fn likeness(a: &Field<f64>, b: &Field<f64>) -> [f64; 2] {
+        let pairs = || a.values().iter().zip(b.values()).filter(|(a, b)| a.is_finite() && b.is_finite());
+        let n = pairs().count() as f64;
+        let mean_of = |of: &dyn Fn(f64, f64) -> f64| pairs().map(|(a, b)| of(*a, *b)).sum::<f64>() / n;
+        let (ma, mb) = (mean_of(&|a, _| a), mean_of(&|_, b| b));
+        let [aa, bb] = [mean_of(&|a, _| (a - ma) * (a - ma)), mean_of(&|_, b| (b - mb) * (b - mb))];
+        let ab = mean_of(&|a, b| (a - ma) * (b - mb));
+        [ab / (aa * bb).sqrt(), (aa / bb).sqrt()]
+    }
+
+    /// Interpolated lines give the texture of lines of one's own: the same samples and holes, nearly the same values; on
+    /// fields with degenerate points, with holes, with zero tensors, and on oblong cells.
+    #[test]
+    fn textures_equal_those_of_a_line_for_every_sample() {
+        use tigereye_test_support::field as generated;
+        let mut holes = generated("inverse:size=31");
+        for (i, t) in [(200, Tensor2::isotropic(f64::NAN)), (700, Tensor2::ZERO)] {
+            holes.values_mut()[i] = t;
+        }
+        let fields = [generated("inverse:size=41"), generated("double_gyre"), generated("kirsch"), holes];
+        for (n, tensors) in fields.iter().enumerate() {
+            for axes in [crate::Axes::HalfAxes, crate::Axes::Eigenvectors] {
+                let cell = CellShape::of([1.0, if n == 0 { 1.5 } else { 1.0 }]);
+                let between = Interpolated::new(tensors).with_axes(axes).with_cell(cell);
+                for straight in [None, Some(Vector::new(1.0, 0.0))] {
+                    let options = options(5.0, 4);
+                    let samples = per_cell(&between, &options);
+                    let family = if n == 1 { Family::Minor } else { Family::Major };
+                    let tracing = Tracing { field: &between, family, straight, step: 0.125, samples };
+                    let noise = noise(
+                        fine_grid(tensors.grid(), samples.map(|s| s as usize)).expect("samples"),
+                        3,
+                    );
+                    let at = |p: Point| if straight.is_some() { 2.0 + 0.05 * p.x } else { 5.0 };
+                    let longest = if straight.is_some() { 6.0 } else { 5.0 };
+                    let window = Window { longest, at: &at };
+                    let (found, plain) =
+                        (smoothed(&noise, &tracing, &window), plain::smoothed(&noise, &tracing, &window));
+                    let is_there = |f: &Field<f64>| f.values().iter().map(|v| v.is_nan()).collect::<Vec<_>>();
+                    assert_eq!(is_there(&found), is_there(&plain), "{n}");
+                    let [correlation, spread] = likeness(&found, &plain);
+                    assert!(correlation > 0.99 && (spread - 1.0).abs() < 0.01, "{n}: {correlation} {spread}");
+                }
+            }
         }
     }
 

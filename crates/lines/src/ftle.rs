@@ -1,10 +1,13 @@
 //! The finite-time Lyapunov exponent of tensor lines.
 
 use crate::flow_map::{exponent_of, gradient_at};
-use crate::{Family, Interpolated, LineEnd, LineOptions, half_line_end};
+use crate::lanes::ends_of_lines;
+use crate::walk::Walk;
+use crate::{Family, Interpolated, LineEnd, LineOptions};
 use rayon::prelude::*;
 use thiserror::Error;
 use tigereye_core::{Cell, CellShape, Field, Grid, PhysicalPoint, Point, Vector};
+use tigereye_simd::Level;
 
 /// How the exponent is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,16 +150,27 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
         least_anisotropy: options.least_anisotropy,
         ..LineOptions::default()
     };
-    let start = |cell: Cell| {
-        let at = Point::new(cell.x as f64 / samples, cell.y as f64 / samples);
-        let direction = field.direction(at, family, options.least_anisotropy)?;
-        let ends = [direction, -direction].map(|towards| {
-            let (end, why) = half_line_end(field, at, towards, family, &follow);
-            (why != LineEnd::Border).then(|| field.cell().physical(end))
+    let walk = Walk { field, family, options: &follow };
+    let level = Level::detect();
+    let row = |y: usize| {
+        let at = |x: usize| Point::new(x as f64 / samples, y as f64 / samples);
+        let directions: Vec<Option<Vector>> = (0..grid.width())
+            .map(|x| field.direction(at(x), family, options.least_anisotropy))
+            .collect();
+        let lines: Vec<(Point, Vector)> = directions
+            .iter()
+            .enumerate()
+            .flat_map(|(x, d)| d.iter().flat_map(move |&d| [d, -d].map(|d| (at(x), d))))
+            .collect();
+        let ends = ends_of_lines(&walk, &lines, level);
+        let mut ends = ends.chunks_exact(2).map(|both| {
+            [both[0], both[1]].map(|(end, why)| (why != LineEnd::Border).then(|| field.cell().physical(end)))
         });
-        Some(Start { direction, ends })
+        let mut start = |direction| Some(Start { direction, ends: ends.next()? });
+        directions.into_iter().map(|d| d.and_then(&mut start)).collect::<Vec<_>>()
     };
-    let starts: Vec<Option<Start>> = (0..grid.cells()).into_par_iter().map(|i| start(grid.cell(i))).collect();
+    let starts: Vec<Option<Start>> =
+        (0..grid.height()).into_par_iter().flat_map_iter(row).collect();
     let both: Vec<[f64; 2]> = (0..grid.cells())
         .into_par_iter()
         .map(|i| both_exponents(grid.cell(i), grid, &starts, (field.cell(), options)))

@@ -1,7 +1,8 @@
 //! Tensors and their axes between the centres of cells.
 
+use crate::slope::{self, Numbers};
 use crate::{Axes, Family, Frame, OrderedAxes};
-use tigereye_core::{CellShape, Field, Point, Svd, Tensor2, Vector, bilinear};
+use tigereye_core::{CellShape, Field, Grid, Point, Svd, Tensor2, Vector, bilinear};
 
 /// The symmetric tensor with the same ellipse for every cell: `U S U^T` for a tensor `U S V^T`, its left stretch
 /// tensor. Light depends only on the ellipse. Asymmetric tensors should be interpolated in this form: their own
@@ -35,6 +36,68 @@ pub fn signed_ellipse_tensors(field: &Field<Tensor2>) -> Field<Tensor2> {
 /// Largest distance outside the field, in cells, at which a point still counts as on the border: rounding moves a line
 /// along the border by some 1e-16 of the coordinate per step.
 const ROUNDING: f64 = 1e-9;
+
+/// Where points lie among the cells of a grid, without branches.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Within {
+    /// Coordinates of the last cell.
+    last: [f64; 2],
+    /// Column and row of the last square between four cells.
+    last_square: [i32; 2],
+    width: usize,
+    /// Distances in memory to the next column and row; 0 on a grid one cell wide or high, where cells repeat.
+    next: [usize; 2],
+}
+
+/// A point within the square of four cells.
+pub(crate) struct Place {
+    /// Index of the square's upper left cell.
+    pub(crate) square: usize,
+    /// The part of the way to the next column and row.
+    pub(crate) weights: [f64; 2],
+    /// Whether the point lies in the field, up to rounding.
+    pub(crate) is_inside: bool,
+}
+
+impl Within {
+    #[inline(always)]
+    pub(crate) fn new(grid: Grid) -> Self {
+        let [width, height] = [grid.width(), grid.height()];
+        Self {
+            last: [(width - 1) as f64, (height - 1) as f64],
+            last_square: [width, height].map(|n| n.saturating_sub(2) as i32),
+            width,
+            next: [usize::from(width > 1), if height > 1 { width } else { 0 }],
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn place(&self, x: f64, y: f64) -> Place {
+        let is_within = |v: f64, last: f64| (v >= -ROUNDING) & (v <= last + ROUNDING);
+        let is_inside = is_within(x, self.last[0]) & is_within(y, self.last[1]);
+        let along = |v: f64, last: f64, last_square: i32| {
+            let v = v.max(0.0).min(last);
+            let before = (v as i32).min(last_square);
+            (before, v - f64::from(before))
+        };
+        let (i, u) = along(x, self.last[0], self.last_square[0]);
+        let (j, v) = along(y, self.last[1], self.last_square[1]);
+        Place { square: j as usize * self.width + i as usize, weights: [u, v], is_inside }
+    }
+
+    /// The four cells of a square: upper left, upper right, lower left, lower right.
+    #[inline(always)]
+    pub(crate) fn corners(&self, square: usize) -> [usize; 4] {
+        let [right, down] = self.next;
+        [square, square + right, square + down, square + right + down]
+    }
+}
+
+/// The bilinear mean of the values at the corners of a square.
+#[inline(always)]
+pub(crate) fn weighted([u, v]: [f64; 2], [a, b, c, d]: [f64; 4]) -> f64 {
+    (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * c + u * d)
+}
 
 /// A tensor field interpolated between its cells.
 #[derive(Clone, Copy, Debug)]
@@ -105,6 +168,18 @@ impl<'a> Interpolated<'a> {
         t.is_finite().then_some(t)
     }
 
+    /// The numbers `E` and `F` at a point, as [`Self::at`] has the tensor; `None` outside the field. They are not finite
+    /// where one of the four cells is not.
+    #[inline(always)]
+    pub(crate) fn numbers(&self, p: Point) -> Option<Numbers> {
+        let within = Within::new(self.field.grid());
+        let Place { square, weights, is_inside } = within.place(p.x, p.y);
+        is_inside.then(|| {
+            let corners = within.corners(square).map(|i| slope::numbers(&self.field.values()[i]));
+            core::array::from_fn(|n| weighted(weights, corners.map(|c| c[n])))
+        })
+    }
+
     /// The axes at a point (see [`Axes::of`] for `least`); `None` as for [`Self::at`], and where the
     /// tensor is degenerate.
     #[must_use]
@@ -123,7 +198,7 @@ impl<'a> Interpolated<'a> {
 mod tests {
     use super::*;
     use crate::Major;
-    use tigereye_core::{Cell, Grid, math, quarter_turned};
+    use tigereye_core::{Cell, math, quarter_turned};
 
     #[test]
     fn bilinear_components_are_reproduced() {

@@ -106,15 +106,7 @@ pub fn half_line_end(
     if !options.are_possible() {
         return (start, LineEnd::Length);
     }
-    let mut line = match walk.begin(start, direction) {
-        Ok(line) => line,
-        Err(end) => return (start, end),
-    };
-    loop {
-        if let Err(end) = walk.advance(&mut line) {
-            return (line.pose().at, end);
-        }
-    }
+    walk.end_of(start, direction)
 }
 
 /// The part of a line on one side of its seed.

@@ -5,10 +5,10 @@ use tigereye_core::{Point, Vector, length};
 
 /// The direction may change by at most 30 degrees from one stage of a step to the next, which fourth order follows
 /// well: its cosine must not fall below this.
-const LEAST_COSINE: f64 = 0.866;
+pub(crate) const LEAST_COSINE: f64 = 0.866;
 /// Least fraction of the contrast that remains after a step. Contrast grows linearly with the distance from a
 /// degenerate point, so a step of up to a cell that keeps half of it does not jump across the point.
-const LEAST_LEFT: f64 = 0.5;
+pub(crate) const LEAST_LEFT: f64 = 0.5;
 /// A step that would leave the field, is not accurate enough or comes too close to a degenerate point is halved, down
 /// to this fraction of the longest one.
 const SHORTEST: f64 = 1.0 / 65536.0;
@@ -49,12 +49,13 @@ impl Progress {
 }
 
 /// The result of a step.
-struct Step {
-    pose: Pose,
+#[derive(Clone, Copy)]
+pub(crate) struct Step {
+    pub(crate) pose: Pose,
     /// Least contrast of its stages.
-    least: f64,
+    pub(crate) least: f64,
     /// Difference of the two orders, relative to the tolerance.
-    error: f64,
+    pub(crate) error: f64,
 }
 
 /// A direction, and the contrast of the axes there.
@@ -83,29 +84,67 @@ impl Walk<'_> {
 
     /// Advances a line by one step.
     pub(crate) fn advance(&self, line: &mut Progress) -> Result<(), LineEnd> {
-        let left = self.options.length - line.gone;
-        // A remainder from rounding of the sum is not worth a step; nor is a NaN.
-        if left.is_nan() || left <= 1e-9 * self.options.step {
-            return Err(LineEnd::Length);
-        }
-        let mut length = line.step.min(left);
+        let mut length = f64::NAN;
         loop {
-            line.tries += 1.0;
-            if line.tries > self.most_tries() {
-                return Err(LineEnd::Degenerate);
-            }
-            let is_shortest = 0.5 * length < self.shortest();
+            length = self.attempt(line, length)?;
             match self.step(line.pose, length) {
                 // If even the shortest step misses the tolerance, the cause is rounding or a kink between cells.
-                Ok(made) if made.error <= 1.0 || is_shortest => {
-                    line.pose = made.pose;
-                    line.gone += length;
-                    line.step = self.next(length, made.error, line.shortened);
-                    line.shortened = false;
+                Ok(made) if made.error <= 1.0 || self.is_shortest(length) => {
+                    self.arrive(line, made, length);
                     return Ok(());
                 }
-                Err(end) if is_shortest => return Err(end),
-                _ => (length, line.shortened) = (0.5 * length, true),
+                Err(end) if self.is_shortest(length) => return Err(end),
+                _ => length = self.shortened(line, length),
+            }
+        }
+    }
+
+    /// The length of the next trial step: `length`, or that of a new step if it is NaN.
+    #[inline(always)]
+    pub(crate) fn attempt(&self, line: &mut Progress, mut length: f64) -> Result<f64, LineEnd> {
+        if length.is_nan() {
+            let left = self.options.length - line.gone;
+            // A remainder from rounding of the sum is not worth a step; nor is a NaN.
+            if left.is_nan() || left <= 1e-9 * self.options.step {
+                return Err(LineEnd::Length);
+            }
+            length = line.step.min(left);
+        }
+        line.tries += 1.0;
+        if line.tries > self.most_tries() { Err(LineEnd::Degenerate) } else { Ok(length) }
+    }
+
+    /// Whether half a step would be too short.
+    #[inline(always)]
+    pub(crate) fn is_shortest(&self, length: f64) -> bool {
+        0.5 * length < self.shortest()
+    }
+
+    /// Takes a step of a length.
+    #[inline(always)]
+    pub(crate) fn arrive(&self, line: &mut Progress, made: Step, length: f64) {
+        line.pose = made.pose;
+        line.gone += length;
+        line.step = self.next(length, made.error, line.shortened);
+        line.shortened = false;
+    }
+
+    /// The next length to try after one that was rejected.
+    #[inline(always)]
+    pub(crate) fn shortened(&self, line: &mut Progress, length: f64) -> f64 {
+        line.shortened = true;
+        0.5 * length
+    }
+
+    /// Where the line from a point ends, and why.
+    pub(crate) fn end_of(&self, at: Point, towards: Vector) -> (Point, LineEnd) {
+        let mut line = match self.begin(at, towards) {
+            Ok(line) => line,
+            Err(end) => return (at, end),
+        };
+        loop {
+            if let Err(end) = self.advance(&mut line) {
+                return (line.pose().at, end);
             }
         }
     }
@@ -138,7 +177,25 @@ impl Walk<'_> {
     }
 
     /// The direction of a line at a point, for the incoming direction `towards`.
-    fn slope(&self, at: Point, towards: Vector) -> Result<Slope, LineEnd> {
+    pub(crate) fn slope(&self, at: Point, towards: Vector) -> Result<Slope, LineEnd> {
+        if self.options.inertia.is_none()
+            && let Some(numbers) = self.field.numbers(at)
+            && let Some(found) = self.field.axes().slope(numbers, self.family, towards.into())
+        {
+            let least = self.field.axes().least_contrast(self.options.least_anisotropy);
+            let is_distinct = found.contrast > least * found.longer;
+            let is_sharp = found.cosine2 < LEAST_COSINE * LEAST_COSINE;
+            return if is_distinct && !is_sharp {
+                Ok((found.along.into(), found.contrast))
+            } else {
+                Err(LineEnd::Degenerate)
+            };
+        }
+        self.slope_of_any(at, towards)
+    }
+
+    /// The same for tensors of any size, and for lines with inertia.
+    fn slope_of_any(&self, at: Point, towards: Vector) -> Result<Slope, LineEnd> {
         let least = if self.options.inertia.is_some() { 0.0 } else { self.options.least_anisotropy };
         let Some(frame) = self.field.frame(at, least) else {
             return match (self.field.at(at), self.options.inertia) {

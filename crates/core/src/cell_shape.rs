@@ -12,6 +12,8 @@ const SQUARE: f64 = 1e-6;
 pub struct CellShape {
     /// Along x and y, the smaller one 1.
     sides: [f64; 2],
+    /// Cells per unit of length along x and y.
+    per_unit: [f64; 2],
 }
 
 impl Default for CellShape {
@@ -22,7 +24,7 @@ impl Default for CellShape {
 
 impl CellShape {
     /// Cells as high as they are wide.
-    pub const SQUARE: Self = Self { sides: [1.0; 2] };
+    pub const SQUARE: Self = Self { sides: [1.0; 2], per_unit: [1.0; 2] };
 
     /// Shape of cells at distances `spacing` along x and y, in any unit and of either sign; a square where a distance
     /// is zero or not finite.
@@ -33,13 +35,19 @@ impl CellShape {
         let sides = [dx / smaller, dy / smaller];
         let is_possible = smaller > 0.0 && sides.iter().all(|s| s.is_finite());
         let differ = sides[0].max(sides[1]) - 1.0 > SQUARE;
-        if is_possible && differ { Self { sides } } else { Self::SQUARE }
+        if is_possible && differ { Self { sides, per_unit: sides.map(f64::recip) } } else { Self::SQUARE }
     }
 
     /// The sides along x and y, the smaller one 1.
     #[must_use]
     pub const fn sides(self) -> [f64; 2] {
         self.sides
+    }
+
+    /// Cells per unit of length along x and y.
+    #[must_use]
+    pub const fn per_unit(self) -> [f64; 2] {
+        self.per_unit
     }
 
     /// The physical position of a point in cells.
@@ -57,8 +65,8 @@ impl CellShape {
     /// The point at `length` times a direction from another.
     #[must_use]
     pub fn ahead(self, from: Point, direction: Vector, length: f64) -> Point {
-        let [width, height] = self.sides;
-        Point::new(from.x + length * direction.x / width, from.y - length * direction.y / height)
+        let [across, down] = self.per_unit;
+        Point::new(from.x + length * direction.x * across, from.y - length * direction.y * down)
     }
 
     /// Length of a line through points in cells.

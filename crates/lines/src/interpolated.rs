@@ -54,7 +54,7 @@ pub(crate) struct Place {
     /// Index of the square's upper left cell.
     pub(crate) square: usize,
     /// The part of the way to the next column and row.
-    pub(crate) weights: [f64; 2],
+    pub(crate) parts: [f64; 2],
     /// Whether the point lies in the field, up to rounding.
     pub(crate) is_inside: bool,
 }
@@ -82,7 +82,7 @@ impl Within {
         };
         let (i, u) = along(x, self.last[0], self.last_square[0]);
         let (j, v) = along(y, self.last[1], self.last_square[1]);
-        Place { square: j as usize * self.width + i as usize, weights: [u, v], is_inside }
+        Place { square: j as usize * self.width + i as usize, parts: [u, v], is_inside }
     }
 
     /// The four cells of a square: upper left, upper right, lower left, lower right.
@@ -93,10 +93,17 @@ impl Within {
     }
 }
 
-/// The bilinear mean of the values at the corners of a square.
+/// The bilinear polynomial with given values at the corners of a square: 1, u, v and u v, where u and v are the parts of
+/// the way to the next column and row.
 #[inline(always)]
-pub(crate) fn weighted([u, v]: [f64; 2], [a, b, c, d]: [f64; 4]) -> f64 {
-    (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * c + u * d)
+pub(crate) fn polynomial([a, b, c, d]: [f64; 4]) -> [f64; 4] {
+    [a, b - a, c - a, (d - c) - (b - a)]
+}
+
+/// The value of such a polynomial.
+#[inline(always)]
+pub(crate) fn evaluated([one, along_u, along_v, along_both]: [f64; 4], [u, v]: [f64; 2]) -> f64 {
+    (one + along_u * u) + (along_v + along_both * u) * v
 }
 
 /// A tensor field interpolated between its cells.
@@ -105,13 +112,15 @@ pub struct Interpolated<'a> {
     field: &'a Field<Tensor2>,
     axes: OrderedAxes,
     cell: CellShape,
+    is_symmetric: bool,
 }
 
 impl<'a> Interpolated<'a> {
     /// Tensors between the centres of the square cells of `field`, and their semi-axes, the longer one major.
     #[must_use]
     pub fn new(field: &'a Field<Tensor2>) -> Self {
-        Self { field, axes: Axes::HalfAxes.into(), cell: CellShape::SQUARE }
+        let is_symmetric = field.values().iter().all(|t| t.xy() == t.yx() || !t.is_finite());
+        Self { field, axes: Axes::HalfAxes.into(), cell: CellShape::SQUARE, is_symmetric }
     }
 
     /// The same field with other axes, in their usual order or in another ([`Axes::by`]).
@@ -136,6 +145,11 @@ impl<'a> Interpolated<'a> {
     #[must_use]
     pub const fn cell(&self) -> CellShape {
         self.cell
+    }
+
+    /// Whether all finite tensors are symmetric, to the last bit.
+    pub(crate) const fn is_symmetric(&self) -> bool {
+        self.is_symmetric
     }
 
     /// The field.
@@ -173,10 +187,10 @@ impl<'a> Interpolated<'a> {
     #[inline(always)]
     pub(crate) fn numbers(&self, p: Point) -> Option<Numbers> {
         let within = Within::new(self.field.grid());
-        let Place { square, weights, is_inside } = within.place(p.x, p.y);
+        let Place { square, parts, is_inside } = within.place(p.x, p.y);
         is_inside.then(|| {
             let corners = within.corners(square).map(|i| slope::numbers(&self.field.values()[i]));
-            core::array::from_fn(|n| weighted(weights, corners.map(|c| c[n])))
+            core::array::from_fn(|n| evaluated(polynomial(corners.map(|c| c[n])), parts))
         })
     }
 

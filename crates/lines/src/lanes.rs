@@ -5,9 +5,9 @@
 //! the same bits, whichever lines run beside it and whatever the instruction set. Whatever is unusual (a border, a
 //! degenerate point, a sharp bend, numbers of extreme size) is left to the single line.
 
-use crate::interpolated::{Place, Within, weighted};
+use crate::interpolated::{Place, Within, evaluated, polynomial};
 use crate::slope::{self, Rule, Slope, WithRule};
-use crate::walk::{LEAST_COSINE, LEAST_LEFT, Progress, Walk};
+use crate::walk::{LEAST_COSINE, LEAST_LEFT, Pose, Progress, Step, Walk};
 use crate::{Interpolated, LineEnd, Method};
 use tigereye_core::{Point, Vector};
 use tigereye_simd::{ArrayLoop, Level};
@@ -60,6 +60,8 @@ pub(crate) struct Slopes {
     pub(crate) contrast: Lanes,
     /// Why there is none.
     pub(crate) ends: [Option<LineEnd>; LANES],
+    /// Whether there is none for some line.
+    pub(crate) is_ended: bool,
 }
 
 /// The squares between cells in which the lines are, kept from one step to the next.
@@ -67,8 +69,8 @@ pub(crate) struct Beside<'a, D> {
     pub(crate) directions: &'a D,
     within: Within,
     square: [usize; LANES],
-    /// `E` and `F` at the four corners of each square.
-    corners: [[Lanes; 4]; 4],
+    /// The polynomials of `E` and `F` in each square.
+    polynomials: [[Lanes; 4]; 4],
     least: f64,
     least_cosine2: f64,
     sign: f64,
@@ -81,7 +83,7 @@ impl<'a, D: Directions> Beside<'a, D> {
             directions,
             within: Within::new(directions.field().field().grid()),
             square: [usize::MAX; LANES],
-            corners: [[[0.0; LANES]; 4]; 4],
+            polynomials: [[[0.0; LANES]; 4]; 4],
             least,
             least_cosine2,
             sign: directions.sign(),
@@ -90,13 +92,13 @@ impl<'a, D: Directions> Beside<'a, D> {
 
     /// The directions at points, for the incoming directions `towards`.
     #[inline(always)]
-    pub(crate) fn slopes<R: Rule>(&mut self, at: &Pairs, towards: &Pairs) -> Slopes {
-        let mut weights: Pairs = [[0.0; LANES]; 2];
+    pub(crate) fn slopes<R: Rule, const SYMMETRIC: bool>(&mut self, at: &Pairs, towards: &Pairs) -> Slopes {
+        let mut parts: Pairs = [[0.0; LANES]; 2];
         let mut squares = [0; LANES];
         let mut is_fine = [false; LANES];
         for l in 0..LANES {
-            let Place { square, weights: [u, v], is_inside } = self.within.place(at[0][l], at[1][l]);
-            (weights[0][l], weights[1][l]) = (u, v);
+            let Place { square, parts: [u, v], is_inside } = self.within.place(at[0][l], at[1][l]);
+            (parts[0][l], parts[1][l]) = (u, v);
             squares[l] = square;
             is_fine[l] = is_inside;
         }
@@ -106,17 +108,19 @@ impl<'a, D: Directions> Beside<'a, D> {
         let mut along: Pairs = [[0.0; LANES]; 2];
         let mut contrast = [0.0; LANES];
         for l in 0..LANES {
-            let numbers = core::array::from_fn(|n| {
-                weighted([weights[0][l], weights[1][l]], core::array::from_fn(|c| self.corners[n][c][l]))
-            });
-            let found: Slope = slope::slope::<R>(numbers, self.sign, [towards[0][l], towards[1][l]]);
+            let of = |n: usize| {
+                evaluated(core::array::from_fn(|c| self.polynomials[n][c][l]), [parts[0][l], parts[1][l]])
+            };
+            let numbers = [of(0), of(1), of(2), if SYMMETRIC { 0.0 } else { of(3) }];
+            let found: Slope =
+                slope::slope::<R, SYMMETRIC>(numbers, self.sign, [towards[0][l], towards[1][l]]);
             (along[0][l], along[1][l]) = (found.along[0], found.along[1]);
             contrast[l] = found.contrast;
             is_fine[l] &= found.is_usual()
                 & (found.contrast > self.least * found.longer)
-                & (found.cosine2 >= self.least_cosine2);
+                & found.bends_at_most(self.least_cosine2);
         }
-        let mut slopes = Slopes { along, contrast, ends: [None; LANES] };
+        let mut slopes = Slopes { along, contrast, ends: [None; LANES], is_ended: false };
         if is_fine != [true; LANES] {
             self.decide(is_fine, at, towards, &mut slopes);
         }
@@ -132,9 +136,10 @@ impl<'a, D: Directions> Beside<'a, D> {
                 continue;
             }
             self.square[l] = squares[l];
-            for (c, i) in self.within.corners(squares[l]).into_iter().enumerate() {
-                for (n, number) in slope::numbers(&values[i]).into_iter().enumerate() {
-                    self.corners[n][c][l] = number;
+            let corners = self.within.corners(squares[l]).map(|i| slope::numbers(&values[i]));
+            for n in 0..4 {
+                for (c, number) in polynomial(corners.map(|of| of[n])).into_iter().enumerate() {
+                    self.polynomials[n][c][l] = number;
                 }
             }
         }
@@ -153,6 +158,7 @@ impl<'a, D: Directions> Beside<'a, D> {
                 Err(end) => {
                     (slopes.along[0][l], slopes.along[1][l]) = (towards.x, towards.y);
                     slopes.ends[l] = Some(end);
+                    slopes.is_ended = true;
                 }
             }
         }
@@ -161,11 +167,11 @@ impl<'a, D: Directions> Beside<'a, D> {
     /// The points at `lengths` times directions from others, as [`tigereye_core::CellShape::ahead`] has them.
     #[inline(always)]
     pub(crate) fn ahead(&self, from: &Pairs, directions: &Pairs, lengths: &Lanes) -> Pairs {
-        let [width, height] = self.directions.field().cell().sides();
+        let [across, down] = self.directions.field().cell().per_unit();
         let mut to: Pairs = [[0.0; LANES]; 2];
         for l in 0..LANES {
-            to[0][l] = from[0][l] + lengths[l] * directions[0][l] / width;
-            to[1][l] = from[1][l] - lengths[l] * directions[1][l] / height;
+            to[0][l] = from[0][l] + lengths[l] * directions[0][l] * across;
+            to[1][l] = from[1][l] - lengths[l] * directions[1][l] * down;
         }
         to
     }
@@ -190,18 +196,23 @@ impl WithRule for Ends<'_> {
 
     fn with<R: Rule>(self) -> Self::Output {
         let (level, walk, starts) = (self.level, self.walk, self.starts);
-        level.compiled(March::<R> { walk, starts, rule: core::marker::PhantomData })
+        let rule = core::marker::PhantomData;
+        if walk.field.is_symmetric() {
+            level.compiled(March::<R, true> { walk, starts, rule })
+        } else {
+            level.compiled(March::<R, false> { walk, starts, rule })
+        }
     }
 }
 
 /// All lines of a list, [`LANES`] at a time.
-struct March<'a, R> {
+struct March<'a, R, const SYMMETRIC: bool> {
     walk: &'a Walk<'a>,
     starts: &'a [(Point, Vector)],
     rule: core::marker::PhantomData<R>,
 }
 
-impl<R: Rule> ArrayLoop for March<'_, R> {
+impl<R: Rule, const SYMMETRIC: bool> ArrayLoop for March<'_, R, SYMMETRIC> {
     type Output = Vec<(Point, LineEnd)>;
 
     #[inline(always)]
@@ -251,7 +262,16 @@ impl<R: Rule> ArrayLoop for March<'_, R> {
             if lines.iter().all(Option::is_none) {
                 return ends;
             }
-            let step = runge_kutta::<R, _>(&mut beside, &at, &towards, &lengths);
+            if let Some(full) = full_steps(walk, &lines) {
+                stride::<R, SYMMETRIC>(walk, &mut beside, &mut lines, full);
+                for l in 0..LANES {
+                    let Some((line, ..)) = &lines[l] else { continue };
+                    let pose = line.pose();
+                    (at[0][l], at[1][l]) = (pose.at.x, pose.at.y);
+                    (towards[0][l], towards[1][l]) = (pose.towards.x, pose.towards.y);
+                }
+            }
+            let step = runge_kutta::<R, SYMMETRIC, _>(&mut beside, &at, &towards, &lengths);
             for l in 0..LANES {
                 let Some((line, index, length)) = &mut lines[l] else { continue };
                 let made = step.lane(l).filter(|s| s.least >= LEAST_LEFT * line.pose().contrast);
@@ -271,40 +291,102 @@ impl<R: Rule> ArrayLoop for March<'_, R> {
     }
 }
 
+/// How many steps of full length all lines can surely make, apart from the one that they try: `None` if some lane has no
+/// line, or has to try a shorter step.
+#[inline(always)]
+fn full_steps(walk: &Walk<'_>, lines: &[Option<(Progress, usize, f64)>; LANES]) -> Option<usize> {
+    let step = walk.options.step;
+    let mut least = f64::INFINITY;
+    for line in lines {
+        let (line, _, length) = line.as_ref()?;
+        if *length != step || !line.is_even(step) {
+            return None;
+        }
+        // One less, for the rounding of sums, and one for the trial.
+        least = least.min((walk.options.length - line.gone()) / step - 2.0);
+    }
+    (least >= 1.0).then_some(least as usize)
+}
+
+/// Makes steps of full length, at most so many, until one would be rejected: what [`March`] does for lines that need no
+/// attention.
+#[inline(always)]
+fn stride<R: Rule, const SYMMETRIC: bool>(
+    walk: &Walk<'_>,
+    beside: &mut Beside<'_, Walk<'_>>,
+    lines: &mut [Option<(Progress, usize, f64)>; LANES],
+    most: usize,
+) {
+    let mut at: Pairs = [[0.0; LANES]; 2];
+    let mut towards: Pairs = [[0.0; LANES]; 2];
+    let mut contrast = [0.0; LANES];
+    for l in 0..LANES {
+        let Some((line, ..)) = &lines[l] else { return };
+        let pose = line.pose();
+        (at[0][l], at[1][l]) = (pose.at.x, pose.at.y);
+        (towards[0][l], towards[1][l]) = (pose.towards.x, pose.towards.y);
+        contrast[l] = pose.contrast;
+    }
+    let lengths = [walk.options.step; LANES];
+    let mut made = 0;
+    while made < most {
+        let step = runge_kutta::<R, SYMMETRIC, _>(beside, &at, &towards, &lengths);
+        let mut is_left = true;
+        for l in 0..LANES {
+            is_left &= step.least[l] >= LEAST_LEFT * contrast[l];
+        }
+        if !is_left || step.is_ended {
+            break;
+        }
+        (at, towards, contrast) = (step.at, step.slopes.along, step.slopes.contrast);
+        made += 1;
+    }
+    for l in 0..LANES {
+        let Some((line, ..)) = &mut lines[l] else { return };
+        let pose = Pose {
+            at: Point::new(at[0][l], at[1][l]),
+            towards: Vector::new(towards[0][l], towards[1][l]),
+            contrast: contrast[l],
+        };
+        line.stride(pose, walk.options.step, made);
+    }
+}
+
 /// A step of each line.
 struct Steps {
     at: Pairs,
     slopes: Slopes,
     least: Lanes,
     ends: [Option<LineEnd>; LANES],
+    is_ended: bool,
 }
 
 impl Steps {
     #[inline(always)]
-    fn lane(&self, l: usize) -> Option<crate::walk::Step> {
+    fn lane(&self, l: usize) -> Option<Step> {
         if self.ends[l].is_some() {
             return None;
         }
         let at = Point::new(self.at[0][l], self.at[1][l]);
         let towards = Vector::new(self.slopes.along[0][l], self.slopes.along[1][l]);
         let contrast = self.slopes.contrast[l];
-        let pose = crate::walk::Pose { at, towards, contrast };
-        Some(crate::walk::Step { pose, least: self.least[l], error: 0.0 })
+        let pose = Pose { at, towards, contrast };
+        Some(Step { pose, least: self.least[l], error: 0.0 })
     }
 }
 
 /// [`Walk::runge_kutta`] for every lane.
 #[inline(always)]
-fn runge_kutta<R: Rule, D: Directions>(
+fn runge_kutta<R: Rule, const SYMMETRIC: bool, D: Directions>(
     beside: &mut Beside<'_, D>,
     from: &Pairs,
     a: &Pairs,
     lengths: &Lanes,
 ) -> Steps {
     let half = lengths.map(|h| 0.5 * h);
-    let b = beside.slopes::<R>(&beside.ahead(from, a, &half), a);
-    let c = beside.slopes::<R>(&beside.ahead(from, &b.along, &half), &b.along);
-    let d = beside.slopes::<R>(&beside.ahead(from, &c.along, lengths), &c.along);
+    let b = beside.slopes::<R, SYMMETRIC>(&beside.ahead(from, a, &half), a);
+    let c = beside.slopes::<R, SYMMETRIC>(&beside.ahead(from, &b.along, &half), &b.along);
+    let d = beside.slopes::<R, SYMMETRIC>(&beside.ahead(from, &c.along, lengths), &c.along);
     let mut mean: Pairs = [[0.0; LANES]; 2];
     for i in 0..2 {
         for l in 0..LANES {
@@ -312,14 +394,18 @@ fn runge_kutta<R: Rule, D: Directions>(
         }
     }
     let at = beside.ahead(from, &mean, lengths);
-    let slopes = beside.slopes::<R>(&at, &d.along);
+    let slopes = beside.slopes::<R, SYMMETRIC>(&at, &d.along);
     let mut least = [0.0; LANES];
     for l in 0..LANES {
         least[l] = b.contrast[l].min(c.contrast[l]).min(slopes.contrast[l]);
     }
-    let ends =
-        core::array::from_fn(|l| b.ends[l].or(c.ends[l]).or(d.ends[l]).or(slopes.ends[l]));
-    Steps { at, slopes, least, ends }
+    let is_ended = b.is_ended | c.is_ended | d.is_ended | slopes.is_ended;
+    let ends = if is_ended {
+        core::array::from_fn(|l| b.ends[l].or(c.ends[l]).or(d.ends[l]).or(slopes.ends[l]))
+    } else {
+        [None; LANES]
+    };
+    Steps { at, slopes, least, ends, is_ended }
 }
 
 #[cfg(test)]

@@ -46,6 +46,25 @@ impl Progress {
     pub(crate) fn pose(&self) -> Pose {
         self.pose
     }
+
+    /// Length so far, in units of the smaller side of a cell.
+    pub(crate) fn gone(&self) -> f64 {
+        self.gone
+    }
+
+    /// Whether the last step had the full length, and the next one will.
+    pub(crate) fn is_even(&self, step: f64) -> bool {
+        self.step == step && !self.shortened
+    }
+
+    /// Records several steps of full length, each accepted at its first trial.
+    pub(crate) fn stride(&mut self, to: Pose, step: f64, made: usize) {
+        self.pose = to;
+        for _ in 0..made {
+            self.gone += step;
+        }
+        self.tries += made as f64;
+    }
 }
 
 /// The result of a step.
@@ -184,7 +203,7 @@ impl Walk<'_> {
         {
             let least = self.field.axes().least_contrast(self.options.least_anisotropy);
             let is_distinct = found.contrast > least * found.longer;
-            let is_sharp = found.cosine2 < LEAST_COSINE * LEAST_COSINE;
+            let is_sharp = !found.bends_at_most(LEAST_COSINE * LEAST_COSINE);
             return if is_distinct && !is_sharp {
                 Ok((found.along.into(), found.contrast))
             } else {

@@ -29,16 +29,18 @@ pub(super) struct Window<'a> {
     pub(super) at: &'a (dyn Fn(Point) -> f64 + Sync),
 }
 
-/// Weights of a Hann window at multiples of a step, from the first step on, and their sum.
+/// Weights of a Hann window at multiples of a step, from the first step on.
 struct Weights {
     values: Vec<f64>,
+    /// The sums of the first none, one, two, ... weights.
+    sums: Vec<f64>,
     half: f64,
     step: f64,
 }
 
 impl Weights {
     fn new(half: f64, step: f64) -> Self {
-        let mut weights = Self { values: Vec::new(), half: f64::NAN, step };
+        let mut weights = Self { values: Vec::new(), sums: Vec::new(), half: f64::NAN, step };
         weights.set(half);
         weights
     }
@@ -51,11 +53,17 @@ impl Weights {
         self.half = half;
         let steps = (half / self.step) as usize;
         self.values.clear();
+        self.sums.clear();
+        self.sums.push(0.0);
+        let mut sum = 0.0;
         let angle = PI * self.step / half;
         let turn = [math::cos(angle), math::sin(angle)];
         let [mut c, mut s] = turn;
         for _ in 0..steps {
-            self.values.push(0.5 * (1.0 + c));
+            let weight = 0.5 * (1.0 + c);
+            sum += weight;
+            self.values.push(weight);
+            self.sums.push(sum);
             [c, s] = [c * turn[0] - s * turn[1], c * turn[1] + s * turn[0]];
         }
     }
@@ -138,6 +146,7 @@ impl Tile<'_> {
             steps,
         );
         let mut interpolated = Interpolation::default();
+        let mut indices = Vec::new();
         for y in 0..patches[1] {
             for x in 0..patches[0] {
                 let corner = |dx: usize, dy: usize| corners[(y + dy) * (patches[0] + 1) + x + dx].as_ref();
@@ -152,8 +161,9 @@ impl Tile<'_> {
                     }
                     for sx in columns.clone() {
                         let value = is_predicted.then(|| {
-                            interpolated.enter_column((sx - x * across) as f64 / across as f64);
-                            self.weighted([sx, sy], &interpolated.line, weights)
+                            let part = (sx - x * across) as f64 / across as f64;
+                            let sides = interpolated.edges().map(|[left, right]| Points { left, right, part });
+                            self.weighted([sx, sy], sides, weights, &mut indices)
                         });
                         match value.filter(|v| !v.is_nan()) {
                             Some(value) => self.values[sy * self.size[0] + sx] = value,
@@ -179,28 +189,28 @@ impl Tile<'_> {
     fn smooth_alone(&mut self, samples: &[[usize; 2]], steps: usize, weights: &mut Weights) {
         let of = |[x, y]: [usize; 2]| Cell::new(self.corner.x + x, self.corner.y + y);
         let lines = self.lines(samples.iter().map(|&s| self.tracing.point(of(s))), steps);
+        let mut indices = Vec::new();
         for (&[x, y], line) in samples.iter().zip(lines) {
             let at = self.tracing.point(of([x, y]));
             let value = match (self.tracing.field.at(at), line) {
                 (Some(t), _) if t.is_zero() => f64::NAN,
                 (None, _) => f64::NAN,
                 (Some(_), None) => *self.texture.at(of([x, y])),
-                (Some(_), Some(line)) => {
-                    // A window ends at a hole of the texture.
-                    let mut line = line;
+                (Some(_), Some(mut line)) => {
                     for side in &mut line.sides {
-                        self.cut_at_hole(side);
+                        self.cut_at_hole(side, &mut indices);
                     }
-                    self.weighted([x, y], &line.sides, weights)
+                    let sides = line.sides.each_ref().map(Points::of);
+                    self.weighted([x, y], sides, weights, &mut indices)
                 }
             };
             self.values[y * self.size[0] + x] = value;
         }
     }
 
-    fn cut_at_hole(&self, side: &mut Trace) {
-        let mut indices = Vec::new();
-        self.level.compiled(Indices { tile: self, points: side, indices: &mut indices });
+    /// A window ends at a hole of the texture.
+    fn cut_at_hole(&self, side: &mut Trace, indices: &mut Vec<u32>) {
+        self.level.compiled(Indices { tile: self, points: Points::of(side), most: side.x.len(), indices });
         if let Some(hole) = indices.iter().position(|&i| self.texture.values()[i as usize].is_nan()) {
             side.x.truncate(hole);
             side.y.truncate(hole);
@@ -208,31 +218,60 @@ impl Tile<'_> {
     }
 
     /// The mean of the texture along a line through a sample.
-    fn weighted(&self, [x, y]: [usize; 2], line: &[Trace; 2], weights: &mut Weights) -> f64 {
+    fn weighted(
+        &self,
+        [x, y]: [usize; 2],
+        sides: [Points<'_>; 2],
+        weights: &mut Weights,
+        indices: &mut Vec<u32>,
+    ) -> f64 {
         let sample = Cell::new(self.corner.x + x, self.corner.y + y);
         weights.set((self.window.at)(self.tracing.point(sample)));
-        let (mut sum, mut total) = (*self.texture.at(sample), 1.0);
-        let mut indices = Vec::with_capacity(weights.values.len());
-        for points in line {
-            self.level.compiled(Indices { tile: self, points, indices: &mut indices });
+        let texture = self.texture.values();
+        let (mut sum, mut total) = (texture[self.texture.grid().index(sample)], 1.0);
+        for points in sides {
+            let most = weights.values.len();
+            self.level.compiled(Indices { tile: self, points, most, indices: &mut *indices });
             // Four sums, so that they need not wait for each other; always the same four.
-            let (mut sums, mut totals) = ([0.0; 4], [0.0; 4]);
-            for (n, (&i, &w)) in indices.iter().zip(&weights.values).enumerate() {
-                sums[n % 4] += w * self.texture.values()[i as usize];
-                totals[n % 4] += w;
+            let mut sums = [0.0; 4];
+            let (fours, rest) = indices.as_chunks::<4>();
+            let (weights_of_fours, weights_of_rest) = weights.values[..indices.len()].as_chunks::<4>();
+            for (four, w) in fours.iter().zip(weights_of_fours) {
+                for n in 0..4 {
+                    sums[n] += w[n] * texture[four[n] as usize];
+                }
+            }
+            for (n, (i, w)) in rest.iter().zip(weights_of_rest).enumerate() {
+                sums[n] += w * texture[*i as usize];
             }
             sum += (sums[0] + sums[1]) + (sums[2] + sums[3]);
-            total += (totals[0] + totals[1]) + (totals[2] + totals[3]);
+            total += weights.sums[indices.len()];
         }
         sum / total
     }
 }
 
-/// The samples nearest to points.
+/// Points between two lines, at a part of the way from the left one to the right one.
+#[derive(Clone, Copy)]
+struct Points<'a> {
+    left: &'a Trace,
+    right: &'a Trace,
+    part: f64,
+}
+
+impl<'a> Points<'a> {
+    /// The points of one line.
+    fn of(line: &'a Trace) -> Self {
+        Self { left: line, right: line, part: 0.0 }
+    }
+}
+
+/// The samples nearest to the first points of a line.
 struct Indices<'a> {
     tile: &'a Tile<'a>,
-    points: &'a Trace,
-    indices: &'a mut Vec<i32>,
+    points: Points<'a>,
+    most: usize,
+    indices: &'a mut Vec<u32>,
 }
 
 impl ArrayLoop for Indices<'_> {
@@ -244,13 +283,21 @@ impl ArrayLoop for Indices<'_> {
         let [per_x, per_y] = self.tile.tracing.samples;
         let (right, bottom, width) =
             ((grid.width() - 1) as i32, (grid.height() - 1) as i32, grid.width() as i32);
-        let index = |(x, y): (&f64, &f64)| {
-            let column = ((x * per_x + 0.5).max(0.0) as i32).min(right);
-            let row = ((y * per_y + 0.5).max(0.0) as i32).min(bottom);
-            row * width + column
+        let Points { left: a, right: b, part } = self.points;
+        let n = a.x.len().min(b.x.len()).min(self.most);
+        let (ax, ay, bx, by) = (&a.x[..n], &a.y[..n], &b.x[..n], &b.y[..n]);
+        let nearest = |a: f64, b: f64, samples: f64, last: i32| {
+            let v = (1.0 - part) * a + part * b;
+            ((v * samples + 0.5).max(0.0) as i32).min(last)
         };
         self.indices.clear();
-        self.indices.extend(self.points.x.iter().zip(&self.points.y).map(index));
+        self.indices.resize(n, 0);
+        for (k, index) in self.indices.iter_mut().enumerate() {
+            let column = nearest(ax[k], bx[k], per_x, right);
+            let row = nearest(ay[k], by[k], per_y, bottom);
+            // Neither is negative, and a grid has fewer samples than 2^31.
+            *index = (row * width + column) as u32;
+        }
     }
 }
 
@@ -262,7 +309,6 @@ struct Interpolation {
     corners: [[Trace; 2]; 4],
     left: [Trace; 2],
     right: [Trace; 2],
-    line: [Trace; 2],
 }
 
 impl Interpolation {
@@ -311,11 +357,9 @@ impl Interpolation {
         }
     }
 
-    /// Moves to a column, at a part of the way from the left to the right edge.
-    fn enter_column(&mut self, part: f64) {
-        for side in 0..2 {
-            between(&self.left[side], &self.right[side], part, &mut self.line[side]);
-        }
+    /// The lines at the left and the right edge of the row, to both sides.
+    fn edges(&self) -> [[&Trace; 2]; 2] {
+        [0, 1].map(|side| [&self.left[side], &self.right[side]])
     }
 }
 

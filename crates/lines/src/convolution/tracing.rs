@@ -3,7 +3,9 @@
 use crate::lanes::{Beside, Directions, LANES, Lanes, Pairs};
 use crate::slope::{Rule, WithRule};
 use crate::{Family, Interpolated, LineEnd};
-use tigereye_core::{Cell, Field, Point, Vector};
+#[cfg(test)]
+use tigereye_core::Field;
+use tigereye_core::{Cell, Point, Vector};
 use tigereye_simd::{ArrayLoop, Level};
 
 /// Tensors whose axes differ by less than this fraction of the longer one count as isotropic.
@@ -42,7 +44,7 @@ impl Tracing<'_> {
             && let Some(found) = self.field.axes().slope(numbers, self.family, towards.into())
             && found.contrast > self.field.axes().least_contrast(LEAST) * found.longer
         {
-            return (found.cosine2 >= LEAST_COSINE * LEAST_COSINE).then(|| found.along.into());
+            return found.bends_at_most(LEAST_COSINE * LEAST_COSINE).then(|| found.along.into());
         }
         let d = self.direction(at)?;
         let cosine = d.dot(towards);
@@ -111,19 +113,24 @@ impl WithRule for Traces<'_> {
 
     fn with<R: Rule>(self) -> Vec<Trace> {
         let Self { tracing, starts, steps, level } = self;
-        level.compiled(March::<R> { tracing, starts, steps, rule: core::marker::PhantomData })
+        let rule = core::marker::PhantomData;
+        if tracing.field.is_symmetric() {
+            level.compiled(March::<R, true> { tracing, starts, steps, rule })
+        } else {
+            level.compiled(March::<R, false> { tracing, starts, steps, rule })
+        }
     }
 }
 
 /// All lines of a list, [`LANES`] at a time.
-struct March<'a, R> {
+struct March<'a, R, const SYMMETRIC: bool> {
     tracing: &'a Tracing<'a>,
     starts: &'a [(Point, Vector)],
     steps: usize,
     rule: core::marker::PhantomData<R>,
 }
 
-impl<R: Rule> ArrayLoop for March<'_, R> {
+impl<R: Rule, const SYMMETRIC: bool> ArrayLoop for March<'_, R, SYMMETRIC> {
     type Output = Vec<Trace>;
 
     #[inline(always)]
@@ -132,39 +139,46 @@ impl<R: Rule> ArrayLoop for March<'_, R> {
         let step: Lanes = [self.tracing.step; LANES];
         let half = step.map(|h| 0.5 * h);
         let mut beside = Beside::new(self.tracing);
+        let mut points: Vec<Pairs> = Vec::with_capacity(self.steps);
         for starts in self.starts.chunks(LANES) {
             // Lanes without a line repeat the first one.
             let start = |l: usize| starts[if l < starts.len() { l } else { 0 }];
             let mut at: Pairs = [[0.0; LANES]; 2];
             let mut towards: Pairs = [[0.0; LANES]; 2];
-            let mut lines: [Trace; LANES] = Default::default();
             for l in 0..LANES {
                 let (from, direction) = start(l);
                 (at[0][l], at[1][l]) = (from.x, from.y);
                 (towards[0][l], towards[1][l]) = (direction.x, direction.y);
-                lines[l].x.reserve_exact(self.steps);
-                lines[l].y.reserve_exact(self.steps);
             }
+            points.clear();
+            let mut lengths = [0; LANES];
             let mut is_ended = [false; LANES];
             for _ in 0..self.steps {
-                let middle = beside.slopes::<R>(&beside.ahead(&at, &towards, &half), &towards);
+                let middle = beside.slopes::<R, SYMMETRIC>(&beside.ahead(&at, &towards, &half), &towards);
                 let to = beside.ahead(&at, &middle.along, &step);
-                let next = beside.slopes::<R>(&to, &middle.along);
-                for l in 0..LANES {
-                    is_ended[l] |= middle.ends[l].is_some() | next.ends[l].is_some();
-                    // A line that has ended stays where it is.
-                    if !is_ended[l] {
-                        (at[0][l], at[1][l]) = (to[0][l], to[1][l]);
-                        (towards[0][l], towards[1][l]) = (next.along[0][l], next.along[1][l]);
-                        lines[l].x.push(to[0][l]);
-                        lines[l].y.push(to[1][l]);
+                let next = beside.slopes::<R, SYMMETRIC>(&to, &middle.along);
+                if middle.is_ended | next.is_ended {
+                    for l in 0..LANES {
+                        is_ended[l] |= middle.ends[l].is_some() | next.ends[l].is_some();
                     }
                 }
+                for l in 0..LANES {
+                    lengths[l] += usize::from(!is_ended[l]);
+                    // A line that has ended stays where it was.
+                    let select = |new: f64, old: f64| if is_ended[l] { old } else { new };
+                    (at[0][l], at[1][l]) = (select(to[0][l], at[0][l]), select(to[1][l], at[1][l]));
+                    towards[0][l] = select(next.along[0][l], towards[0][l]);
+                    towards[1][l] = select(next.along[1][l], towards[1][l]);
+                }
+                points.push(at);
                 if is_ended == [true; LANES] {
                     break;
                 }
             }
-            traces.extend(lines.into_iter().take(starts.len()));
+            traces.extend((0..starts.len()).map(|l| {
+                let of = |axis: usize| points[..lengths[l]].iter().map(|at| at[axis][l]).collect();
+                Trace { x: of(0), y: of(1) }
+            }));
         }
         traces
     }

@@ -44,7 +44,8 @@ pub(crate) struct Within {
     last: [f64; 2],
     /// Column and row of the last square between four cells.
     last_square: [i32; 2],
-    width: usize,
+    /// Cells per row. A grid has fewer than 2^31 cells.
+    width: i32,
     /// Distances in memory to the next column and row; 0 on a grid one cell wide or high, where cells repeat.
     next: [usize; 2],
 }
@@ -52,7 +53,7 @@ pub(crate) struct Within {
 /// A point within the square of four cells.
 pub(crate) struct Place {
     /// Index of the square's upper left cell.
-    pub(crate) square: usize,
+    pub(crate) square: i32,
     /// The part of the way to the next column and row.
     pub(crate) parts: [f64; 2],
     /// Whether the point lies in the field, up to rounding.
@@ -66,7 +67,7 @@ impl Within {
         Self {
             last: [(width - 1) as f64, (height - 1) as f64],
             last_square: [width, height].map(|n| n.saturating_sub(2) as i32),
-            width,
+            width: width as i32,
             next: [usize::from(width > 1), if height > 1 { width } else { 0 }],
         }
     }
@@ -75,19 +76,22 @@ impl Within {
     pub(crate) fn place(&self, x: f64, y: f64) -> Place {
         let is_within = |v: f64, last: f64| (v >= -ROUNDING) & (v <= last + ROUNDING);
         let is_inside = is_within(x, self.last[0]) & is_within(y, self.last[1]);
+        // Comparisons rather than `max` and `min`, which take three instructions each because of NaN.
         let along = |v: f64, last: f64, last_square: i32| {
-            let v = v.max(0.0).min(last);
+            let v = if v > 0.0 { v } else { 0.0 };
+            let v = if v < last { v } else { last };
             let before = (v as i32).min(last_square);
             (before, v - f64::from(before))
         };
         let (i, u) = along(x, self.last[0], self.last_square[0]);
         let (j, v) = along(y, self.last[1], self.last_square[1]);
-        Place { square: j as usize * self.width + i as usize, parts: [u, v], is_inside }
+        Place { square: j * self.width + i, parts: [u, v], is_inside }
     }
 
     /// The four cells of a square: upper left, upper right, lower left, lower right.
     #[inline(always)]
-    pub(crate) fn corners(&self, square: usize) -> [usize; 4] {
+    pub(crate) fn corners(&self, square: i32) -> [usize; 4] {
+        let square = square as usize;
         let [right, down] = self.next;
         [square, square + right, square + down, square + right + down]
     }

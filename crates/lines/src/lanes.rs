@@ -7,13 +7,13 @@
 
 use crate::interpolated::{Place, Within, evaluated, polynomial};
 use crate::slope::{self, Rule, Slope, WithRule};
-use crate::walk::{LEAST_COSINE, LEAST_LEFT, Pose, Progress, Step, Walk};
+use crate::walk::{LEAST_COSINE, LEAST_LEFT, Walk};
 use crate::{Interpolated, LineEnd, Method};
 use tigereye_core::{Point, Vector};
 use tigereye_simd::{ArrayLoop, Level};
 
-/// Lines side by side: what two registers of AVX2, or one of AVX-512, hold.
-pub(crate) const LANES: usize = 8;
+/// Lines side by side: enough for the processor to have something to do while roots and quotients are computed.
+pub(crate) const LANES: usize = 16;
 /// A number of each line.
 pub(crate) type Lanes = [f64; LANES];
 /// A point or vector of each line.
@@ -58,17 +58,19 @@ pub(crate) struct Slopes {
     pub(crate) along: Pairs,
     /// [`crate::Frame::contrast`].
     pub(crate) contrast: Lanes,
-    /// Why there is none.
-    pub(crate) ends: [Option<LineEnd>; LANES],
-    /// Whether there is none for some line.
-    pub(crate) is_ended: bool,
 }
+
+/// Why lines end.
+pub(crate) type LineEnds = [Option<LineEnd>; LANES];
 
 /// The squares between cells in which the lines are, kept from one step to the next.
 pub(crate) struct Beside<'a, D> {
     pub(crate) directions: &'a D,
     within: Within,
-    square: [usize; LANES],
+    square: [i32; LANES],
+    /// Lines that have no direction at a point, since this was last cleared.
+    pub(crate) ends: LineEnds,
+    pub(crate) is_ended: bool,
     /// The polynomials of `E` and `F` in each square.
     polynomials: [[Lanes; 4]; 4],
     least: f64,
@@ -82,7 +84,9 @@ impl<'a, D: Directions> Beside<'a, D> {
         Self {
             directions,
             within: Within::new(directions.field().field().grid()),
-            square: [usize::MAX; LANES],
+            square: [-1; LANES],
+            ends: [None; LANES],
+            is_ended: false,
             polynomials: [[[0.0; LANES]; 4]; 4],
             least,
             least_cosine2,
@@ -95,18 +99,22 @@ impl<'a, D: Directions> Beside<'a, D> {
     pub(crate) fn slopes<R: Rule, const SYMMETRIC: bool>(&mut self, at: &Pairs, towards: &Pairs) -> Slopes {
         let mut parts: Pairs = [[0.0; LANES]; 2];
         let mut squares = [0; LANES];
-        let mut is_fine = [false; LANES];
+        // Masks as wide as the numbers, which need not be packed.
+        let mut is_fine = [0_u64; LANES];
+        let mut moved = 0;
         for l in 0..LANES {
             let Place { square, parts: [u, v], is_inside } = self.within.place(at[0][l], at[1][l]);
             (parts[0][l], parts[1][l]) = (u, v);
             squares[l] = square;
-            is_fine[l] = is_inside;
+            is_fine[l] = u64::from(is_inside);
+            moved |= square ^ self.square[l];
         }
-        if squares != self.square {
-            self.enter(squares);
+        if moved != 0 {
+            self.enter(&squares);
         }
         let mut along: Pairs = [[0.0; LANES]; 2];
         let mut contrast = [0.0; LANES];
+        let mut are_fine = 1;
         for l in 0..LANES {
             let of = |n: usize| {
                 evaluated(core::array::from_fn(|c| self.polynomials[n][c][l]), [parts[0][l], parts[1][l]])
@@ -116,20 +124,23 @@ impl<'a, D: Directions> Beside<'a, D> {
                 slope::slope::<R, SYMMETRIC>(numbers, self.sign, [towards[0][l], towards[1][l]]);
             (along[0][l], along[1][l]) = (found.along[0], found.along[1]);
             contrast[l] = found.contrast;
-            is_fine[l] &= found.is_usual()
-                & (found.contrast > self.least * found.longer)
-                & found.bends_at_most(self.least_cosine2);
+            is_fine[l] &= u64::from(
+                found.is_usual()
+                    & (found.contrast > self.least * found.longer)
+                    & found.bends_at_most(self.least_cosine2),
+            );
+            are_fine &= is_fine[l];
         }
-        let mut slopes = Slopes { along, contrast, ends: [None; LANES], is_ended: false };
-        if is_fine != [true; LANES] {
-            self.decide(is_fine, at, towards, &mut slopes);
+        let mut slopes = Slopes { along, contrast };
+        if are_fine == 0 {
+            self.decide(&is_fine, at, towards, &mut slopes);
         }
         slopes
     }
 
     /// Loads the corners of the squares that lines have entered.
     #[inline(never)]
-    fn enter(&mut self, squares: [usize; LANES]) {
+    fn enter(&mut self, squares: &[i32; LANES]) {
         let values = self.directions.field().field().values();
         for l in 0..LANES {
             if squares[l] == self.square[l] {
@@ -147,8 +158,8 @@ impl<'a, D: Directions> Beside<'a, D> {
 
     #[cold]
     #[inline(never)]
-    fn decide(&self, is_fine: [bool; LANES], at: &Pairs, towards: &Pairs, slopes: &mut Slopes) {
-        for l in (0..LANES).filter(|&l| !is_fine[l]) {
+    fn decide(&mut self, is_fine: &[u64; LANES], at: &Pairs, towards: &Pairs, slopes: &mut Slopes) {
+        for l in (0..LANES).filter(|&l| is_fine[l] == 0) {
             let (at, towards) = (Point::new(at[0][l], at[1][l]), Vector::new(towards[0][l], towards[1][l]));
             match self.directions.single(at, towards) {
                 Ok((along, contrast)) => {
@@ -157,10 +168,20 @@ impl<'a, D: Directions> Beside<'a, D> {
                 }
                 Err(end) => {
                     (slopes.along[0][l], slopes.along[1][l]) = (towards.x, towards.y);
-                    slopes.ends[l] = Some(end);
-                    slopes.is_ended = true;
+                    // The first reason counts.
+                    self.ends[l] = self.ends[l].or(Some(end));
+                    self.is_ended = true;
                 }
             }
+        }
+    }
+
+    /// Forgets which lines have ended.
+    #[inline(always)]
+    pub(crate) fn begin(&mut self) {
+        if self.is_ended {
+            self.is_ended = false;
+            self.ends = [None; LANES];
         }
     }
 
@@ -221,134 +242,149 @@ impl<R: Rule, const SYMMETRIC: bool> ArrayLoop for March<'_, R, SYMMETRIC> {
         let mut ends: Vec<(Point, LineEnd)> =
             self.starts.iter().map(|&(at, _)| (at, LineEnd::Border)).collect();
         let mut waiting = self.starts.iter().enumerate();
-        // A line, its index, and the length of the step it tries.
-        let mut lines: [Option<(Progress, usize, f64)>; LANES] = [None; LANES];
         let mut beside = Beside::new(walk);
-        let mut at: Pairs = [[0.0; LANES]; 2];
-        let mut towards: Pairs = [[1.0; LANES], [0.0; LANES]];
-        let mut lengths: Lanes = [0.0; LANES];
-        loop {
-            for l in 0..LANES {
-                // A lane without a line tries steps of no length where its last line ended.
-                lengths[l] = 0.0;
-                loop {
-                    if lines[l].is_none() {
-                        let Some((index, &(from, direction))) = waiting.next() else { break };
-                        match walk.begin(from, direction) {
-                            Ok(line) => lines[l] = Some((line, index, f64::NAN)),
-                            Err(end) => {
-                                ends[index] = (from, end);
-                                continue;
-                            }
-                        }
-                    }
-                    let Some((line, index, length)) = &mut lines[l] else { break };
-                    match walk.attempt(line, *length) {
-                        Ok(next) => {
-                            *length = next;
-                            lengths[l] = next;
-                            let pose = line.pose();
-                            (at[0][l], at[1][l]) = (pose.at.x, pose.at.y);
-                            (towards[0][l], towards[1][l]) = (pose.towards.x, pose.towards.y);
-                            break;
-                        }
-                        Err(end) => {
-                            ends[*index] = (line.pose().at, end);
-                            lines[l] = None;
-                        }
-                    }
-                }
+        let mut lines = Lines::new(walk);
+        for l in 0..LANES {
+            lines.next(l, &mut waiting, &mut ends);
+        }
+        while lines.are_any() {
+            let step = runge_kutta::<R, SYMMETRIC, _>(&mut beside, &lines.at, &lines.towards, &lines.length);
+            let mut has_direction = [1; LANES];
+            if beside.is_ended {
+                has_direction = beside.ends.map(|end| u64::from(end.is_none()));
             }
-            if lines.iter().all(Option::is_none) {
-                return ends;
-            }
-            if let Some(full) = full_steps(walk, &lines) {
-                stride::<R, SYMMETRIC>(walk, &mut beside, &mut lines, full);
+            if lines.advance(&step, &has_direction) {
                 for l in 0..LANES {
-                    let Some((line, ..)) = &lines[l] else { continue };
-                    let pose = line.pose();
-                    (at[0][l], at[1][l]) = (pose.at.x, pose.at.y);
-                    (towards[0][l], towards[1][l]) = (pose.towards.x, pose.towards.y);
+                    if let Some(end) = lines.end(l, beside.ends[l].filter(|_| beside.is_ended)) {
+                        ends[lines.index[l]] = (Point::new(lines.at[0][l], lines.at[1][l]), end);
+                        lines.next(l, &mut waiting, &mut ends);
+                    }
                 }
             }
-            let step = runge_kutta::<R, SYMMETRIC, _>(&mut beside, &at, &towards, &lengths);
-            for l in 0..LANES {
-                let Some((line, index, length)) = &mut lines[l] else { continue };
-                let made = step.lane(l).filter(|s| s.least >= LEAST_LEFT * line.pose().contrast);
-                match made {
-                    Some(made) => {
-                        walk.arrive(line, made, *length);
-                        *length = f64::NAN;
-                    }
-                    None if walk.is_shortest(*length) => {
-                        ends[*index] = (line.pose().at, step.ends[l].unwrap_or(LineEnd::Degenerate));
-                        lines[l] = None;
-                    }
-                    None => *length = walk.shortened(line, *length),
+        }
+        ends
+    }
+}
+
+/// The state of lines under integration, lane by lane what [`crate::walk::Progress`] holds of one.
+struct Lines<'a> {
+    walk: &'a Walk<'a>,
+    at: Pairs,
+    towards: Pairs,
+    contrast: Lanes,
+    /// Length so far.
+    gone: Lanes,
+    /// Length of the step that is tried.
+    length: Lanes,
+    tries: Lanes,
+    /// Whether the step that is tried had to be shortened.
+    is_shortened: [u64; LANES],
+    /// Whether the last trial was accepted.
+    is_accepted: [u64; LANES],
+    /// Whether there is a line. A lane without one tries steps of no length where its last line ended.
+    is_there: [u64; LANES],
+    /// Places of the lines in the list.
+    index: [usize; LANES],
+}
+
+impl<'a> Lines<'a> {
+    fn new(walk: &'a Walk<'a>) -> Self {
+        Self {
+            walk,
+            at: [[0.0; LANES]; 2],
+            towards: [[1.0; LANES], [0.0; LANES]],
+            contrast: [0.0; LANES],
+            gone: [0.0; LANES],
+            length: [0.0; LANES],
+            tries: [0.0; LANES],
+            is_shortened: [0; LANES],
+            is_accepted: [1; LANES],
+            is_there: [0; LANES],
+            index: [0; LANES],
+        }
+    }
+
+    fn are_any(&self) -> bool {
+        self.is_there != [0; LANES]
+    }
+
+    /// Begins the next line of a list that can begin at all.
+    fn next<'s>(
+        &mut self,
+        l: usize,
+        waiting: &mut impl Iterator<Item = (usize, &'s (Point, Vector))>,
+        ends: &mut [(Point, LineEnd)],
+    ) {
+        (self.is_there[l], self.length[l]) = (0, 0.0);
+        for (index, &(from, direction)) in waiting {
+            let begun = self.walk.begin(from, direction).and_then(|mut line| {
+                let length = self.walk.attempt(&mut line, f64::NAN)?;
+                Ok((line.pose(), length))
+            });
+            match begun {
+                Err(end) => ends[index] = (from, end),
+                Ok((pose, length)) => {
+                    (self.at[0][l], self.at[1][l]) = (pose.at.x, pose.at.y);
+                    (self.towards[0][l], self.towards[1][l]) = (pose.towards.x, pose.towards.y);
+                    (self.contrast[l], self.gone[l], self.length[l]) = (pose.contrast, 0.0, length);
+                    (self.tries[l], self.is_shortened[l], self.is_there[l]) = (1.0, 0, 1);
+                    self.index[l] = index;
+                    return;
                 }
             }
         }
     }
-}
 
-/// How many steps of full length all lines can surely make, apart from the one that they try: `None` if some lane has no
-/// line, or has to try a shorter step.
-#[inline(always)]
-fn full_steps(walk: &Walk<'_>, lines: &[Option<(Progress, usize, f64)>; LANES]) -> Option<usize> {
-    let step = walk.options.step;
-    let mut least = f64::INFINITY;
-    for line in lines {
-        let (line, _, length) = line.as_ref()?;
-        if *length != step || !line.is_even(step) {
+    /// Takes the steps that can be accepted and chooses the lengths of the next trials, as [`Walk::advance`] does. Whether
+    /// a line may have ended.
+    #[inline(always)]
+    fn advance(&mut self, step: &Steps, has_direction: &[u64; LANES]) -> bool {
+        let options = self.walk.options;
+        let (full, longest, most) = (options.step, options.length, self.walk.most_tries());
+        let (shortest, enough) = (self.walk.shortest(), 1e-9 * full);
+        let smaller = |a: f64, b: f64| if a < b { a } else { b };
+        let mut may_have_ended = 0;
+        for l in 0..LANES {
+            let is_left = u64::from(step.least[l] >= LEAST_LEFT * self.contrast[l]);
+            let is_accepted = has_direction[l] & is_left & self.is_there[l];
+            let select = |new: f64, old: f64| if is_accepted != 0 { new } else { old };
+            self.at[0][l] = select(step.at[0][l], self.at[0][l]);
+            self.at[1][l] = select(step.at[1][l], self.at[1][l]);
+            self.towards[0][l] = select(step.slopes.along[0][l], self.towards[0][l]);
+            self.towards[1][l] = select(step.slopes.along[1][l], self.towards[1][l]);
+            self.contrast[l] = select(step.slopes.contrast[l], self.contrast[l]);
+            let length = self.length[l];
+            self.gone[l] = select(self.gone[l] + length, self.gone[l]);
+            let left = longest - self.gone[l];
+            // A step that was shortened is followed by one as long.
+            let grown = if self.is_shortened[l] != 0 { length } else { smaller(full, 2.0 * length) };
+            self.length[l] = select(smaller(grown, left), 0.5 * length);
+            self.tries[l] += 1.0;
+            may_have_ended |= self.is_there[l]
+                & (u64::from(self.tries[l] > most)
+                    | (is_accepted & u64::from(left <= enough))
+                    | ((is_accepted ^ 1) & u64::from(0.5 * length < shortest)));
+            self.is_shortened[l] = is_accepted ^ 1;
+            self.is_accepted[l] = is_accepted;
+        }
+        may_have_ended != 0
+    }
+
+    /// Why a line has ended, if it has; `end` tells why it had no direction.
+    fn end(&self, l: usize, end: Option<LineEnd>) -> Option<LineEnd> {
+        if self.is_there[l] == 0 {
             return None;
         }
-        // One less, for the rounding of sums, and one for the trial.
-        least = least.min((walk.options.length - line.gone()) / step - 2.0);
-    }
-    (least >= 1.0).then_some(least as usize)
-}
-
-/// Makes steps of full length, at most so many, until one would be rejected: what [`March`] does for lines that need no
-/// attention.
-#[inline(always)]
-fn stride<R: Rule, const SYMMETRIC: bool>(
-    walk: &Walk<'_>,
-    beside: &mut Beside<'_, Walk<'_>>,
-    lines: &mut [Option<(Progress, usize, f64)>; LANES],
-    most: usize,
-) {
-    let mut at: Pairs = [[0.0; LANES]; 2];
-    let mut towards: Pairs = [[0.0; LANES]; 2];
-    let mut contrast = [0.0; LANES];
-    for l in 0..LANES {
-        let Some((line, ..)) = &lines[l] else { return };
-        let pose = line.pose();
-        (at[0][l], at[1][l]) = (pose.at.x, pose.at.y);
-        (towards[0][l], towards[1][l]) = (pose.towards.x, pose.towards.y);
-        contrast[l] = pose.contrast;
-    }
-    let lengths = [walk.options.step; LANES];
-    let mut made = 0;
-    while made < most {
-        let step = runge_kutta::<R, SYMMETRIC, _>(beside, &at, &towards, &lengths);
-        let mut is_left = true;
-        for l in 0..LANES {
-            is_left &= step.least[l] >= LEAST_LEFT * contrast[l];
+        // The trial that was rejected had twice the length of the next one.
+        let is_shortest = self.length[l] < self.walk.shortest();
+        if self.is_accepted[l] == 0 && is_shortest {
+            return Some(end.unwrap_or(LineEnd::Degenerate));
         }
-        if !is_left || step.is_ended {
-            break;
+        let left = self.walk.options.length - self.gone[l];
+        if self.is_accepted[l] != 0 && left <= 1e-9 * self.walk.options.step {
+            return Some(LineEnd::Length);
         }
-        (at, towards, contrast) = (step.at, step.slopes.along, step.slopes.contrast);
-        made += 1;
-    }
-    for l in 0..LANES {
-        let Some((line, ..)) = &mut lines[l] else { return };
-        let pose = Pose {
-            at: Point::new(at[0][l], at[1][l]),
-            towards: Vector::new(towards[0][l], towards[1][l]),
-            contrast: contrast[l],
-        };
-        line.stride(pose, walk.options.step, made);
+        (self.tries[l] > self.walk.most_tries()).then_some(LineEnd::Degenerate)
     }
 }
 
@@ -357,22 +393,6 @@ struct Steps {
     at: Pairs,
     slopes: Slopes,
     least: Lanes,
-    ends: [Option<LineEnd>; LANES],
-    is_ended: bool,
-}
-
-impl Steps {
-    #[inline(always)]
-    fn lane(&self, l: usize) -> Option<Step> {
-        if self.ends[l].is_some() {
-            return None;
-        }
-        let at = Point::new(self.at[0][l], self.at[1][l]);
-        let towards = Vector::new(self.slopes.along[0][l], self.slopes.along[1][l]);
-        let contrast = self.slopes.contrast[l];
-        let pose = Pose { at, towards, contrast };
-        Some(Step { pose, least: self.least[l], error: 0.0 })
-    }
 }
 
 /// [`Walk::runge_kutta`] for every lane.
@@ -383,6 +403,7 @@ fn runge_kutta<R: Rule, const SYMMETRIC: bool, D: Directions>(
     a: &Pairs,
     lengths: &Lanes,
 ) -> Steps {
+    beside.begin();
     let half = lengths.map(|h| 0.5 * h);
     let b = beside.slopes::<R, SYMMETRIC>(&beside.ahead(from, a, &half), a);
     let c = beside.slopes::<R, SYMMETRIC>(&beside.ahead(from, &b.along, &half), &b.along);
@@ -397,15 +418,10 @@ fn runge_kutta<R: Rule, const SYMMETRIC: bool, D: Directions>(
     let slopes = beside.slopes::<R, SYMMETRIC>(&at, &d.along);
     let mut least = [0.0; LANES];
     for l in 0..LANES {
-        least[l] = b.contrast[l].min(c.contrast[l]).min(slopes.contrast[l]);
+        let smaller = |a: f64, b: f64| if a < b { a } else { b };
+        least[l] = smaller(smaller(b.contrast[l], c.contrast[l]), slopes.contrast[l]);
     }
-    let is_ended = b.is_ended | c.is_ended | d.is_ended | slopes.is_ended;
-    let ends = if is_ended {
-        core::array::from_fn(|l| b.ends[l].or(c.ends[l]).or(d.ends[l]).or(slopes.ends[l]))
-    } else {
-        [None; LANES]
-    };
-    Steps { at, slopes, least, ends, is_ended }
+    Steps { at, slopes, least }
 }
 
 #[cfg(test)]

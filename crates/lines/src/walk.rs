@@ -46,25 +46,6 @@ impl Progress {
     pub(crate) fn pose(&self) -> Pose {
         self.pose
     }
-
-    /// Length so far, in units of the smaller side of a cell.
-    pub(crate) fn gone(&self) -> f64 {
-        self.gone
-    }
-
-    /// Whether the last step had the full length, and the next one will.
-    pub(crate) fn is_even(&self, step: f64) -> bool {
-        self.step == step && !self.shortened
-    }
-
-    /// Records several steps of full length, each accepted at its first trial.
-    pub(crate) fn stride(&mut self, to: Pose, step: f64, made: usize) {
-        self.pose = to;
-        for _ in 0..made {
-            self.gone += step;
-        }
-        self.tries += made as f64;
-    }
 }
 
 /// The result of a step.
@@ -169,7 +150,7 @@ impl Walk<'_> {
     }
 
     /// A bound for lines whose steps near a degenerate point become ever shorter.
-    fn most_tries(&self) -> f64 {
+    pub(crate) fn most_tries(&self) -> f64 {
         let LineOptions { method, length, step, .. } = *self.options;
         match method {
             Method::RungeKutta4 => TRIES[0] * length / step + TRIES[1],
@@ -177,7 +158,7 @@ impl Walk<'_> {
         }
     }
 
-    fn shortest(&self) -> f64 {
+    pub(crate) fn shortest(&self) -> f64 {
         self.options.step * SHORTEST
     }
 

@@ -151,16 +151,15 @@ impl<R: Rule, const SYMMETRIC: bool> ArrayLoop for March<'_, R, SYMMETRIC> {
                 (towards[0][l], towards[1][l]) = (direction.x, direction.y);
             }
             points.clear();
+            beside.begin();
             let mut lengths = [0; LANES];
             let mut is_ended = [false; LANES];
             for _ in 0..self.steps {
                 let middle = beside.slopes::<R, SYMMETRIC>(&beside.ahead(&at, &towards, &half), &towards);
                 let to = beside.ahead(&at, &middle.along, &step);
                 let next = beside.slopes::<R, SYMMETRIC>(&to, &middle.along);
-                if middle.is_ended | next.is_ended {
-                    for l in 0..LANES {
-                        is_ended[l] |= middle.ends[l].is_some() | next.ends[l].is_some();
-                    }
+                if beside.is_ended {
+                    is_ended = beside.ends.map(|end| end.is_some());
                 }
                 for l in 0..LANES {
                     lengths[l] += usize::from(!is_ended[l]);

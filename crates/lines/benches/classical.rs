@@ -2,11 +2,11 @@
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
+use tigereye_core::{CellShape, Point};
 use tigereye_lines::{
     ConvolutionOptions, Family, Followed, Following, FtleOptions, LineOptions, Topology, convolved,
     evenly_spaced, ftle, half_line_end, hyper_convolved, usual_axes,
 };
-use tigereye_core::{CellShape, Point};
 use tigereye_test_support::field;
 
 /// The field of circles, prepared.
@@ -50,7 +50,9 @@ fn methods(c: &mut Criterion) {
             b.iter(|| evenly_spaced(black_box(&field), Family::Major, 1.0, &LineOptions::default()));
         });
         group.bench_function(BenchmarkId::new("topology", size), |b| {
-            b.iter(|| Topology::of(black_box(&field), &[Family::Major, Family::Minor], &LineOptions::default()));
+            b.iter(|| {
+                Topology::of(black_box(&field), &[Family::Major, Family::Minor], &LineOptions::default())
+            });
         });
     }
     group.finish();

@@ -218,10 +218,8 @@ mod tests {
                     let samples = per_cell(&between, &options);
                     let family = if n == 1 { Family::Minor } else { Family::Major };
                     let tracing = Tracing { field: &between, family, straight, step: 0.125, samples };
-                    let noise = noise(
-                        fine_grid(tensors.grid(), samples.map(|s| s as usize)).expect("samples"),
-                        3,
-                    );
+                    let noise =
+                        noise(fine_grid(tensors.grid(), samples.map(|s| s as usize)).expect("samples"), 3);
                     let at = |p: Point| if straight.is_some() { 2.0 + 0.05 * p.x } else { 5.0 };
                     let longest = if straight.is_some() { 6.0 } else { 5.0 };
                     let window = Window { longest, at: &at };

@@ -3,7 +3,7 @@
 use crate::flow_map::{exponent_of, gradient_at};
 use crate::lanes::ends_of_lines;
 use crate::walk::Walk;
-use crate::{Family, Interpolated, LineEnd, LineOptions};
+use crate::{Family, Interpolated, LineEnd, LineOptions, Method};
 use rayon::prelude::*;
 use thiserror::Error;
 use tigereye_core::{Cell, CellShape, Field, Grid, PhysicalPoint, Point, Vector};
@@ -14,8 +14,10 @@ use tigereye_simd::Level;
 pub struct FtleOptions {
     /// Length of the lines to each side, in units of the smaller side of a cell ([`tigereye_core::CellShape`]).
     pub length: f64,
-    /// Step of the lines, in the same unit.
+    /// Longest step of the lines, in the same unit.
     pub step: f64,
+    /// Largest error of a step, in the same unit ([`Method::RungeKutta43`]).
+    pub tolerance: f64,
     /// Samples per cell along each side.
     pub samples: usize,
     /// See [`LineOptions::least_anisotropy`].
@@ -24,7 +26,7 @@ pub struct FtleOptions {
 
 impl Default for FtleOptions {
     fn default() -> Self {
-        Self { length: 10.0, step: 0.25, samples: 2, least_anisotropy: 1e-3 }
+        Self { length: 10.0, step: 1.0, tolerance: 1e-5, samples: 2, least_anisotropy: 1e-3 }
     }
 }
 
@@ -145,6 +147,7 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
     check_work(grid, options.length, options.step)?;
     let samples = options.samples as f64;
     let follow = LineOptions {
+        method: Method::RungeKutta43 { tolerance: options.tolerance },
         step: options.step,
         length: options.length,
         least_anisotropy: options.least_anisotropy,
@@ -154,9 +157,8 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
     let level = Level::detect();
     let row = |y: usize| {
         let at = |x: usize| Point::new(x as f64 / samples, y as f64 / samples);
-        let directions: Vec<Option<Vector>> = (0..grid.width())
-            .map(|x| field.direction(at(x), family, options.least_anisotropy))
-            .collect();
+        let directions: Vec<Option<Vector>> =
+            (0..grid.width()).map(|x| field.direction(at(x), family, options.least_anisotropy)).collect();
         let lines: Vec<(Point, Vector)> = directions
             .iter()
             .enumerate()
@@ -169,8 +171,7 @@ pub fn ftle(field: &Interpolated<'_>, family: Family, options: &FtleOptions) -> 
         let mut start = |direction| Some(Start { direction, ends: ends.next()? });
         directions.into_iter().map(|d| d.and_then(&mut start)).collect::<Vec<_>>()
     };
-    let starts: Vec<Option<Start>> =
-        (0..grid.height()).into_par_iter().flat_map_iter(row).collect();
+    let starts: Vec<Option<Start>> = (0..grid.height()).into_par_iter().flat_map_iter(row).collect();
     let both: Vec<[f64; 2]> = (0..grid.cells())
         .into_par_iter()
         .map(|i| both_exponents(grid.cell(i), grid, &starts, (field.cell(), options)))

@@ -193,8 +193,11 @@ impl<'a> Interpolated<'a> {
         let within = Within::new(self.field.grid());
         let Place { square, parts, is_inside } = within.place(p.x, p.y);
         is_inside.then(|| {
-            let corners = within.corners(square).map(|i| slope::numbers(&self.field.values()[i]));
-            core::array::from_fn(|n| evaluated(polynomial(corners.map(|c| c[n])), parts))
+            let of = |i: usize| slope::numbers(&self.field.values()[i]);
+            let [a, b, c, d] = within.corners(square);
+            let (a, b, c, d) = (of(a), of(b), of(c), of(d));
+            let at = |n: usize| evaluated(polynomial([a[n], b[n], c[n], d[n]]), parts);
+            [at(0), at(1), at(2), at(3)]
         })
     }
 

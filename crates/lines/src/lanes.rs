@@ -7,7 +7,7 @@
 
 use crate::interpolated::{Place, Within, evaluated, polynomial};
 use crate::slope::{self, Rule, Slope, WithRule};
-use crate::walk::{LEAST_COSINE, LEAST_LEFT, Walk};
+use crate::walk::{GROWS, LEAST_COSINE, LEAST_LEFT, Walk};
 use crate::{Interpolated, LineEnd, Method};
 use tigereye_core::{Point, Vector};
 use tigereye_simd::{ArrayLoop, Level};
@@ -147,11 +147,13 @@ impl<'a, D: Directions> Beside<'a, D> {
                 continue;
             }
             self.square[l] = squares[l];
-            let corners = self.within.corners(squares[l]).map(|i| slope::numbers(&values[i]));
+            let [a, b, c, d] = self.within.corners(squares[l]);
+            let numbers = |i: usize| slope::numbers(&values[i]);
+            let (a, b, c, d) = (numbers(a), numbers(b), numbers(c), numbers(d));
             for n in 0..4 {
-                for (c, number) in polynomial(corners.map(|of| of[n])).into_iter().enumerate() {
-                    self.polynomials[n][c][l] = number;
-                }
+                let [one, along_u, along_v, along_both] = polynomial([a[n], b[n], c[n], d[n]]);
+                let of = &mut self.polynomials[n];
+                (of[0][l], of[1][l], of[2][l], of[3][l]) = (one, along_u, along_v, along_both);
             }
         }
     }
@@ -199,8 +201,13 @@ impl<'a, D: Directions> Beside<'a, D> {
 }
 
 /// Where lines from points in directions end, and why: [`crate::half_line_end`] for many lines.
-pub(crate) fn ends_of_lines(walk: &Walk<'_>, starts: &[(Point, Vector)], level: Level) -> Vec<(Point, LineEnd)> {
-    if walk.options.inertia.is_some() || walk.options.method != Method::RungeKutta4 {
+pub(crate) fn ends_of_lines(
+    walk: &Walk<'_>,
+    starts: &[(Point, Vector)],
+    level: Level,
+) -> Vec<(Point, LineEnd)> {
+    let is_possible = matches!(walk.options.method, Method::RungeKutta4 | Method::RungeKutta43 { .. });
+    if walk.options.inertia.is_some() || !is_possible {
         return starts.iter().map(|&(at, towards)| walk.end_of(at, towards)).collect();
     }
     walk.field.axes().with_rule(Ends { walk, starts, level })
@@ -244,14 +251,23 @@ impl<R: Rule, const SYMMETRIC: bool> ArrayLoop for March<'_, R, SYMMETRIC> {
         let mut waiting = self.starts.iter().enumerate();
         let mut beside = Beside::new(walk);
         let mut lines = Lines::new(walk);
+        let per_tolerance = walk.per_tolerance();
         for l in 0..LANES {
             lines.next(l, &mut waiting, &mut ends);
         }
         while lines.are_any() {
-            let step = runge_kutta::<R, SYMMETRIC, _>(&mut beside, &lines.at, &lines.towards, &lines.length);
+            let step = runge_kutta::<R, SYMMETRIC, _>(
+                &mut beside,
+                &lines.at,
+                &lines.towards,
+                &lines.length,
+                per_tolerance,
+            );
             let mut has_direction = [1; LANES];
             if beside.is_ended {
-                has_direction = beside.ends.map(|end| u64::from(end.is_none()));
+                for l in 0..LANES {
+                    has_direction[l] = u64::from(beside.ends[l].is_none());
+                }
             }
             if lines.advance(&step, &has_direction) {
                 for l in 0..LANES {
@@ -343,29 +359,41 @@ impl<'a> Lines<'a> {
         let (full, longest, most) = (options.step, options.length, self.walk.most_tries());
         let (shortest, enough) = (self.walk.shortest(), 1e-9 * full);
         let smaller = |a: f64, b: f64| if a < b { a } else { b };
+        let length = self.length;
+        // Loops over few arrays each, which the compiler turns into vectors.
+        for l in 0..LANES {
+            let is_left = step.least[l] >= LEAST_LEFT * self.contrast[l];
+            let is_accurate = (step.error[l] <= 1.0) | (0.5 * length[l] < shortest);
+            self.is_accepted[l] = has_direction[l] & self.is_there[l] & u64::from(is_left & is_accurate);
+        }
+        let is_accepted = self.is_accepted;
+        choose(&is_accepted, &step.at[0], &mut self.at[0]);
+        choose(&is_accepted, &step.at[1], &mut self.at[1]);
+        choose(&is_accepted, &step.slopes.along[0], &mut self.towards[0]);
+        choose(&is_accepted, &step.slopes.along[1], &mut self.towards[1]);
+        choose(&is_accepted, &step.slopes.contrast, &mut self.contrast);
+        let mut next = [0.0; LANES];
+        for l in 0..LANES {
+            next[l] = self.gone[l] + length[l];
+        }
+        choose(&is_accepted, &next, &mut self.gone);
+        for l in 0..LANES {
+            // As `Walk::next` has it: a step that was shortened is followed by one as long.
+            let may_grow = (self.is_shortened[l] == 0) & (step.error[l] < GROWS);
+            let grown = if may_grow { smaller(full, 2.0 * length[l]) } else { length[l] };
+            next[l] = smaller(grown, longest - self.gone[l]);
+            self.length[l] = 0.5 * length[l];
+        }
+        choose(&is_accepted, &next, &mut self.length);
         let mut may_have_ended = 0;
         for l in 0..LANES {
-            let is_left = u64::from(step.least[l] >= LEAST_LEFT * self.contrast[l]);
-            let is_accepted = has_direction[l] & is_left & self.is_there[l];
-            let select = |new: f64, old: f64| if is_accepted != 0 { new } else { old };
-            self.at[0][l] = select(step.at[0][l], self.at[0][l]);
-            self.at[1][l] = select(step.at[1][l], self.at[1][l]);
-            self.towards[0][l] = select(step.slopes.along[0][l], self.towards[0][l]);
-            self.towards[1][l] = select(step.slopes.along[1][l], self.towards[1][l]);
-            self.contrast[l] = select(step.slopes.contrast[l], self.contrast[l]);
-            let length = self.length[l];
-            self.gone[l] = select(self.gone[l] + length, self.gone[l]);
-            let left = longest - self.gone[l];
-            // A step that was shortened is followed by one as long.
-            let grown = if self.is_shortened[l] != 0 { length } else { smaller(full, 2.0 * length) };
-            self.length[l] = select(smaller(grown, left), 0.5 * length);
             self.tries[l] += 1.0;
+            self.is_shortened[l] = is_accepted[l] ^ 1;
+            let is_over = u64::from(longest - self.gone[l] <= enough);
+            let is_stuck = u64::from(self.length[l] < shortest);
+            let is_tired = u64::from(self.tries[l] > most);
             may_have_ended |= self.is_there[l]
-                & (u64::from(self.tries[l] > most)
-                    | (is_accepted & u64::from(left <= enough))
-                    | ((is_accepted ^ 1) & u64::from(0.5 * length < shortest)));
-            self.is_shortened[l] = is_accepted ^ 1;
-            self.is_accepted[l] = is_accepted;
+                & (is_tired | (is_accepted[l] & is_over) | ((is_accepted[l] ^ 1) & is_stuck));
         }
         may_have_ended != 0
     }
@@ -388,11 +416,21 @@ impl<'a> Lines<'a> {
     }
 }
 
+/// Takes the new number of each lane that is chosen.
+#[inline(always)]
+fn choose(is_chosen: &[u64; LANES], new: &Lanes, kept: &mut Lanes) {
+    for l in 0..LANES {
+        kept[l] = if is_chosen[l] != 0 { new[l] } else { kept[l] };
+    }
+}
+
 /// A step of each line.
 struct Steps {
     at: Pairs,
     slopes: Slopes,
     least: Lanes,
+    /// [`crate::walk::Step::error`].
+    error: Lanes,
 }
 
 /// [`Walk::runge_kutta`] for every lane.
@@ -402,6 +440,7 @@ fn runge_kutta<R: Rule, const SYMMETRIC: bool, D: Directions>(
     from: &Pairs,
     a: &Pairs,
     lengths: &Lanes,
+    per_tolerance: f64,
 ) -> Steps {
     beside.begin();
     let half = lengths.map(|h| 0.5 * h);
@@ -421,7 +460,12 @@ fn runge_kutta<R: Rule, const SYMMETRIC: bool, D: Directions>(
         let smaller = |a: f64, b: f64| if a < b { a } else { b };
         least[l] = smaller(smaller(b.contrast[l], c.contrast[l]), slopes.contrast[l]);
     }
-    Steps { at, slopes, least }
+    let mut error = [0.0; LANES];
+    for l in 0..LANES {
+        let off = [0, 1].map(|i| d.along[i][l] - slopes.along[i][l]);
+        error[l] = lengths[l] * (off[0] * off[0] + off[1] * off[1]).sqrt() * per_tolerance;
+    }
+    Steps { at, slopes, least, error }
 }
 
 #[cfg(test)]
@@ -460,7 +504,12 @@ mod tests {
                         let between = Interpolated::new(&tensors)
                             .with_axes(axes.by(major))
                             .with_cell(CellShape::of(sides));
-                        let options = LineOptions { step: 0.25, length: 9.0, ..LineOptions::default() };
+                        let method = match family {
+                            Family::Major => Method::RungeKutta4,
+                            Family::Minor => Method::RungeKutta43 { tolerance: 1e-4 },
+                        };
+                        let options =
+                            LineOptions { method, step: 0.5, length: 9.0, ..LineOptions::default() };
                         let walk = Walk { field: &between, family, options: &options };
                         let starts: Vec<(Point, Vector)> = (0..333)
                             .map(|i| {

@@ -5,6 +5,12 @@
 pub enum Method {
     /// The classical Runge-Kutta method of fourth order, every step of the same length.
     RungeKutta4,
+    /// The same with steps as long as the error allows, halved and doubled. Its estimate is the difference to a result of
+    /// third order that needs no further slope, because the last one of a step is the first of the next.
+    RungeKutta43 {
+        /// Largest estimate within a step, in units of the smaller side of a cell.
+        tolerance: f64,
+    },
     /// The embedded pair of orders five and four of Dormand and Prince (A family of embedded Runge-Kutta formulae,
     /// 1980), with steps as long as the error allows.
     DormandPrince {
@@ -70,7 +76,7 @@ impl LineOptions {
     pub(crate) fn are_possible(&self) -> bool {
         let tolerance = match self.method {
             Method::RungeKutta4 => true,
-            Method::DormandPrince { tolerance } => tolerance > 0.0,
+            Method::RungeKutta43 { tolerance } | Method::DormandPrince { tolerance } => tolerance > 0.0,
         };
         tolerance && self.step > 0.0 && self.step.is_finite() && self.length / self.step <= Self::MAX_STEPS
     }

@@ -15,6 +15,9 @@ const SHORTEST: f64 = 1.0 / 65536.0;
 /// Most trial steps per full step of a fixed length, and this many more in all.
 const TRIES: [f64; 2] = [8.0, 1000.0];
 
+/// A step doubles if its error is below this fraction of the tolerance: it grows with the fourth power of the length.
+pub(crate) const GROWS: f64 = 1.0 / 32.0;
+
 /// Integrates the lines of one family.
 pub(crate) struct Walk<'a> {
     pub(crate) field: &'a Interpolated<'a>,
@@ -154,7 +157,7 @@ impl Walk<'_> {
         let LineOptions { method, length, step, .. } = *self.options;
         match method {
             Method::RungeKutta4 => TRIES[0] * length / step + TRIES[1],
-            Method::DormandPrince { .. } => LineOptions::MAX_STEPS,
+            Method::RungeKutta43 { .. } | Method::DormandPrince { .. } => LineOptions::MAX_STEPS,
         }
     }
 
@@ -162,13 +165,23 @@ impl Walk<'_> {
         self.options.step * SHORTEST
     }
 
+    /// What makes of a difference of slopes the error of a step relative to the tolerance; 0 for steps of one length.
+    pub(crate) fn per_tolerance(&self) -> f64 {
+        match self.options.method {
+            Method::RungeKutta4 | Method::DormandPrince { .. } => 0.0,
+            Method::RungeKutta43 { tolerance } => 1.0 / (6.0 * tolerance),
+        }
+    }
+
     /// The length of the next step. With an error estimate, it follows from the error of the last step relative to the
     /// tolerance. A fixed step that was shortened grows again, but not immediately: near the end of a line every second
     /// step would be rejected otherwise.
     fn next(&self, length: f64, error: f64, shortened: bool) -> f64 {
         match self.options.method {
-            Method::RungeKutta4 if shortened => length,
-            Method::RungeKutta4 => self.options.step.min(2.0 * length),
+            Method::RungeKutta4 | Method::RungeKutta43 { .. } => {
+                let may_grow = !shortened && error < GROWS;
+                if may_grow { self.options.step.min(2.0 * length) } else { length }
+            }
             Method::DormandPrince { .. } => {
                 let factor = 0.9 * tigereye_core::math::pow(error.max(1e-10), -0.2);
                 (length * factor.clamp(0.2, 5.0)).clamp(self.shortest(), self.options.step)
@@ -178,18 +191,18 @@ impl Walk<'_> {
 
     /// The direction of a line at a point, for the incoming direction `towards`.
     pub(crate) fn slope(&self, at: Point, towards: Vector) -> Result<Slope, LineEnd> {
-        if self.options.inertia.is_none()
-            && let Some(numbers) = self.field.numbers(at)
-            && let Some(found) = self.field.axes().slope(numbers, self.family, towards.into())
-        {
-            let least = self.field.axes().least_contrast(self.options.least_anisotropy);
-            let is_distinct = found.contrast > least * found.longer;
-            let is_sharp = !found.bends_at_most(LEAST_COSINE * LEAST_COSINE);
-            return if is_distinct && !is_sharp {
-                Ok((found.along.into(), found.contrast))
-            } else {
-                Err(LineEnd::Degenerate)
-            };
+        if self.options.inertia.is_none() {
+            let Some(numbers) = self.field.numbers(at) else { return Err(LineEnd::Border) };
+            if let Some(found) = self.field.axes().slope(numbers, self.family, towards.into()) {
+                let least = self.field.axes().least_contrast(self.options.least_anisotropy);
+                let is_distinct = found.contrast > least * found.longer;
+                let is_sharp = !found.bends_at_most(LEAST_COSINE * LEAST_COSINE);
+                return if is_distinct && !is_sharp {
+                    Ok((found.along.into(), found.contrast))
+                } else {
+                    Err(LineEnd::Degenerate)
+                };
+            }
         }
         self.slope_of_any(at, towards)
     }
@@ -231,7 +244,7 @@ impl Walk<'_> {
 
     fn step(&self, from: Pose, h: f64) -> Result<Step, LineEnd> {
         let step = match self.options.method {
-            Method::RungeKutta4 => self.runge_kutta(from, h),
+            Method::RungeKutta4 | Method::RungeKutta43 { .. } => self.runge_kutta(from, h),
             Method::DormandPrince { tolerance } => self.dormand_prince(from, h, tolerance),
         }?;
         // Lines with inertia may cross degenerate points: their contrast is always 0.
@@ -250,7 +263,10 @@ impl Walk<'_> {
         let mean = (a + b * 2.0 + c * 2.0 + d) / 6.0;
         let at = ahead(mean, h);
         let (towards, contrast) = self.slope(at, d)?;
-        Ok(Step { pose: Pose { at, towards, contrast }, least: first.min(second).min(contrast), error: 0.0 })
+        // With the slope at the end in place of the last one, the weights give a result of third order.
+        let off = d - towards;
+        let error = h * (off.x * off.x + off.y * off.y).sqrt() * self.per_tolerance();
+        Ok(Step { pose: Pose { at, towards, contrast }, least: first.min(second).min(contrast), error })
     }
 
     fn dormand_prince(&self, from: Pose, h: f64, tolerance: f64) -> Result<Step, LineEnd> {

@@ -19,9 +19,9 @@ mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub use number::Number;
 #[cfg(target_arch = "x86_64")]
 use core::arch::x86_64::{__m256, __m256d, __m512, __m512d};
+pub use number::Number;
 use plain::Plain;
 #[cfg(target_arch = "x86_64")]
 use vector::{HasAvx2, HasAvx512};

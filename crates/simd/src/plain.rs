@@ -1,7 +1,7 @@
 //! Vectors that every processor has: arrays.
 
-use crate::vector::{Octet, Vector};
 use crate::number::Number;
+use crate::vector::{Octet, Vector};
 use core::ops::{Add, Div, Mul, Sub};
 
 /// The vector of every processor.

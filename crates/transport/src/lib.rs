@@ -37,8 +37,8 @@ pub use scattering::Scattering;
 pub use scheme::{
     ScatteringRule, Scheme, SharedWeights, half_angle_beta_rad, half_core_alpha_rad, sector_lobes,
 };
-pub use tigereye_simd::{ArrayLoop, Level};
 pub use stopping::{StopMeasure, Stopping, StoppingRule};
+pub use tigereye_simd::{ArrayLoop, Level};
 
 /// Every engine, the oracle first. Laws of propagations are tested for each of them, and experiment files choose them
 /// by [`Engine::id`].

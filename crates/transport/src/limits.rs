@@ -4,10 +4,10 @@
 
 use crate::Real;
 use crate::aligned::Aligned;
-use tigereye_simd::{Level, Proven, Task, Vector};
 use core::hint::black_box;
 use core::marker::PhantomData;
 use tigereye_core::Grid;
+use tigereye_simd::{Level, Proven, Task, Vector};
 
 /// Multiplications, fused or not, of one update of one cell in one lane ([`PulseSolver`](crate::PulseSolver)).
 const PRODUCTS: usize = 46;

@@ -8,10 +8,10 @@
 //! entries a row. And T is the same in opposite directions, so row k+4 repeats row k: twenty numbers a cell.
 
 use crate::Scheme;
-use tigereye_simd::Number;
 use crate::pulses::{Passage, SectorSums, Walls};
 use std::sync::OnceLock;
 use tigereye_core::{Cell, Grid, TransmissionField};
+use tigereye_simd::Number;
 
 /// Eight fluxes, W.
 pub(crate) type Lobes = [f64; 8];

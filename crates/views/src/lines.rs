@@ -194,6 +194,7 @@ pub fn parameters(request: &LinesRequest) -> serde_json::Value {
     let o = &request.options;
     let (method, tolerance) = match o.method {
         Method::RungeKutta4 => ("rk4", None),
+        Method::RungeKutta43 { tolerance } => ("rk43", Some(tolerance)),
         Method::DormandPrince { tolerance } => ("rk45", Some(tolerance)),
     };
     serde_json::json!({

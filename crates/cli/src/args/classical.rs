@@ -16,6 +16,8 @@ use tigereye_render::{GlyphColour, GlyphKind, GlyphScale};
 pub(crate) enum MethodName {
     /// Runge-Kutta of fourth order with a fixed step.
     Rk4,
+    /// The same with steps by --tolerance, halved and doubled.
+    Rk43,
     /// Dormand-Prince 5(4) with steps by --tolerance.
     Rk45,
 }
@@ -69,10 +71,10 @@ pub(crate) struct LinesArgs {
     /// How lines are integrated.
     #[arg(long, value_enum, default_value_t = MethodName::Rk4)]
     pub(crate) method: MethodName,
-    /// Step, cells (smaller sides); the longest one with rk45.
+    /// Step, cells (smaller sides); the longest one with rk43 and rk45.
     #[arg(long, value_name = "CELLS", default_value = "0.1", value_parser = parse_step)]
     pub(crate) step: f64,
-    /// Largest error of a step with rk45, cells (smaller sides); 1e-6 by default.
+    /// Largest error of a step with rk43 or rk45, cells (smaller sides); 1e-6 by default.
     #[arg(long, value_name = "CELLS", value_parser = parse_tolerance)]
     pub(crate) tolerance: Option<f64>,
     /// Longest line to each side of its seed, cells (smaller sides); by default four times the longer side.
@@ -161,9 +163,12 @@ pub(crate) struct FtleArgs {
     /// Samples a cell along each side.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = parse_samples)]
     pub(crate) samples: usize,
-    /// Step of the lines, cells (smaller sides).
-    #[arg(long, value_name = "CELLS", default_value = "0.25", value_parser = parse_coarse_step)]
+    /// Longest step of the lines, cells (smaller sides).
+    #[arg(long, value_name = "CELLS", default_value = "1", value_parser = parse_coarse_step)]
     pub(crate) step: f64,
+    /// Largest error of a step, cells (smaller sides).
+    #[arg(long, value_name = "CELLS", default_value = "1e-5", value_parser = parse_tolerance)]
+    pub(crate) tolerance: f64,
     #[command(flatten)]
     pub(crate) of: AxesArgs,
     #[command(flatten)]

@@ -22,8 +22,8 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
     let following = args.of.following(&input)?;
     let axes = following.axes;
     let family = args.family;
-    let (length, step, samples) = (args.length, args.step, args.samples);
-    let options = FtleOptions { length, step, samples, ..FtleOptions::default() };
+    let (length, step, tolerance, samples) = (args.length, args.step, args.tolerance, args.samples);
+    let options = FtleOptions { length, step, tolerance, samples, ..FtleOptions::default() };
     let found = ftle::exponents(&input.field, following, family, &options)
         .map_err(|e| CliError::input(&args.of.input, e))?;
     let parameters = json!({
@@ -32,6 +32,7 @@ pub(crate) fn run(args: &FtleArgs) -> Result<u8, CliError> {
         "family": family.name(),
         "length": length,
         "step": step,
+        "tolerance": tolerance,
         "samples": samples,
     });
     let parameters = with_rows(parameters, Rows::Upwards);

@@ -21,8 +21,11 @@ const SIDES: f64 = 4.0;
 pub(crate) fn run(args: &LinesArgs) -> Result<u8, CliError> {
     drawing::check_outputs(&args.outputs, &["vtp", "png", "svg", "pdf"])?;
     let input = drawing::open_input(&args.of.input, &args.of.reading, &args.outputs)?;
-    if args.tolerance.is_some() && args.method != MethodName::Rk45 {
-        return Err(CliError::input("--tolerance", "is that of adaptive steps: expected --method rk45"));
+    if args.tolerance.is_some() && args.method == MethodName::Rk4 {
+        return Err(CliError::input(
+            "--tolerance",
+            "is that of adaptive steps: expected --method rk43 or rk45",
+        ));
     }
     let style = drawing::placed(
         drawing::style(&args.style, Colours::Kinds)?,
@@ -96,6 +99,7 @@ fn request(args: &LinesArgs, input: &Input) -> Result<LinesRequest, CliError> {
     };
     let method = match args.method {
         MethodName::Rk4 => Method::RungeKutta4,
+        MethodName::Rk43 => Method::RungeKutta43 { tolerance: args.tolerance.unwrap_or(TOLERANCE) },
         MethodName::Rk45 => Method::DormandPrince { tolerance: args.tolerance.unwrap_or(TOLERANCE) },
     };
     Ok(LinesRequest {

@@ -162,7 +162,8 @@ impl Tile<'_> {
                     for sx in columns.clone() {
                         let value = is_predicted.then(|| {
                             let part = (sx - x * across) as f64 / across as f64;
-                            let sides = interpolated.edges().map(|[left, right]| Points { left, right, part });
+                            let sides =
+                                interpolated.edges().map(|[left, right]| Points { left, right, part });
                             self.weighted([sx, sy], sides, weights, &mut indices)
                         });
                         match value.filter(|v| !v.is_nan()) {
@@ -178,8 +179,10 @@ impl Tile<'_> {
     /// The lines through points; `None` where there is no axis.
     fn lines(&self, points: impl Iterator<Item = Point>, steps: usize) -> Vec<Option<Line>> {
         let directions: Vec<_> = points.map(|at| (at, self.tracing.direction(at))).collect();
-        let starts: Vec<_> =
-            directions.iter().flat_map(|&(at, d)| d.into_iter().flat_map(move |d| [(at, d), (at, -d)])).collect();
+        let starts: Vec<_> = directions
+            .iter()
+            .flat_map(|&(at, d)| d.into_iter().flat_map(move |d| [(at, d), (at, -d)]))
+            .collect();
         let mut traces = self.tracing.traces(&starts, steps, self.level).into_iter();
         let mut line = |direction| Some(Line { direction, sides: [traces.next()?, traces.next()?] });
         directions.into_iter().map(|(_, d)| d.and_then(&mut line)).collect()
@@ -327,7 +330,8 @@ impl Interpolation {
         }
         let limits = tracing.samples.map(|s| TOLERANCE / s);
         // The side of a line that runs in the direction of the middle one comes first.
-        let sides = [a, b, c, d].map(|l| if l.direction.dot(middle.direction) < 0.0 { [1, 0] } else { [0, 1] });
+        let sides =
+            [a, b, c, d].map(|l| if l.direction.dot(middle.direction) < 0.0 { [1, 0] } else { [0, 1] });
         let lines = [a, b, c, d];
         for side in 0..2 {
             let around: [&Trace; 4] = core::array::from_fn(|n| &lines[n].sides[sides[n][side]]);

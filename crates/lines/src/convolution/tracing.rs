@@ -159,7 +159,9 @@ impl<R: Rule, const SYMMETRIC: bool> ArrayLoop for March<'_, R, SYMMETRIC> {
                 let to = beside.ahead(&at, &middle.along, &step);
                 let next = beside.slopes::<R, SYMMETRIC>(&to, &middle.along);
                 if beside.is_ended {
-                    is_ended = beside.ends.map(|end| end.is_some());
+                    for l in 0..LANES {
+                        is_ended[l] = beside.ends[l].is_some();
+                    }
                 }
                 for l in 0..LANES {
                     lengths[l] += usize::from(!is_ended[l]);

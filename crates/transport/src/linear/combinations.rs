@@ -1,12 +1,12 @@
 //! L1 norms of linear combinations of distributions, over all cells and angular samples.
 
-use tigereye_simd::Number;
 use crate::pulses::SectorSums;
 use crate::real::Real;
 use crate::scattering::Scattering;
-use tigereye_simd::{Level, Octet, Proven, Task};
 use core::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
+use tigereye_simd::Number;
+use tigereye_simd::{Level, Octet, Proven, Task};
 
 /// A linear combination of distributions: which ones, each with its factor.
 pub type Combination<T> = Vec<(usize, T)>;

@@ -5,10 +5,10 @@
 
 use super::parallel::Parallel;
 use crate::real::Real;
-use tigereye_simd::{Level, Proven, Task, Vector};
 use std::cmp::Ordering;
 use std::ops::Range;
 use std::sync::Mutex;
+use tigereye_simd::{Level, Proven, Task, Vector};
 
 /// Heights of the panels that `A` is cut into, the largest that fits first. Six rows with four vectors of AVX-512, or
 /// with two of narrower levels, fill the registers.

@@ -17,10 +17,10 @@ use super::dense::{Lanes, Packed, PackedSlice, Tiles, inverse_of_one_minus};
 use super::parallel::{Parallel, Serial};
 use crate::TransportError;
 use crate::real::Real;
-use tigereye_simd::{Level, Proven, Task, Vector};
 use std::ops::Range;
 use std::sync::{Mutex, OnceLock};
 use tigereye_core::{Cell, Grid};
+use tigereye_simd::{Level, Proven, Task, Vector};
 
 /// Which system is solved: that of light, or its adjoint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

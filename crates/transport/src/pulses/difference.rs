@@ -6,13 +6,13 @@
 //! one by one: `|v_i| + |v_{n-i}| = max(|v_i + v_{n-i}|, |v_i - v_{n-i}|)`, where the sum is a multiple of `p_k +
 //! p_{k+1}` and the difference one of `p_k - p_{k+1}`.
 
-use tigereye_simd::Number;
 use crate::real::Real;
 use crate::scattering::Scattering;
-use tigereye_simd::{Level, Octet, Proven, Task};
 use crate::window::Window;
 use core::f64::consts::FRAC_1_SQRT_2;
 use tigereye_core::Cell;
+use tigereye_simd::Number;
+use tigereye_simd::{Level, Octet, Proven, Task};
 
 use super::PulseDistribution;
 use super::sector_sums::SectorSums;

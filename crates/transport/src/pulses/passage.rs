@@ -8,9 +8,9 @@
 //! sum over k four more.
 
 use crate::Scheme;
+use core::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 use tigereye_simd::Number;
 use tigereye_simd::Vector;
-use core::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 /// One cell.
 #[derive(Clone, Copy, Debug, PartialEq)]

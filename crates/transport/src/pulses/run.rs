@@ -4,9 +4,9 @@ use super::PulseDistribution;
 use super::stream::{Medium, Stream};
 use crate::Stopping;
 use crate::scattering::Scattering;
-use tigereye_simd::Level;
 use crate::window::Window;
 use tigereye_core::Grid;
+use tigereye_simd::Level;
 
 /// One batch of pulses.
 pub(super) struct Run<'r, 'a, T, const N: usize> {

@@ -1,8 +1,8 @@
 //! The samples of a sector between two directions in symmetric pairs; [`super::difference`] has the derivation.
 
 use crate::Scheme;
-use tigereye_simd::Number;
 use core::f64::consts::FRAC_1_SQRT_2;
+use tigereye_simd::Number;
 
 /// Two symmetric samples of a sector: `|v_i| + |v_{n-i}| = weight * max(|p_k + p_{k+1}|, ratio * |p_k - p_{k+1}|)`.
 #[derive(Clone, Copy, Debug)]

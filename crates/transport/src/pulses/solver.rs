@@ -7,13 +7,13 @@ use super::run::{Run, whole};
 use super::source::Source;
 use super::stationary::Settled;
 use super::stream::{MAX_FUSED, Medium, Stream};
-use tigereye_simd::Number;
 use crate::scattering::Scattering;
-use tigereye_simd::{Level, Proven, Task, Vector};
 use crate::stopping::{StepMeasures, Verdict};
 use crate::window::Window;
 use crate::{Real, Stopping, StoppingRule};
 use tigereye_core::{Cell, Grid, StopReason, Work};
+use tigereye_simd::Number;
+use tigereye_simd::{Level, Proven, Task, Vector};
 
 /// The end of one lane's propagation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

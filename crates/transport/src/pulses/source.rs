@@ -1,10 +1,10 @@
 //! N delta pulses of one cell, one in each lane.
 
 use crate::Scheme;
-use tigereye_simd::Number;
 use crate::pulses::passage::{Passage, sum_of_eight};
-use tigereye_simd::Vector;
 use tigereye_core::Cell;
+use tigereye_simd::Number;
+use tigereye_simd::Vector;
 
 /// The pulses' own terms: each keeps one sample of the source cell at the value S.
 pub(crate) struct Source<T, const N: usize> {

@@ -17,9 +17,9 @@ use super::memory::{Lanes, Memory, Weights};
 use super::run::{Run, whole};
 use super::stream::{Lobes, Medium, Parity, Stream, load8, slot_mut};
 use crate::Real;
+use tigereye_core::{Cell, Grid, Work};
 use tigereye_simd::Number;
 use tigereye_simd::Vector;
-use tigereye_core::{Cell, Grid, Work};
 
 /// Number of pairs of sweeps between two mixings.
 const PAIRS: usize = 3;

@@ -17,15 +17,15 @@
 //! the rows.
 
 use crate::aligned::Aligned;
-use tigereye_simd::Number;
 use crate::pulses::memory::Memory;
 use crate::pulses::passage::Passage;
 use crate::pulses::source::Source;
 use crate::pulses::walls::Walls;
-use tigereye_simd::Vector;
 use crate::window::Window;
 use core::ops::Range;
 use tigereye_core::{Cell, Grid, NEIGHBOUR_OFFSETS};
+use tigereye_simd::Number;
+use tigereye_simd::Vector;
 
 /// Eight numbers for each of N lanes.
 pub(crate) type Lobes<T, const N: usize> = [[T; N]; 8];

@@ -1,8 +1,8 @@
 //! Reflecting cells, in the form computed by the pulse lanes.
 
+use tigereye_core::{Cell, Reflection, TransmissionField};
 use tigereye_simd::Number;
 use tigereye_simd::Vector;
-use tigereye_core::{Cell, Reflection, TransmissionField};
 
 /// All walls of a field.
 #[derive(Clone, Debug)]

@@ -101,6 +101,76 @@ impl Directions for Tracing<'_> {
     }
 }
 
+/// Most steps that are made at once where a line is nearly straight.
+const STRIDE: usize = 4;
+/// Directions within such a stride differ by at most 18 degrees: the square of the cosine.
+const STRAIGHT: f64 = 0.905;
+
+/// The same lines where they are nearly straight and far from everything unusual: there is no other decision.
+struct Straight<'a>(&'a Tracing<'a>);
+
+impl Directions for Straight<'_> {
+    fn field(&self) -> &Interpolated<'_> {
+        self.0.field
+    }
+
+    fn sign(&self) -> f64 {
+        self.0.sign()
+    }
+
+    fn limits(&self) -> [f64; 2] {
+        [self.0.limits()[0], STRAIGHT]
+    }
+
+    fn single(&self, _: Point, _: Vector) -> Result<(Vector, f64), LineEnd> {
+        Err(LineEnd::Stopped)
+    }
+}
+
+/// Several steps at once, by the midpoint rule, and the points between by the cubic through both ends with their
+/// directions: the points and directions at the end, and which lines are straight enough for it.
+#[inline(always)]
+fn stride<R: Rule, const SYMMETRIC: bool>(
+    ahead: &mut Beside<'_, Straight<'_>>,
+    (at, towards): &(Pairs, Pairs),
+    step: f64,
+    steps: usize,
+    points: &mut Vec<Pairs>,
+) -> ((Pairs, Pairs), [bool; LANES]) {
+    let length = step * steps as f64;
+    ahead.begin();
+    let middle = ahead.slopes::<R, SYMMETRIC>(&ahead.ahead(at, towards, &[0.5 * length; LANES]), towards);
+    let to = ahead.ahead(at, &middle.along, &[length; LANES]);
+    let next = ahead.slopes::<R, SYMMETRIC>(&to, &middle.along);
+    // Directions in cells, y downwards.
+    let origin: Pairs = [[0.0; LANES]; 2];
+    let (start, end) = (
+        ahead.ahead(&origin, towards, &[length; LANES]),
+        ahead.ahead(&origin, &next.along, &[length; LANES]),
+    );
+    for k in 1..steps {
+        let t = k as f64 / steps as f64;
+        let u = 1.0 - t;
+        let (a, b) = ((1.0 + 2.0 * t) * u * u, (1.0 + 2.0 * u) * t * t);
+        let (c, d) = (t * u * u, -(u * t * t));
+        let mut between: Pairs = [[0.0; LANES]; 2];
+        for i in 0..2 {
+            for l in 0..LANES {
+                between[i][l] = (a * at[i][l] + b * to[i][l]) + (c * start[i][l] + d * end[i][l]);
+            }
+        }
+        points.push(between);
+    }
+    points.push(to);
+    let mut is_straight = [true; LANES];
+    if ahead.is_ended {
+        for l in 0..LANES {
+            is_straight[l] = ahead.ends[l].is_none();
+        }
+    }
+    ((to, next.along), is_straight)
+}
+
 struct Traces<'a> {
     tracing: &'a Tracing<'a>,
     starts: &'a [(Point, Vector)],
@@ -139,6 +209,8 @@ impl<R: Rule, const SYMMETRIC: bool> ArrayLoop for March<'_, R, SYMMETRIC> {
         let step: Lanes = [self.tracing.step; LANES];
         let half = step.map(|h| 0.5 * h);
         let mut beside = Beside::new(self.tracing);
+        let straight = Straight(self.tracing);
+        let mut ahead = Beside::new(&straight);
         let mut points: Vec<Pairs> = Vec::with_capacity(self.steps);
         for starts in self.starts.chunks(LANES) {
             // Lanes without a line repeat the first one.
@@ -154,26 +226,58 @@ impl<R: Rule, const SYMMETRIC: bool> ArrayLoop for March<'_, R, SYMMETRIC> {
             beside.begin();
             let mut lengths = [0; LANES];
             let mut is_ended = [false; LANES];
-            for _ in 0..self.steps {
-                let middle = beside.slopes::<R, SYMMETRIC>(&beside.ahead(&at, &towards, &half), &towards);
-                let to = beside.ahead(&at, &middle.along, &step);
-                let next = beside.slopes::<R, SYMMETRIC>(&to, &middle.along);
-                if beside.is_ended {
+            while points.len() < self.steps && is_ended != [true; LANES] {
+                let most = (self.steps - points.len()).min(STRIDE);
+                let from = (at, towards);
+                let mut strode =
+                    stride::<R, SYMMETRIC>(&mut ahead, &from, self.tracing.step, most, &mut points);
+                (at, towards) = strode.0;
+                for l in 0..LANES {
+                    strode.1[l] |= is_ended[l];
+                }
+                if strode.1 == [true; LANES] {
                     for l in 0..LANES {
-                        is_ended[l] = beside.ends[l].is_some();
+                        lengths[l] += if is_ended[l] { 0 } else { most };
+                    }
+                    continue;
+                }
+                // Some lines have to go step by step; those that strode keep what they have.
+                let first = points.len() - most;
+                let (mut fine_at, mut fine_towards) = from;
+                for k in 0..most {
+                    let middle = beside
+                        .slopes::<R, SYMMETRIC>(&beside.ahead(&fine_at, &fine_towards, &half), &fine_towards);
+                    let to = beside.ahead(&fine_at, &middle.along, &step);
+                    let next = beside.slopes::<R, SYMMETRIC>(&to, &middle.along);
+                    for l in 0..LANES {
+                        if !strode.1[l] {
+                            is_ended[l] |= beside.is_ended && beside.ends[l].is_some();
+                        }
+                        // A line that has ended stays where it was.
+                        if !is_ended[l] {
+                            (fine_at[0][l], fine_at[1][l]) = (to[0][l], to[1][l]);
+                            (fine_towards[0][l], fine_towards[1][l]) = (next.along[0][l], next.along[1][l]);
+                            lengths[l] += 1;
+                        }
+                        if !strode.1[l] {
+                            (points[first + k][0][l], points[first + k][1][l]) =
+                                (fine_at[0][l], fine_at[1][l]);
+                        }
                     }
                 }
                 for l in 0..LANES {
-                    lengths[l] += usize::from(!is_ended[l]);
-                    // A line that has ended stays where it was.
-                    let select = |new: f64, old: f64| if is_ended[l] { old } else { new };
-                    (at[0][l], at[1][l]) = (select(to[0][l], at[0][l]), select(to[1][l], at[1][l]));
-                    towards[0][l] = select(next.along[0][l], towards[0][l]);
-                    towards[1][l] = select(next.along[1][l], towards[1][l]);
+                    if !strode.1[l] {
+                        (at[0][l], at[1][l]) = (fine_at[0][l], fine_at[1][l]);
+                        (towards[0][l], towards[1][l]) = (fine_towards[0][l], fine_towards[1][l]);
+                    }
                 }
-                points.push(at);
-                if is_ended == [true; LANES] {
-                    break;
+                if beside.is_ended {
+                    // What a line that strode met step by step does not count.
+                    for l in 0..LANES {
+                        if strode.1[l] {
+                            beside.ends[l] = None;
+                        }
+                    }
                 }
             }
             traces.extend((0..starts.len()).map(|l| {

@@ -208,17 +208,31 @@ pub(crate) struct LtgArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct MergeArgs {
-    /// What `ltg --shard` wrote, every shard once, in any order.
-    #[arg(required = true, value_name = "PART")]
+    /// What `ltg --shard` wrote, every shard once, in any order; of a folder the files .part.
+    #[arg(required = true, value_name = "DIR|PART")]
     pub(crate) parts: Vec<PathBuf>,
     /// Outputs by their extensions, as those of `ltg`: .vti, .npy, .png, .svg, .pdf.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
+    /// What is there already, checkpoints in the folders among it: values that are not finished are NaN. An estimate
+    /// has fewer sketches.
+    #[arg(long)]
+    pub(crate) partial: bool,
     /// Summary as JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) style: StyleArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StatusArgs {
+    /// Parts, checkpoints, or folders with files .part and folders with a checkpoint.part in them.
+    #[arg(required = true, value_name = "DIR|PART")]
+    pub(crate) paths: Vec<PathBuf>,
+    /// As JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

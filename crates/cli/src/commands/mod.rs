@@ -23,6 +23,7 @@ pub(crate) mod reproduce;
 pub(crate) mod review;
 pub(crate) mod ridges;
 pub(crate) mod shell;
+pub(crate) mod status;
 pub(crate) mod topology;
 pub(crate) mod volume;
 

@@ -18,6 +18,7 @@ pub(crate) mod lines;
 pub(crate) mod ltg;
 pub(crate) mod merge;
 pub(crate) mod overlaid;
+pub(crate) mod plan;
 pub(crate) mod propagate;
 pub(crate) mod reproduce;
 pub(crate) mod review;

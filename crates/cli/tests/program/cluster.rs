@@ -12,6 +12,7 @@ fn shard(place: &Place, index: usize, output: &str) {
 #[test]
 fn status_tells_what_is_done_missing_and_broken() {
     let place = Place::new();
+    place.write("parts/1.failed", b"");
     place.succeeds(
         &[&SWEEP[..], &["--shard", "0/3", "--checkpoint", "parts/0", "-o", "parts/0.part"]].concat(),
     );
@@ -67,6 +68,7 @@ fn folders_without_shards_are_refused() {
 fn a_partial_merge_marks_what_is_missing() {
     let place = Place::new();
     place.succeeds(&[&SWEEP[..], &["-o", "whole.npy"]].concat());
+    place.write("parts/notes.txt", b"The folder must be there.");
     shard(&place, 0, "parts/0.part");
     shard(&place, 2, "parts/2.part");
     place.refuses(&["merge", "parts", "-o", "new.npy"], &["shard 1/3 is missing"]);

@@ -13,7 +13,7 @@ use clap::{Parser, Subcommand};
 use classical::{FtleArgs, GlyphsArgs, LicArgs, LinesArgs, RidgesArgs, TopologyArgs};
 use experiments::{CheckArgs, ReproduceArgs, ReviewArgs, RunArgs};
 use fields::FieldCommand;
-use light::{BenchArgs, LtgArgs, MergeArgs, PropagateArgs};
+use light::{BenchArgs, LtgArgs, MergeArgs, PropagateArgs, StatusArgs};
 use reading::{CompareArgs, ConvertArgs, InfoArgs};
 use shell::{CompletionsArgs, ManArgs};
 
@@ -42,6 +42,8 @@ pub(crate) enum Command {
     Ltg(LtgArgs),
     /// The light transport gradient volume of shards computed apart.
     Merge(MergeArgs),
+    /// How far the shards of a gradient are, and what is missing or broken.
+    Status(StatusArgs),
     /// The contents of a tensor field, and how it was read.
     Info(InfoArgs),
     /// Any readable tensor field to another format.

@@ -13,6 +13,7 @@ mod input;
 mod interrupt;
 mod medium;
 mod part_file;
+mod pieces;
 mod results_folder;
 mod system;
 mod watch;
@@ -49,6 +50,7 @@ fn dispatch(cli: Cli) -> Result<u8, CliError> {
         Command::Propagate(a) => commands::propagate::propagate(&a),
         Command::Ltg(a) => commands::ltg::ltg(&a),
         Command::Merge(a) => commands::merge::merge(&a),
+        Command::Status(a) => commands::status::status(&a),
         Command::Info(a) => commands::info::info(&a),
         Command::Convert(a) => commands::convert::convert(&a),
         Command::Lines(a) => commands::lines::run(&a),

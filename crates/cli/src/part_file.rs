@@ -120,6 +120,14 @@ impl Content {
         }
     }
 
+    /// As far as it is finished: other values are NaN. An estimate has a value everywhere, of fewer sketches.
+    pub(crate) fn into_partial_gradient(self) -> Result<Gradient, LtgError> {
+        match self {
+            Self::Exact(volume) => Ok(Gradient { volume: volume.into_partial_volume(), error: None }),
+            sketched => sketched.into_gradient(),
+        }
+    }
+
     pub(crate) fn into_gradient(self) -> Result<Gradient, LtgError> {
         match self {
             Self::Exact(volume) => Ok(Gradient { volume: volume.into_outcome()?.volume, error: None }),

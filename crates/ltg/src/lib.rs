@@ -29,10 +29,10 @@ mod sweep;
 pub use error::LtgError;
 pub use linear::{
     Estimate, FEWEST_SKETCHES, MOST_SKETCHES, SketchObserver, SketchSettings, SketchShape, SketchSums,
-    SketchedGradient, check_linear_fit, linear_sweep_part,
+    SketchedGradient, check_linear_fit, linear_needs, linear_sweep_part,
 };
 pub use observer::{Phase, SweepObserver};
 pub use partial::{Finished, LtgOutcome, PartialVolume};
 pub use settings::{LtgSettings, Precision, omega_step_of_slices, omega_step_of_volumes};
 pub use shard::Shard;
-pub use sweep::{check_fit, sweep, sweep_part};
+pub use sweep::{Needs, check_fit, needs, sweep, sweep_part};

@@ -191,6 +191,24 @@ impl PartialVolume {
         Ok(LtgOutcome { volume, work, limited })
     }
 
+    /// The gradient as far as it is finished: NaN where a difference is missing, 0 on the border as in the finished one.
+    #[must_use]
+    pub fn into_partial_volume(self) -> LtgVolume {
+        let grid = self.grid;
+        let mut values: Vec<f64> = self.finished.squares.iter().map(|square| square.sqrt()).collect();
+        for (index, set) in self.sets.iter().enumerate() {
+            let lacks =
+                |cell: &Cell| !grid.is_border(*cell) && !self.finished.done[mark_of(grid, index, *cell)];
+            for cell in grid.iter().filter(lacks) {
+                let turned = set.turns.iter().map(|turn| turn.slice);
+                for slice in set.slice.iter().flatten().copied().chain(turned) {
+                    values[slice * grid.cells() + grid.index(cell)] = f64::NAN;
+                }
+            }
+        }
+        LtgVolume::new(grid, self.directions, self.slices, values)
+    }
+
     /// First direction of the set and cell of a mark.
     fn place_of(&self, mark: usize) -> (usize, Cell) {
         let inner = inner_cells(self.grid);

@@ -74,6 +74,20 @@ pub(crate) fn strips<T: Real>(
     Ok(sets.iter().map(of_set).collect())
 }
 
+/// Bytes of a sweep in these strips.
+pub(crate) fn bytes<T: Real>(
+    grid: Grid,
+    directions: Directions,
+    sets: &[DirectionSet],
+    strips: &[Vec<Range<usize>>],
+    slices: usize,
+    bounds: Bounds,
+) -> u128 {
+    let widest = |strips: &[Range<usize>]| strips.iter().map(|strip| strip.len() + 2).max().unwrap_or(0);
+    let rings = sets.iter().zip(strips).map(|(set, strips)| ring_bytes::<T>(grid, widest(strips), set));
+    fixed_bytes::<T>(grid, directions, slices, bounds) + rings.max().unwrap_or(0)
+}
+
 /// Whether a sweep with these slices fits.
 pub(crate) fn check<T: Real>(
     grid: Grid,

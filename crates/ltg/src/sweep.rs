@@ -77,6 +77,47 @@ pub fn check_fit(
     }
 }
 
+/// What a shard of a sweep takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Needs {
+    /// Sources it solves, those at its rim among them, which its neighbours solve, too.
+    pub sources: u64,
+    /// Bytes it allocates with the strips that fit into the bound.
+    pub bytes: u128,
+}
+
+/// What `shard` takes on rayon's current thread pool, before anything is computed.
+///
+/// # Errors
+/// As [`sweep`].
+pub fn needs(field: &Scattering<'_>, settings: &LtgSettings, shard: Shard) -> Result<Needs, LtgError> {
+    match settings.precision {
+        Precision::F64 => needs_of::<f64>(field, settings, shard),
+        Precision::F32 => needs_of::<f32>(field, settings, shard),
+    }
+}
+
+fn needs_of<T: Real>(
+    field: &Scattering<'_>,
+    settings: &LtgSettings,
+    shard: Shard,
+) -> Result<Needs, LtgError> {
+    let (grid, directions) = (field.grid(), field.scheme().directions());
+    let slices = settings.checked_slices(directions)?;
+    let bounds = bounds(settings, walls_of(field));
+    let volume = PartialVolume::empty(grid, directions, slices, settings.omega_step)?;
+    let sets = volume.sets();
+    let strips = plan::strips::<T>(grid, directions, sets, volume.slices().len(), bounds)?;
+    let mut sources = 0;
+    for (index, strips) in strips.iter().enumerate() {
+        let targets = volume.targets(index, shard);
+        let of_strip = |strip| Pass::new(grid, (index, &sets[index]), strip, targets.clone()).sources();
+        sources += strips.iter().map(of_strip).sum::<u64>();
+    }
+    let bytes = plan::bytes::<T>(grid, directions, sets, &strips, volume.slices().len(), bounds);
+    Ok(Needs { sources, bytes })
+}
+
 fn walls_of(field: &Scattering<'_>) -> usize {
     field.transmission().reflections().count()
 }

@@ -3,9 +3,9 @@
 use super::reading::ReadingArgs;
 use super::style::{OverlayArgs, StyleArgs};
 use super::values::{
-    choice, medium_help, parse_bytes, parse_count, parse_directions, parse_normalization, parse_percentage,
-    parse_seconds, parse_seed, parse_shard, parse_side, parse_sketches, parse_threads, parse_threshold,
-    parse_total_anisotropy,
+    choice, medium_help, parse_bytes, parse_count, parse_directions, parse_hours, parse_normalization,
+    parse_percentage, parse_seconds, parse_seed, parse_shard, parse_side, parse_sketches, parse_threads,
+    parse_threshold, parse_total_anisotropy,
 };
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -150,7 +150,7 @@ pub(crate) struct LtgArgs {
     pub(crate) input: String,
     /// Outputs by their extensions: .vti, .npy; .png, .svg, .pdf show the only slice, or the mean over the slices. With
     /// --shard one .part.
-    #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
+    #[arg(short, long = "output", value_name = "OUT", required_unless_present = "plan", num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) scheme: SchemeArgs,
@@ -197,6 +197,13 @@ pub(crate) struct LtgArgs {
     /// Only piece K, from 0, of N nearly equal ones, for `merge`.
     #[arg(long, value_name = "K/N", value_parser = parse_shard)]
     pub(crate) shard: Option<Shard>,
+    /// Compute nothing but a short sample, and say what the sweep takes here: work, memory, disk and time, and how
+    /// many shards keep each under --hours (with --shard K/N what N shards take).
+    #[arg(long, conflicts_with_all = ["outputs", "checkpoint", "preview", "view", "error"])]
+    pub(crate) plan: bool,
+    /// Hours that a shard may take, for --plan; 12 by default.
+    #[arg(long, value_name = "H", value_parser = parse_hours, requires = "plan", allow_hyphen_values = true)]
+    pub(crate) hours: Option<f64>,
     /// Summary as JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,
@@ -208,17 +215,31 @@ pub(crate) struct LtgArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct MergeArgs {
-    /// What `ltg --shard` wrote, every shard once, in any order.
-    #[arg(required = true, value_name = "PART")]
+    /// What `ltg --shard` wrote, every shard once, in any order; of a folder the files .part.
+    #[arg(required = true, value_name = "DIR|PART")]
     pub(crate) parts: Vec<PathBuf>,
     /// Outputs by their extensions, as those of `ltg`: .vti, .npy, .png, .svg, .pdf.
     #[arg(short, long = "output", value_name = "OUT", required = true, num_args = 1..)]
     pub(crate) outputs: Vec<PathBuf>,
+    /// What is there already, checkpoints in the folders among it: values that are not finished are NaN. An estimate
+    /// has fewer sketches.
+    #[arg(long)]
+    pub(crate) partial: bool,
     /// Summary as JSON on standard output.
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) style: StyleArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StatusArgs {
+    /// Parts, checkpoints, or folders with files .part and folders with a checkpoint.part in them.
+    #[arg(required = true, value_name = "DIR|PART")]
+    pub(crate) paths: Vec<PathBuf>,
+    /// As JSON on standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

@@ -21,6 +21,13 @@ pub(crate) fn parse_seconds(text: &str) -> Result<f64, String> {
     }
 }
 
+pub(crate) fn parse_hours(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 10_000.0 => Ok(x),
+        _ => Err("expected a number of hours above 0, at most 10000".to_owned()),
+    }
+}
+
 pub(crate) fn parse_directions(text: &str) -> Result<Directions, String> {
     let samples =
         text.parse().map_err(|_| format!("expected a multiple of 8 from 8 to {}", Directions::MAX))?;

@@ -5,6 +5,7 @@ use crate::args::style::OverlayName;
 use crate::checkpoint::Checkpoint;
 use crate::commands::drawing;
 use crate::commands::overlaid::Overlaid;
+use crate::commands::plan::{self, Method};
 use crate::commands::propagate::check_outputs;
 use crate::commands::volume::Look;
 use crate::commands::{advice, command_line, print_json, print_text, volume};
@@ -29,7 +30,9 @@ use tigereye_views::added::Added;
 
 pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     check_method(args)?;
-    check_places(args)?;
+    if !args.plan {
+        check_places(args)?;
+    }
     let style = drawing::style(&args.style, Colours::Values)?;
     let start = Instant::now();
     let input = MediumInput::open(&args.input, &args.scheme.reading)?;
@@ -42,6 +45,9 @@ pub(crate) fn ltg(args: &LtgArgs) -> Result<u8, CliError> {
     let rule = input.rule(&args.scheme.profiles)?;
     let thin = input.thin_cells(rule);
     advice::tell_thin(input.name(), thin.as_ref());
+    if args.plan {
+        return system::on_threads(args.resources.threads, || planned(args, &settings, rule, &input));
+    }
     let parameters = parameters(args, &settings, &input, rule);
     let identity = Identity::new(&parameters, input.blake3(), *input.geometry(), thin);
     let (computed, costs) = system::on_threads(args.resources.threads, || {
@@ -221,16 +227,7 @@ fn sketches(
     found: Option<Content>,
     watch: &Watch<'_>,
 ) -> Result<SketchSums, LtgError> {
-    let of_program = SketchSettings {
-        // For an error, a first guess at what it takes.
-        sketches: args.estimate.unwrap_or(PILOT_SKETCHES),
-        seed: args.seed.unwrap_or(0),
-        omega_step: settings.omega_step,
-        slices: settings.slices.clone(),
-        memory_bytes: settings.memory_bytes,
-        level: settings.level,
-    };
-    let gradient = SketchedGradient::new(field, of_program)?;
+    let gradient = SketchedGradient::new(field, sketch_settings(args, settings))?;
     match args.error {
         Some(error) => gradient.run_to_error(error, watch),
         None => {
@@ -238,6 +235,47 @@ fn sketches(
             gradient.run(args.shard.unwrap_or(Shard::WHOLE), found, watch)
         }
     }
+}
+
+fn sketch_settings(args: &LtgArgs, settings: &LtgSettings) -> SketchSettings {
+    SketchSettings {
+        // For an error, a first guess at what it takes.
+        sketches: args.estimate.unwrap_or(PILOT_SKETCHES),
+        seed: args.seed.unwrap_or(0),
+        omega_step: settings.omega_step,
+        slices: settings.slices.clone(),
+        memory_bytes: settings.memory_bytes,
+        level: settings.level,
+    }
+}
+
+/// Says what the sweep takes.
+fn planned(
+    args: &LtgArgs,
+    settings: &LtgSettings,
+    rule: ProfileRule,
+    input: &MediumInput,
+) -> Result<u8, CliError> {
+    let told = |e| fault(of_program(args, e));
+    let directions = args.scheme.directions;
+    match args.scheme.scattering {
+        ScatteringRule::Joint => check_fit(input.grid(), directions, input.reflecting(), settings),
+        ScatteringRule::Linear if args.estimate.is_some() => Ok(()),
+        ScatteringRule::Linear => check_linear_fit(input.grid(), directions, settings),
+    }
+    .map_err(told)?;
+    let transmission = input.transmission(directions, rule)?;
+    let scheme = args.scheme.scheme();
+    let scattering = Scattering::new(&scheme, &transmission);
+    if args.scheme.scattering == ScatteringRule::Joint {
+        return plan::plan(args, settings, &scattering, &Method::Joint, &told);
+    }
+    if args.estimate.is_none() {
+        return plan::plan(args, settings, &scattering, &Method::Linear, &told);
+    }
+    let linear = LinearScattering::new(&scattering);
+    let gradient = SketchedGradient::new(&linear, sketch_settings(args, settings)).map_err(told)?;
+    plan::plan(args, settings, &scattering, &Method::Sketched(&gradient), &told)
 }
 
 /// Sketches that say how many a given error takes.

@@ -9,7 +9,9 @@ use crate::commands::{print_json, print_text, volume};
 use crate::error::CliError;
 use crate::medium::read_scene;
 use crate::part_file::{self, Content, Costs, Identity, PartFile};
+use crate::pieces::Pieces;
 use crate::{files, interrupt};
+use serde_json::json;
 use std::path::{Path, PathBuf};
 use tigereye_experiments::scene::{PreparedScene, is_scene_file};
 use tigereye_ltg::Shard;
@@ -32,8 +34,18 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     let style = drawing::style(&args.style, Colours::Values)?;
     let mut taken: Vec<Taken> = Vec::new();
     let mut sum = None;
-    for path in &args.parts {
-        let (part, content) = read(path)?;
+    for path in &files_of(args)? {
+        let (part, content) = match read(path) {
+            Err(fault) if args.partial => {
+                eprintln!("tigereye: left out: {fault}");
+                continue;
+            }
+            read => read?,
+        };
+        if args.partial && taken.iter().any(|other| other.shard == part.shard) {
+            // The checkpoint of a shard whose part is there.
+            continue;
+        }
         sum = Some(match sum {
             None => content,
             Some(sum) => added(sum, &taken, &part, &content)?,
@@ -42,12 +54,25 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
         interrupt::check()?;
     }
     let Some(sum) = sum else { return Err(CliError::input("PART", "expected at least one part")) };
-    check_complete(&sum, &taken)?;
+    if !args.partial {
+        check_complete(&sum, &taken)?;
+    }
     // The same provenance whatever the order on the command line.
     taken.sort_by_key(|part| part.shard.index());
-    let identity = taken[0].identity.clone();
-    let summary = sum.kept().summary(&identity, &costs(&taken));
-    let gradient = sum.into_gradient().map_err(|e| CliError::input(&names(&taken), e))?;
+    let mut identity = taken[0].identity.clone();
+    let mut summary = sum.kept().summary(&identity, &costs(&taken));
+    let (missing, total) = (sum.kept().missing(Shard::WHOLE), sum.kept().numbers().1.len());
+    let unit = sum.kept().unit();
+    let gradient = if args.partial { sum.into_partial_gradient() } else { sum.into_gradient() };
+    let gradient = gradient.map_err(|e| CliError::input(&names(&taken), e))?;
+    if args.partial {
+        identity.parameters["missing"] = json!(format!("{missing} of {total} {unit}"));
+        let known = || gradient.volume.values().iter().copied().filter(|v| !v.is_nan());
+        summary["max"] = json!(known().fold(0.0, f64::max));
+        summary["mean"] = json!(known().sum::<f64>() / known().count().max(1) as f64);
+        summary["missing"] = json!(missing);
+        summary["of"] = json!(total);
+    }
     let drawn = args.outputs.iter().any(|output| drawing::is_picture(output));
     let scene = if drawn { scene_of(&identity, &args.outputs)? } else { None };
     let walls = scene.as_ref().map(|scene| &scene.layout.surfaces);
@@ -61,9 +86,27 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<u8, CliError> {
     if args.json {
         print_json(&summary)?
     } else {
-        print_text(&volume::sentence(&summary, &identity.parameters["stop"]))?
+        print_text(&volume::sentence(&summary, &identity.parameters["stop"]))?;
+        if args.partial {
+            print_text(&format!("{missing} of {total} {unit} are missing\n"))?
+        }
     }
     Ok(0)
+}
+
+/// The files to merge: the parts, behind them for `--partial` the checkpoints.
+fn files_of(args: &MergeArgs) -> Result<Vec<PathBuf>, CliError> {
+    let pieces = Pieces::find(&args.parts)?;
+    let mut files = pieces.parts;
+    if args.partial {
+        files.extend(pieces.checkpoints);
+    } else if files.is_empty() {
+        let problem =
+            "has checkpoints, but no finished .part: expected every shard; --partial merges what is there";
+        let name = args.parts.first().map(|path| path.display().to_string()).unwrap_or_default();
+        return Err(CliError::input(&name, problem));
+    }
+    Ok(files)
 }
 
 /// The scene that the parts were made of, for its walls and title in pictures. Parts hold neither: where the file is

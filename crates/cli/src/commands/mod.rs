@@ -18,11 +18,13 @@ pub(crate) mod lines;
 pub(crate) mod ltg;
 pub(crate) mod merge;
 pub(crate) mod overlaid;
+pub(crate) mod plan;
 pub(crate) mod propagate;
 pub(crate) mod reproduce;
 pub(crate) mod review;
 pub(crate) mod ridges;
 pub(crate) mod shell;
+pub(crate) mod status;
 pub(crate) mod topology;
 pub(crate) mod volume;
 

@@ -3,6 +3,7 @@
 
 mod assumptions;
 mod classical;
+mod cluster;
 mod derived;
 mod experiments;
 mod faults;

@@ -99,7 +99,7 @@ fn parts_that_do_not_belong_together_are_named() {
     merge(&["0.part", "gyre.part", "2.part"], &["0.part and gyre.part", "the input is random", "gyre"]);
     merge(&["0.part", "nothing.part"], &["nothing.part", "reading"]);
     place.refuses(&["merge", "0.part", "-o", "new.xyz"], &["new.xyz", "expected .vti"]);
-    place.refuses(&["merge", "-o", "new.vti"], &["<PART>"]);
+    place.refuses(&["merge", "-o", "new.vti"], &["<DIR|PART>"]);
     place.refuses(&["merge", "0.part"], &["--output"]);
 }
 

@@ -8,7 +8,7 @@ use super::pool::Pool;
 use super::pulses::{Comparisons, has_dark_samples};
 use crate::observer::{Phase, SweepObserver};
 use crate::partial::PartialVolume;
-use crate::{LtgError, LtgSettings, Precision, Shard};
+use crate::{LtgError, LtgSettings, Needs, Precision, Shard};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -54,9 +54,74 @@ pub fn check_linear_fit(grid: Grid, directions: Directions, settings: &LtgSettin
     .map(drop)
 }
 
+/// What `shard` of an exact sweep of the linear scheme takes on rayon's current thread pool. Its sources are responses.
+///
+/// # Errors
+/// As [`check_linear_fit`].
+pub fn linear_needs(
+    grid: Grid,
+    directions: Directions,
+    settings: &LtgSettings,
+    shard: Shard,
+) -> Result<Needs, LtgError> {
+    let slices = settings.checked_slices(directions)?;
+    let count = slices.len();
+    let (bound, volume) =
+        (settings.memory_bytes, PartialVolume::empty(grid, directions, slices, settings.omega_step)?);
+    let (strips, bytes) = match settings.precision {
+        Precision::F64 => {
+            let strips = strips::<f64, 32>(grid, directions, count, bound)?;
+            let bytes = strips_bytes::<f64, 32>(grid, directions, count, &strips);
+            (strips, bytes)
+        }
+        Precision::F32 => {
+            let strips = strips::<f32, 64>(grid, directions, count, bound)?;
+            let bytes = strips_bytes::<f32, 64>(grid, directions, count, &strips);
+            (strips, bytes)
+        }
+    };
+    let targets = volume.all_targets(shard);
+    let cells = strips.iter().map(|strip| solved_cells(grid, strip, &targets).count() as u64).sum::<u64>();
+    Ok(Needs { sources: 8 * cells, bytes })
+}
+
+/// The cells whose responses a strip needs: the targets and their four neighbours.
+fn solved_cells<'a>(
+    grid: Grid,
+    strip: &Range<usize>,
+    targets: &'a [bool],
+) -> impl Iterator<Item = Cell> + 'a {
+    let columns = strip.start - 1..strip.end + 1;
+    let cells = (0..grid.height()).flat_map(move |y| columns.clone().map(move |x| Cell::new(x, y)));
+    let is_target = move |cell: Cell| targets[grid.index(cell)];
+    cells.filter(move |&cell| {
+        is_target(cell) || [0, 2, 4, 6].iter().any(|&k| grid.neighbour(cell, k).is_some_and(is_target))
+    })
+}
+
 /// Bytes of the responses of one cell.
 fn response_bytes<T>(grid: Grid) -> u128 {
     (64 * grid.cells() * size_of::<T>()) as u128
+}
+
+/// Bytes that a sweep needs beside its two rows of responses.
+fn fixed_bytes<T: Real, const N: usize>(grid: Grid, directions: Directions, slices: usize) -> u128 {
+    let cells = grid.cells() as u128;
+    let threads = rayon::current_num_threads() as u128;
+    let prepared = cells * (directions.count() as u128 * 8 + 168 + 160) + cells * slices as u128 * 24;
+    // Each thread solves N lanes and holds the responses that it reads off them.
+    prepared + Dissection::<T, N>::bytes_for(grid) + threads * 2 * Dissection::<T, N>::solution_bytes(grid)
+}
+
+/// Bytes of a sweep in these strips.
+fn strips_bytes<T: Real, const N: usize>(
+    grid: Grid,
+    directions: Directions,
+    slices: usize,
+    strips: &[Range<usize>],
+) -> u128 {
+    let columns = strips.iter().map(|strip| strip.len() + 2).max().unwrap_or(0);
+    fixed_bytes::<T, N>(grid, directions, slices) + 2 * columns as u128 * response_bytes::<T>(grid)
 }
 
 /// The strips of inner columns, so that two rows of responses fit beside everything else.
@@ -69,13 +134,7 @@ fn strips<T: Real, const N: usize>(
     if grid.width() < 3 || grid.height() < 3 {
         return Ok(Vec::new());
     }
-    let cells = grid.cells() as u128;
-    let threads = rayon::current_num_threads() as u128;
-    let prepared = cells * (directions.count() as u128 * 8 + 168 + 160) + cells * slices as u128 * 24;
-    // Each thread solves N lanes and holds the responses that it reads off them.
-    let fixed = prepared
-        + Dissection::<T, N>::bytes_for(grid)
-        + threads * 2 * Dissection::<T, N>::solution_bytes(grid);
+    let fixed = fixed_bytes::<T, N>(grid, directions, slices);
     let needed = |columns: usize| fixed + 2 * columns as u128 * response_bytes::<T>(grid);
     if needed(3) > u128::from(memory_bytes) {
         return Err(LtgError::Memory { needed: needed(3), bound: memory_bytes });

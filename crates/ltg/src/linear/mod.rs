@@ -14,6 +14,6 @@ mod random;
 mod sketch;
 
 pub use estimate::{Estimate, SketchShape, SketchSums};
-pub use exact::{check_linear_fit, linear_sweep_part};
+pub use exact::{check_linear_fit, linear_needs, linear_sweep_part};
 pub use limits::{FEWEST_SKETCHES, MOST_SKETCHES};
 pub use sketch::{SketchObserver, SketchSettings, SketchedGradient};

@@ -54,6 +54,23 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "tigereye-experiments",
         ],
     ),
+    (
+        "tigereye-python",
+        &[
+            "tigereye-core",
+            "tigereye-fields",
+            "tigereye-transport",
+            "tigereye-ltg",
+            "tigereye-lines",
+            "tigereye-scenes",
+            "tigereye-render",
+            "tigereye-io",
+            "tigereye-report",
+            "tigereye-input",
+            "tigereye-views",
+            "tigereye-experiments",
+        ],
+    ),
     ("xtask", &["tigereye-report"]),
     // What tests share: in no other row, because no crate may be built with it.
     ("tigereye-test-support", &["tigereye-core", "tigereye-fields"]),

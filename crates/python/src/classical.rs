@@ -26,6 +26,9 @@ use tigereye_views::{
     topology as topology_view,
 };
 
+/// Lines with their kind, for Python.
+type NamedLines<'py> = Vec<(Bound<'py, PyArray2<f64>>, &'static str)>;
+
 /// A picture and data, both as they are drawn or written.
 #[pyclass(frozen, name = "Drawing", module = "tigereye._native")]
 #[derive(Debug)]
@@ -66,7 +69,7 @@ impl Drawing {
     }
 
     /// Lines with their kind: points of shape (N, 2), column and row in cells; copies.
-    fn lines<'py>(&self, py: Python<'py>) -> PyResult<Vec<(Bound<'py, PyArray2<f64>>, &'static str)>> {
+    fn lines<'py>(&self, py: Python<'py>) -> PyResult<NamedLines<'py>> {
         let of = |(points, kind): &(Vec<Point>, &'static str)| {
             let flat: Vec<f64> = points.iter().flat_map(|p| p.to_array()).collect();
             Ok((flat.into_pyarray(py).reshape([points.len(), 2])?, *kind))

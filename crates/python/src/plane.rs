@@ -17,6 +17,9 @@ use tigereye_io::volume::{
 use tigereye_render::Style;
 use tigereye_views::Placement;
 
+/// Position of the lower left cell, directions right and up, spacing.
+type Placed = ([f64; 3], [f64; 3], [f64; 3], [f64; 2]);
+
 /// Tensors, and where they come from.
 #[pyclass(frozen, name = "Plane", module = "tigereye._native")]
 #[derive(Clone, Debug)]
@@ -102,7 +105,7 @@ impl TensorPlane {
 
     /// Position of the lower left cell, directions right and up, spacing; `None` where the field lies nowhere.
     #[getter]
-    fn geometry(&self) -> Option<([f64; 3], [f64; 3], [f64; 3], [f64; 2])> {
+    fn geometry(&self) -> Option<Placed> {
         let g = &self.plane.geometry;
         g.is_placed().then(|| (g.corner(), g.right(), g.up(), g.spacing()))
     }
@@ -151,11 +154,10 @@ pub(crate) fn read(py: Python<'_>, path: &str, options: BTreeMap<String, String>
 /// A field of an array of shape (H, W, 2, 2), row 0 on top; one copy. `geometry` is that of [`TensorPlane::geometry`].
 #[pyfunction]
 #[pyo3(signature = (array, name, geometry=None))]
-#[expect(clippy::type_complexity, reason = "as the getter has it")]
 pub(crate) fn of_array(
     array: PyReadonlyArray4<'_, f64>,
     name: &str,
-    geometry: Option<([f64; 3], [f64; 3], [f64; 3], [f64; 2])>,
+    geometry: Option<Placed>,
 ) -> PyResult<TensorPlane> {
     let &[height, width, 2, 2] = array.shape() else {
         return Err(PyValueError::new_err(format!("shape {:?}: expected (H, W, 2, 2)", array.shape())));

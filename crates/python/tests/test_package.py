@@ -1,9 +1,9 @@
 """The package beside the program, and beside the programs that its users have."""
 
 import inspect
-import json
 import multiprocessing
 import os
+import pathlib
 import re
 import signal
 import subprocess
@@ -60,23 +60,19 @@ def test_ltg_has_the_bits_of_the_program(tmp_path, scattering):
 
 @with_program
 def test_curves_and_samples_are_those_of_the_program(tmp_path):
+    pyvista = pytest.importorskip("pyvista")
     field = te.field("inverse", size=21)
     for name, extension in [("lines", "vtp"), ("topology", "vtp"), ("lic", "vti"), ("ftle", "vti"), ("glyphs", "vtp")]:
         ours, theirs = tmp_path / f"ours.{extension}", tmp_path / f"theirs.{extension}"
         getattr(te, name)(field).save(ours)
         program(name, "inverse:size=21", "-o", str(theirs))
         # Everything but the provenance, which names the call.
-        pattern = rb"<DataArray[^>]*Float(?:32|64).*?</DataArray>|_.*"
-        contents = [re.findall(pattern, path.read_bytes(), re.DOTALL) for path in (ours, theirs)]
-        assert contents[0], name
-        assert [c for c in contents[0] if b"command" not in c] == [c for c in contents[1] if b"command" not in c], name
-
-
-# Options of the command line that only files, terminals or pictures have a use for, or that are given otherwise.
-ELSEWHERE = {
-    "output", "json", "help", "style", "light", "lights", "towards", "estimate", "error", "seed", "preview", "view",
-    "checkpoint", "shard", "overlay", "array", "layer", "mean", "direction_length",
-}  # fmt: skip
+        read = [pyvista.read(path) for path in (ours, theirs)]
+        assert (read[0].points == read[1].points).all() and read[0].n_points > 0
+        for kind in ("point_data", "cell_data"):
+            one, other = (getattr(data, kind) for data in read)
+            assert set(one.keys()) == set(other.keys()), name
+            assert all(np.asarray(one[key]).tobytes() == np.asarray(other[key]).tobytes() for key in one.keys()), name
 
 
 @with_program
@@ -86,10 +82,12 @@ ELSEWHERE = {
 def test_options_have_the_names_and_defaults_of_the_command_line(name):
     text = program(name, "--help")
     found = {}
-    for block in re.split(r"\n(?=\s+(?:-\w, )?--[a-z])", text)[1:]:
-        option = re.match(r"\s+(?:-\w, )?--([a-z0-9-]+)", block).group(1).replace("-", "_")
+    starts = list(re.finditer(r"^ {2,6}(?:-\w, )?--([a-z0-9-]+)", text, re.MULTILINE))
+    for here, after in zip(starts, [*starts[1:], None]):
+        block = text[here.end() : after and after.start()]
         default = re.search(r"\[default:\s+(.*?)\]", block, re.DOTALL)
-        found[option] = default and default.group(1)
+        found[here.group(1).replace("-", "_")] = default and default.group(1)
+    assert len(found) > 5
     parameters = inspect.signature(getattr(te, name)).parameters
     ours = {key: p.default for key, p in parameters.items() if p.kind is p.KEYWORD_ONLY}
     for option, default in ours.items():
@@ -253,6 +251,18 @@ def test_too_little_memory_is_told():
 def test_files_that_are_not_there():
     with pytest.raises(OSError, match="nowhere.npy"):
         te.read("nowhere.npy")
+
+
+def test_the_lines_of_the_readme_and_of_the_guide_work(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    root = pathlib.Path(__file__).parents[3]
+    for page in (root / "README.md", root / "docs/guide/python.md"):
+        (lines,) = re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+        exec(compile(lines, str(page), "exec"), {})
+        for name in ("light.png", "gradient.png"):
+            picture = tmp_path / name
+            assert picture.read_bytes().startswith(b"\x89PNG")
+            picture.unlink()
 
 
 anything = st.none() | st.integers() | st.floats() | st.text(max_size=8) | st.booleans()

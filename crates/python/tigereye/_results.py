@@ -137,8 +137,8 @@ class _WithArray(Drawn):
             corner, right, up, _ = geometry
             x0 = float(np.dot(corner, right))
             y0 = float(np.dot(corner, up))
-        x = x0 + dx * np.arange(width)
-        y = y0 + dy * np.arange(height)[::-1]
+        x = x0 + dx * np.arange(width, dtype=np.float64)
+        y = y0 + dy * np.arange(height, dtype=np.float64)[::-1]
         return {"y": y, "x": x}
 
     def to_xarray(self) -> Any:
@@ -204,7 +204,8 @@ class Light(_WithArray):
     @property
     def directions_deg(self) -> NDArray[np.float64]:
         """Directions of the last axis, degrees."""
-        return np.arange(self.shape[2]) * (360.0 / self.shape[2])
+        degrees: NDArray[np.float64] = np.arange(self.shape[2], dtype=np.float64) * (360.0 / self.shape[2])
+        return degrees
 
     def coords(self) -> dict[str, NDArray[np.float64]]:
         return {**super().coords(), "theta": self.directions_deg}

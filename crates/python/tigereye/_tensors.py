@@ -175,10 +175,11 @@ def _hidden(given: NDArray[Any], mask: ArrayLike | None) -> NDArray[np.bool_] | 
     """Cells without a tensor, as the array counts rows."""
     hidden: NDArray[np.bool_] | None = None
     if isinstance(given, np.ma.MaskedArray) and given.mask is not np.ma.nomask:
-        hidden = np.ma.getmaskarray(given).any(axis=tuple(range(2, given.ndim)))
+        flat: NDArray[np.bool_] = np.ma.getmaskarray(given).reshape(*given.shape[:2], -1)
+        hidden = np.logical_or.reduce(flat, axis=2)
     if mask is not None:
-        more = np.asarray(mask, dtype=bool)
+        more: NDArray[np.bool_] = np.asarray(mask, dtype=bool)
         if more.shape != given.shape[:2]:
             raise ValueError(f"mask: shape {more.shape}: expected {given.shape[:2]}")
-        hidden = more if hidden is None else hidden | more
+        hidden = more if hidden is None else np.logical_or(hidden, more)
     return hidden

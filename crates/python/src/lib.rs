@@ -1,8 +1,8 @@
-//! tigereye as a Python module: options and arrays in, results out. The package around it, `crates/python/tigereye`, has the
-//! functions that people call, with their names, defaults and documentation.
+//! tigereye as a Python module: options and arrays in, results out. The package around it, `crates/python/tigereye`,
+//! has the functions that people call, with their names, defaults and documentation.
 //!
-//! Like the program, this is an edge: it computes nothing itself. Unlike the program it writes no files; it returns their
-//! bytes, which the package writes.
+//! Like the program, this is an edge: it computes nothing itself. Unlike the program it writes no files; it returns
+//! their bytes, which the package writes.
 
 mod classical;
 mod error;

@@ -6,7 +6,7 @@ use super::wanted::{Association, NAMED_MASK, Wanted};
 use crate::image::ActiveArrays;
 use crate::volume::{
     ComponentArrays, Group, Naming, VECTOR_AXES, VolumeError, groups, joined, joined_rows,
-    names_principal_values, naming, row_groups,
+    names_principal_values, naming, outside_tensors, row_groups,
 };
 use crate::{DataArray, ImageData, IoError};
 use std::borrow::Cow;
@@ -201,7 +201,12 @@ fn separate(arrays: &[DataArray], wanted: Wanted) -> Vec<DataArray> {
         Wanted::Tensors => {
             [entries(&with(1)), rows(&with(3), VECTOR_AXES[0]), rows(&with(2), VECTOR_AXES[1])].concat()
         }
-        Wanted::Vectors => VECTOR_AXES.iter().flat_map(|axes| rows(&with(1), axes)).collect(),
+        Wanted::Vectors => {
+            let numbers = with(1);
+            let names: Vec<&str> = numbers.iter().map(|a| a.name.as_str()).collect();
+            let others: Vec<&DataArray> = outside_tensors(&names).into_iter().map(|i| numbers[i]).collect();
+            VECTOR_AXES.iter().flat_map(|axes| rows(&others, axes)).collect()
+        }
         Wanted::Scalars | Wanted::Mask => Vec::new(),
     }
 }

@@ -4,7 +4,7 @@ use super::error::NpyError;
 use super::positions::{self, AXES_OF_VOLUMES, Positions};
 use super::{NpyArray, read_array};
 use crate::convert::ChoiceError;
-use crate::volume::{Content, Lattice, VECTOR_AXES, World, groups, row_groups};
+use crate::volume::{Content, Lattice, VECTOR_AXES, World, groups, outside_tensors, row_groups};
 use crate::{ArrayChoice, DataArray, ImageData, IoError, Wanted, choose_array};
 
 /// How the axes of an array lie: rows and columns of a picture, or three axes of a volume; and the numbers of a tuple.
@@ -288,7 +288,12 @@ fn components_among(members: &[(String, Vec<u8>)], choice: ArrayChoice, wanted: 
     let names: Vec<&str> = members.iter().map(|(name, _)| name.as_str()).collect();
     let found = match wanted {
         Wanted::Tensors => groups(&names).into_iter().map(|group| group.members).collect(),
-        Wanted::Vectors => VECTOR_AXES.iter().flat_map(|axes| row_groups(&names, axes)).collect(),
+        Wanted::Vectors => {
+            let others = outside_tensors(&names);
+            let of: Vec<&str> = others.iter().map(|&i| names[i]).collect();
+            let found = VECTOR_AXES.iter().flat_map(|axes| row_groups(&of, axes));
+            found.map(|group| group.into_iter().map(|i| others[i]).collect()).collect()
+        }
         Wanted::Scalars | Wanted::Mask => Vec::new(),
     };
     let all = found.into_iter().filter(|group| alike(group)).flatten();

@@ -15,6 +15,19 @@ pub enum TableError {
         /// What stands there.
         found: String,
     },
+    /// Fewer names than columns: nobody knows which column has none.
+    #[error(
+        "line {line} names {names} columns, but the rows below have {columns}: expected a name for every column, also for row \
+         numbers"
+    )]
+    Names {
+        /// The line that names them.
+        line: usize,
+        /// Names.
+        names: usize,
+        /// Numbers in a row.
+        columns: usize,
+    },
     /// A row of a table with other columns than the first, or too few.
     #[error(
         "line {line}, column {column}: found {found} numbers, expected {expected}: x, y, u, v and as many as in the first row"

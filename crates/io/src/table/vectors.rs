@@ -24,25 +24,46 @@ enum Role {
 impl Role {
     const NEEDED: [Self; 4] = [Self::X, Self::Y, Self::U, Self::V];
 
+    /// The word of a name that says what its column is: in small letters, without units and marks.
+    fn word(name: &str) -> Option<String> {
+        let name = name.to_ascii_lowercase();
+        let mut words = name.split([' ', '[', '(', '"']).filter(|w| !w.is_empty());
+        let first = words.next()?;
+        let word = if ["velocity", "displacement"].contains(&first) { words.next()? } else { first };
+        Some(word.replace(['_', ':', '-', '.'], ""))
+    }
+
     /// The role of a name such as `x`, `x [px]`, `"U m/s"` or `Velocity u [m/s]`.
     fn of(name: &str) -> Option<Self> {
         if let Some(validity) = Validity::of(name) {
             return Some(Self::Validity(validity));
         }
-        let name = name.to_ascii_lowercase();
-        let mut words = name.split([' ', '[', '(', '"']).filter(|w| !w.is_empty());
-        let first = words.next()?;
-        let word = if ["velocity", "displacement"].contains(&first) { words.next()? } else { first };
-        let word = word.replace(['_', ':', '-', '.'], "");
+        let word = Self::word(name)?;
+        if let Some(role) = PAIRS
+            .iter()
+            .find_map(|[u, v]| if word == *u { Some(Self::U) } else { (word == *v).then_some(Self::V) })
+        {
+            return Some(role);
+        }
         match word.as_str() {
             "x" | "xpos" | "points0" => Some(Self::X),
             "y" | "ypos" | "points1" => Some(Self::Y),
-            "u" | "vx" | "ux" | "u0" | "velx" | "velocityx" | "velocity0" | "uvel" => Some(Self::U),
-            "v" | "vy" | "uy" | "u1" | "vely" | "velocityy" | "velocity1" | "vvel" => Some(Self::V),
             _ => None,
         }
     }
 }
+
+/// What both components of a vector are called.
+const PAIRS: [[&str; 2]; 8] = [
+    ["u", "v"],
+    ["vx", "vy"],
+    ["ux", "uy"],
+    ["u0", "u1"],
+    ["velx", "vely"],
+    ["velocityx", "velocityy"],
+    ["velocity0", "velocity1"],
+    ["uvel", "vvel"],
+];
 
 /// Which column holds what.
 struct Columns {
@@ -85,7 +106,11 @@ impl Columns {
             let once = |role: &Role| roles.iter().filter(|r| **r == Some(*role)).count() == 1;
             let is_unread = |(name, role): (&String, &Option<Role>)| role.is_none().then(|| name.clone());
             let unread = names.iter().zip(&roles).filter_map(is_unread).collect();
-            let is_complete = Role::NEEDED.iter().all(once);
+            let words: Vec<String> = names.iter().filter_map(|name| Role::word(name)).collect();
+            let has = |word: &str| words.iter().any(|w| w == word);
+            // `u_x` and `v_y` are derivatives; `u0`, `v0`, `u1`, `v1` the vectors of two frames.
+            let is_pair = PAIRS.iter().any(|[u, v]| has(u) && has(v)) && !(has("u0") && has("v0"));
+            let is_complete = Role::NEEDED.iter().all(once) && is_pair;
             is_complete.then_some(Self { names, roles, units, named: Some(line), unread })
         };
         text.headers().into_iter().find_map(named)
@@ -146,6 +171,10 @@ pub fn read(bytes: &[u8]) -> Result<Lattice, IoError> {
         }
         (None, None) => Columns::by_place(text.columns()),
     };
+    if let Some(line) = columns.named.filter(|_| columns.names.len() < text.columns()) {
+        let (names, columns) = (columns.names.len(), text.columns());
+        return Err(TableError::Names { line, names, columns }.into());
+    }
     let read = text.lines.iter().map(|&(number, line)| numbers(&text, &columns, line, number));
     let read = read.collect::<Result<Vec<Vec<f64>>, IoError>>()?;
     let values = |at: usize| read.iter().map(|row| row[at]).collect::<Vec<f64>>();
@@ -458,6 +487,20 @@ mod tests {
         }
         refused("", "line 1: expected rows of numbers, found none (an empty file, or words alone)");
         refused("x y u v\n", "line 1: expected rows of numbers, found none (an empty file, or words alone)");
+        // Row numbers without a name, more numbers than names, derivatives, two frames.
+        refused(
+            "x\ty\tu\tv\n0\t1\t2\t3\t4\n",
+            "line 1 names 4 columns, but the rows below have 5: expected a name for every column, also for row numbers",
+        );
+        refused(
+            "# x y u v\n1 2 3 4 5 6\n",
+            "line 1 names 4 columns, but the rows below have 6: expected a name for every column, also for row numbers",
+        );
+        for names in ["x,y,u_x,v_y", "x,y,u0,v0,u1,v1", "x,y,u_0,v_0,u_1,v_1"] {
+            let row = vec!["1"; names.split(',').count()].join(",");
+            let found = read(format!("{names}\n{row}\n").as_bytes());
+            assert!(found.is_err(), "{names}");
+        }
         refused("x,y,u,v\n1,2,3,4\n1, a,3,4\n", "line 3, column 4: expected a number, found `a`");
         refused("1 2 3 4\nnan 2 3 4\n", "line 2, column 1: expected a finite number, found `nan`");
         // Blank lines separate blocks of rows, as gnuplot has them.

@@ -40,7 +40,7 @@ pub(crate) use matrix3::IDENTITY;
 pub use meaning::{Frame, Known, Shear, World};
 pub(crate) use names::{
     Group, Naming, VECTOR_AXES, groups, names_eigenvectors, names_principal_values, naming, order_of,
-    row_groups,
+    outside_tensors, row_groups,
 };
 pub use order::TensorOrder;
 pub(crate) use output::{symmetric, written_scalar};

@@ -316,6 +316,12 @@ pub(crate) fn axes_of_vectors(names: &[String]) -> Option<Vec<usize>> {
     axes.filter(|axes| (0..axes.len()).all(|i| !axes[..i].contains(&axes[i])))
 }
 
+/// The arrays of numbers that are no components of a tensor: `exx` and `exy` beside `eyy` are not those of a vector.
+pub(crate) fn outside_tensors(names: &[&str]) -> Vec<usize> {
+    let of_tensors: Vec<usize> = groups(names).into_iter().flat_map(|group| group.members).collect();
+    (0..names.len()).filter(|i| !of_tensors.contains(i)).collect()
+}
+
 /// Arrays of vectors called `T_x`, `T_y`, `T_z` are the rows of one tensor, arrays of numbers called so the components
 /// of one vector: the indices of the arrays of every group of exactly these axes, in the order of the axes.
 pub(crate) fn row_groups(names: &[&str], axes: &[&str]) -> Vec<Vec<usize>> {
@@ -464,6 +470,24 @@ mod tests {
         assert_eq!(row_groups(&["x", "y", "u", "v"], VECTOR_AXES[1]), [[2, 3]]);
         assert_eq!(row_groups(&["w", "p", "u"], VECTOR_AXES[2]), [[2, 0]]);
         assert!(row_groups(&["u", "v", "w"], VECTOR_AXES[2]).is_empty());
+    }
+
+    /// Components of tensors are no vectors, even if two of them end in x and y; vectors beside them are.
+    #[test]
+    fn components_of_tensors_are_no_vectors() {
+        for tensor in [
+            ["exx", "eyy", "exy"],
+            ["SX", "SY", "SXY"],
+            ["sigma_x", "sigma_y", "tau_xy"],
+            ["ex", "ey", "exy"],
+            ["Sxx", "Syy", "Sxy"],
+        ] {
+            let names = ["U", tensor[0], tensor[1], "V", tensor[2]];
+            assert_eq!(outside_tensors(&names), [0, 3], "{tensor:?}");
+        }
+        for vector in [["velocity_x", "velocity_y", "velocity_z"], ["u", "v", "w"], ["Ux", "Uy", "Uz"]] {
+            assert_eq!(outside_tensors(&vector), [0, 1, 2], "{vector:?}");
+        }
     }
 
     #[test]

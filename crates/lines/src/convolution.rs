@@ -199,8 +199,8 @@ mod tests {
         [ab / (aa * bb).sqrt(), (aa / bb).sqrt()]
     }
 
-    /// Interpolated lines give the texture of lines of one's own: the same samples and holes, nearly the same values; on
-    /// fields with degenerate points, with holes, with zero tensors, and on oblong cells.
+    /// Interpolated lines give the texture of lines of one's own: the same samples and holes, nearly the same values;
+    /// on fields with degenerate points, with holes, with zero tensors, and on oblong cells.
     #[test]
     fn textures_equal_those_of_a_line_for_every_sample() {
         use tigereye_test_support::field as generated;

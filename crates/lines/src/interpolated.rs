@@ -97,8 +97,8 @@ impl Within {
     }
 }
 
-/// The bilinear polynomial with given values at the corners of a square: 1, u, v and u v, where u and v are the parts of
-/// the way to the next column and row.
+/// The bilinear polynomial with given values at the corners of a square: 1, u, v and u v, where u and v are the parts
+/// of the way to the next column and row.
 #[inline(always)]
 pub(crate) fn polynomial([a, b, c, d]: [f64; 4]) -> [f64; 4] {
     [a, b - a, c - a, (d - c) - (b - a)]
@@ -186,8 +186,8 @@ impl<'a> Interpolated<'a> {
         t.is_finite().then_some(t)
     }
 
-    /// The numbers `E` and `F` at a point, as [`Self::at`] has the tensor; `None` outside the field. They are not finite
-    /// where one of the four cells is not.
+    /// The numbers `E` and `F` at a point, as [`Self::at`] has the tensor; `None` outside the field. They are not
+    /// finite where one of the four cells is not.
     #[inline(always)]
     pub(crate) fn numbers(&self, p: Point) -> Option<Numbers> {
         let within = Within::new(self.field.grid());

@@ -25,8 +25,8 @@ pub(crate) trait Directions: Sync {
     fn field(&self) -> &Interpolated<'_>;
     /// 1 for the major axes, -1 for the minor ones.
     fn sign(&self) -> f64;
-    /// The least contrast as a fraction of the longer semi-axis, and the square of the least cosine of a bend, for which
-    /// no question remains.
+    /// The least contrast as a fraction of the longer semi-axis, and the square of the least cosine of a bend, for
+    /// which no question remains.
     fn limits(&self) -> [f64; 2];
     /// The direction of a single line, which decides every question.
     fn single(&self, at: Point, towards: Vector) -> Result<(Vector, f64), LineEnd>;
@@ -351,8 +351,8 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Takes the steps that can be accepted and chooses the lengths of the next trials, as [`Walk::advance`] does. Whether
-    /// a line may have ended.
+    /// Takes the steps that can be accepted and chooses the lengths of the next trials, as [`Walk::advance`] does.
+    /// Whether a line may have ended.
     #[inline(always)]
     fn advance(&mut self, step: &Steps, has_direction: &[u64; LANES]) -> bool {
         let options = self.walk.options;

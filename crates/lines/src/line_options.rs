@@ -5,8 +5,8 @@
 pub enum Method {
     /// The classical Runge-Kutta method of fourth order, every step of the same length.
     RungeKutta4,
-    /// The same with steps as long as the error allows, halved and doubled. Its estimate is the difference to a result of
-    /// third order that needs no further slope, because the last one of a step is the first of the next.
+    /// The same with steps as long as the error allows, halved and doubled. Its estimate is the difference to a result
+    /// of third order that needs no further slope, because the last one of a step is the first of the next.
     RungeKutta43 {
         /// Largest estimate within a step, in units of the smaller side of a cell.
         tolerance: f64,

@@ -3,8 +3,8 @@
 //!
 //! An axis at the angle `a` has no sign, but the number `G` at the angle `2 a` is unique (the doubled angle of line
 //! fields). With it, the reflection `R v = G conj(v) / |G|` leaves the axis as it is, so that `v + R v` is twice the
-//! part of `v` along the axis: the direction of a line that arrives along `v` follows from `G` and `v` without an angle,
-//! and with the sign of `v`.
+//! part of `v` along the axis: the direction of a line that arrives along `v` follows from `G` and `v` without an
+//! angle, and with the sign of `v`.
 
 use crate::{Axes, Family, Major, OrderedAxes};
 use tigereye_core::Tensor2;

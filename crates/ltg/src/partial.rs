@@ -191,7 +191,8 @@ impl PartialVolume {
         Ok(LtgOutcome { volume, work, limited })
     }
 
-    /// The gradient as far as it is finished: NaN where a difference is missing, 0 on the border as in the finished one.
+    /// The gradient as far as it is finished: NaN where a difference is missing, 0 on the border as in the finished
+    /// one.
     #[must_use]
     pub fn into_partial_volume(self) -> LtgVolume {
         let grid = self.grid;

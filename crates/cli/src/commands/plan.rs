@@ -171,6 +171,9 @@ pub(super) enum Method<'a> {
     Sketched(&'a SketchedGradient<'a>),
 }
 
+/// What a shard needs, by the method of the sweep.
+type NeedsOf<'a> = Box<dyn Fn(Shard) -> Result<Needs, LtgError> + 'a>;
+
 pub(super) fn plan(
     args: &LtgArgs,
     settings: &LtgSettings,
@@ -184,7 +187,7 @@ pub(super) fn plan(
     let values = (grid.cells() * slices.len()) as u64;
     let hours = args.hours.unwrap_or(HOURS);
     let linear = LinearScattering::new(scattering);
-    let (needs, unit): (Box<dyn Fn(Shard) -> Result<Needs, LtgError>>, &str) = match method {
+    let (needs, unit): (NeedsOf<'_>, &str) = match method {
         Method::Joint => (Box::new(|shard| needs(scattering, settings, shard)), "sources"),
         Method::Linear => (Box::new(|shard| linear_needs(grid, directions, settings, shard)), "solutions"),
         Method::Sketched(gradient) => {

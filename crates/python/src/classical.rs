@@ -164,12 +164,17 @@ impl LineArguments {
         let method = match (self.method.as_str(), self.tolerance) {
             ("rk4", None) => Method::RungeKutta4,
             ("rk4", Some(_)) => {
-                return Err(Fault::option("tolerance", "is that of adaptive steps: expected rk45"));
+                return Err(Fault::option("tolerance", "is that of adaptive steps: expected rk43 or rk45"));
             }
+            ("rk43", tolerance) => Method::RungeKutta43 {
+                tolerance: within("tolerance", tolerance.unwrap_or(1e-6), 1e-14, 1.0)?,
+            },
             ("rk45", tolerance) => Method::DormandPrince {
                 tolerance: within("tolerance", tolerance.unwrap_or(1e-6), 1e-14, 1.0)?,
             },
-            (other, _) => return Err(Fault::option("method", format!("`{other}`: expected rk4 or rk45"))),
+            (other, _) => {
+                return Err(Fault::option("method", format!("`{other}`: expected rk4, rk43 or rk45")));
+            }
         };
         let step = within("step", self.step, 1e-3, 1e3)?;
         let length = within("length", self.length.unwrap_or(4.0 * side), 0.01, 1e4)?;
@@ -292,6 +297,7 @@ pub(crate) fn ftle(
     length: f64,
     samples: usize,
     step: f64,
+    tolerance: f64,
     axes: Option<&str>,
     major: Option<&str>,
     threads: Option<usize>,
@@ -300,6 +306,7 @@ pub(crate) fn ftle(
         let options = FtleOptions {
             length: within("length", length, 0.1, 1000.0)?,
             step: within("step", step, 0.01, 10.0)?,
+            tolerance: within("tolerance", tolerance, 1e-14, 1.0)?,
             samples: count_within("samples", samples, 1, 64)?,
             ..FtleOptions::default()
         };
@@ -308,7 +315,8 @@ pub(crate) fn ftle(
         let found = ftle_view::exponents(plane.field(), following, family, &options)
             .map_err(|e| Fault::Value(format!("{}: {e}", plane.name)))?;
         let parameters = json!({ "axes": following.axes.axes().name(), "major": following.axes.major().name(),
-            "family": family.name(), "length": length, "step": step, "samples": samples });
+            "family": family.name(), "length": length, "step": step,
+            "tolerance": tolerance, "samples": samples });
         let story = plane.story("ftle", parameters, true);
         let (title, style) = (plane.name.clone(), plane.style());
         let look = HeatOptions { title, style, ..HeatOptions::default() };

@@ -232,14 +232,15 @@ def ftle(
     family: str = "major",
     length: float = 10.0,
     samples: int = 2,
-    step: float = 0.25,
+    step: float = 1.0,
+    tolerance: float = 1e-5,
     axes: str | None = None,
     major: str | None = None,
     threads: int | None = None,
 ) -> Sampled:
     """Finite-time Lyapunov exponent of the tensor lines, row 0 on top, per cell; NaN where lines are too short."""
     tensors = as_tensors(input)
-    native = _native.ftle(tensors._plane, family, length, samples, step, axes, major, threads)
+    native = _native.ftle(tensors._plane, family, length, samples, step, tolerance, axes, major, threads)
     return Sampled(tensors, native, "1/cell")
 
 

@@ -87,6 +87,7 @@ def ftle(
     length: float,
     samples: int,
     step: float,
+    tolerance: float,
     axes: str | None,
     major: str | None,
     threads: int | None,

@@ -7,7 +7,7 @@
 //! The project's only `unsafe` is here and in `x86`. Its invariants:
 //! - [`Level`]'s field cannot be set from outside, and [`Level::available`] lists a level only where the processor has
 //!   its instructions. So a function compiled for a level may be called once a `Level` says so.
-//! - A vector of a level is only made from that level's proof ([`HasAvx2`], [`HasAvx512`]), and a proof is only made
+//! - A vector of a level is only made from that level's proof (`HasAvx2`, `HasAvx512`), and a proof is only made
 //!   where a `Level` says so. So whoever holds a vector may use its instructions.
 //! - Loads and stores take references to whole arrays, check that the part they want lies inside, and ask for no
 //!   alignment. So they never leave them.
